@@ -1,0 +1,24 @@
+#pragma once
+/// The one exception for input that a user can correct.
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace stylobate {
+
+/// Bad input: the message says where (file and line, if there is one), what, the allowed range and what to do.
+/// The command line prints it as it is and exits with status 2.
+class InputError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+
+    /// "file:line: text"; without the line where `line` is 0.
+    InputError(std::string_view file, long line, std::string_view text)
+        : std::runtime_error(std::string(file) + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " +
+                             std::string(text))
+    {
+    }
+};
+
+} // namespace stylobate

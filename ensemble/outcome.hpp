@@ -1,0 +1,37 @@
+#pragma once
+/// How a realization ended. Plain data, SI units.
+
+#include <cstdint>
+
+namespace stylobate {
+
+enum class State : std::uint8_t { stood = 0, rocked = 1, slid = 2, collapsed = 3, invalid = 4 };
+enum class InvalidReason : std::uint8_t { none = 0, not_finite = 1, energy = 2 };
+
+const char* to_string(State state);
+const char* to_string(InvalidReason reason);
+
+struct Outcome {
+    State state = State::stood;
+    InvalidReason invalid_reason = InvalidReason::none;
+    double collapse_time_s = -1;            ///< first time of the collapse; -1 = none
+    std::int32_t first_collapse_block = -1; ///< block that met the collapse criterion first; -1 = none
+    double peak_top_displacement_m = 0;     ///< largest |x| of the top block's centre against the base
+    double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, against its start
+    double total_sliding_m = 0;             ///< sum over the joints of the slip while slipping
+    double total_rocking_rad = 0;           ///< sum over the joints of the largest relative rotation
+    double sliding_path_m = 0;              ///< sum over the joints of the relative path of the faces in contact
+    double max_relative_rotation_rad = 0;   ///< of the joint that rotated most
+    double energy_kinetic_j = 0;            ///< at the end
+    double energy_potential_j = 0;          ///< gravity, against the start
+    double energy_spring_j = 0;             ///< normal and tangential, against the start
+    double energy_friction_j = 0;           ///< dissipated by friction
+    double energy_damping_j = 0;            ///< dissipated by the dashpots
+    double energy_base_work_j = 0;          ///< done by the base
+    double energy_residual = 0;             ///< what the balance lacks, over the energy scale of the run
+    double end_time_s = 0;                  ///< simulated time
+    double step_s = 0;                      ///< time step
+    std::uint64_t steps = 0;
+};
+
+} // namespace stylobate

@@ -1,0 +1,47 @@
+#pragma once
+/// One perturbed structure and its base motion: a pure function of (study, seed, index). Plain data, SI units.
+
+#include <cstdint>
+#include <vector>
+
+namespace stylobate {
+
+/// A rigid rectangle in its place in the reference stack (faces just touching, before the static overlaps).
+struct Block {
+    double half_width_m = 0;
+    double half_height_m = 0;
+    double mass_kg = 0;
+    double inertia_kg_m2 = 0; ///< about the centre, m (B2 + H2) / 12
+    double x_m = 0;           ///< centre, against the axis of the structure
+    double y_m = 0;           ///< centre, above the base
+    bool fixed = false;       ///< moves with the base
+};
+
+/// The bed between two blocks.
+struct Joint {
+    int lower = 0; ///< index of the lower block
+    int upper = 0; ///< index of the upper block
+    double normal_stiffness_n_m2 = 0;
+    double tangential_stiffness_n_m = 0;
+    double normal_damping_n_s_m = 0;
+    double tangential_damping_n_s_m = 0;
+    double damping_chord_m = 0; ///< contact length at which the dashpots have these coefficients; 0: at any length
+    double friction = 0;
+};
+
+struct Realization {
+    std::uint64_t index = 0;
+    std::vector<Block> blocks; ///< the structure's drums from the bottom, then the ground where one is needed
+    std::vector<Joint> joints; ///< those with at least one free block
+    int drums = 0;             ///< blocks without the ground
+    double gravity_m_s2 = 9.81;
+    double base_tilt_rad = 0;    ///< base out of level
+    double initial_tilt_rad = 0; ///< leaned about the base corner
+    double frequency_hz = 0;     ///< of the harmonic or pulse; of a record the predominant one
+    double pga_m_s2 = 0;
+    double phase_rad = 0;
+    double step_s = 0;
+    std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`
+};
+
+} // namespace stylobate

@@ -1,0 +1,175 @@
+#pragma once
+/// A study as plain data: what a study file says, with every default filled in. SI units throughout.
+///
+/// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+enum class StudyKind { single, surface };
+
+/// A column of equal drums. Drums are counted from the bottom, the fixed ones first.
+/// With `fixed_blocks == 0` the lowest drum stands on a wide flat ground.
+struct StructureSpec {
+    int blocks = 0;             ///< drums, fixed ones included
+    int fixed_blocks = 0;       ///< drums that are fixed to the shaking table
+    double drum_width_m = 0;    ///< full width B
+    double drum_height_m = 0;   ///< full height H
+    double depth_m = 0;         ///< depth D, out of the plane
+    double drum_mass_kg = 0;    ///< from `drum_mass_kg` or from `density_kg_m3` x B x H x D
+    double gravity_m_s2 = 9.81; ///< the acceleration of gravity
+};
+
+/// How the dashpot coefficients C_N and C_T of Eqs. 1 and 2 depend on the contact.
+enum class DampingPer {
+    contact, ///< a constant for each pressed contact: Eq. 1 as it stands
+    chord    ///< in proportion to the length of the contact: no jump when a sliver of contact appears
+};
+
+struct ContactSpec {
+    double normal_stiffness_n_m2 = 0;    ///< K_N, force per overlap area, for the whole depth
+    double tangential_stiffness_n_m = 0; ///< K_T
+    double normal_damping_ratio = 0.1;
+    double tangential_damping_ratio = 0.1;
+    std::optional<double> normal_damping_n_s_m;     ///< C_N itself, instead of the ratio
+    std::optional<double> tangential_damping_n_s_m; ///< C_T itself, instead of the ratio
+    DampingPer damping_per = DampingPer::contact;
+    double friction = 0; ///< mu
+};
+
+enum class ExcitationKind { none, harmonic, half_sine, full_sine, record };
+enum class HarmonicEdge { smooth, abrupt };
+
+struct ExcitationSpec {
+    ExcitationKind kind = ExcitationKind::none;
+    double duration_s = 0; ///< `none` only: the simulated time
+
+    // harmonic, half_sine, full_sine; for a surface these two come from the cell
+    double frequency_hz = 0; ///< of the sine; for a pulse, 1 / the full sine's period
+    double pga_m_s2 = 0;     ///< amplitude of the acceleration; for a record, the scaled PGA (0: as recorded)
+
+    // harmonic
+    HarmonicEdge start = HarmonicEdge::smooth;
+    HarmonicEdge end = HarmonicEdge::smooth;
+    double ramp_cycles = 2; ///< length of a smooth start, and of a smooth end
+    double cycles = 10;     ///< in all, ramps included
+    double phase_rad = 0;
+
+    // record
+    std::string file;      ///< as given in the study; relative to the study file's folder, else to the working folder
+    std::string component; ///< which one, where a file has several: its name or its column (counted from 1)
+    std::string unit;      ///< "m/s2", "cm/s2", "mm/s2", "g" or empty (the file says it)
+    double time_scale = 1; ///< stretches the record's time; in a surface the frequency axis does this
+    bool baseline = true;  ///< correct the record's baseline
+
+    std::optional<double> tail_s; ///< simulated at most after the shaking; default: see `tail_after_shaking()`
+};
+
+enum class Spacing { linear, log };
+
+struct Axis {
+    double from = 0;
+    double to = 0;
+    int count = 0;
+    Spacing spacing = Spacing::linear;
+
+    /// The i-th of `count` values; the first and last are exactly `from` and `to`.
+    double value(int i) const;
+};
+
+struct SurfaceSpec {
+    Axis frequency_hz; ///< nf rows
+    Axis pga_m_s2;     ///< np columns
+    int cells() const { return frequency_hz.count * pga_m_s2.count; }
+};
+
+/// What can be perturbed. The names in study files are the enumerators' names.
+enum class Quantity {
+    friction,           ///< mu; per joint or structure
+    normal_stiffness,   ///< K_N; per joint or structure
+    tangential_stiffness, ///< K_T; per joint or structure
+    damping_ratio,      ///< both damping ratios at once; per structure
+    drum_width,         ///< B; per block or structure
+    drum_height,        ///< H; per block or structure
+    drum_offset,        ///< horizontal offset of a drum from the axis; per block
+    density,            ///< mass at given sizes; per block or structure
+    tilt,               ///< of the base, out of level; per structure [rad]
+    phase               ///< of the harmonic; per structure [rad]
+};
+inline constexpr int quantity_count = 10;
+const char* to_string(Quantity quantity);
+
+enum class DistributionKind { normal, lognormal, uniform, log_uniform };
+enum class Per { joint, block, structure };
+
+/// One perturbed quantity. Three ways of reading the drawn number z, by `relative` and the distribution:
+///   normal      value = nominal + N(0, sd), or nominal * (1 + N(0, cov)) where cov is given
+///   lognormal   value = nominal * exp(N(0, sigma_ln))
+///   uniform     value ~ U(from, to): replaces the nominal value
+///   log_uniform ln value ~ U(ln from, ln to): replaces the nominal value
+/// `min` and `max` truncate the distribution of the value itself (not clip: no mass at the ends).
+struct Perturbation {
+    Quantity quantity = Quantity::friction;
+    DistributionKind distribution = DistributionKind::normal;
+    Per per = Per::structure;
+    double sd = 0;       ///< normal, in the quantity's unit
+    double cov = 0;      ///< normal, relative to the nominal value
+    double sigma_ln = 0; ///< lognormal
+    double from = 0;     ///< uniform, log_uniform
+    double to = 0;       ///< uniform, log_uniform
+    std::optional<double> min;
+    std::optional<double> max;
+};
+
+struct InitialSpec {
+    double tilt_rad = 0; ///< the structure leaned as one rigid body about its base corner; > 0 counter-clockwise
+};
+
+struct OutputSpec {
+    double trajectory_rate_hz = 1000;
+};
+
+struct OutcomeSpec {
+    double collapse_height_fraction = 0.6; ///< a drum's centre below this part of its rest height: collapse
+    double rocking_threshold_rad = 0.01;   ///< largest relative rotation below which a column has not rocked
+    double sliding_threshold = 0.005;      ///< total sliding over drum width below which a column has not slid
+};
+
+struct RunSpec {
+    double step_fraction = 0.8;          ///< of the safe bound of each realization
+    std::optional<double> step_s;        ///< a fixed step instead
+    bool allow_step_above_bound = false; ///< run such a step all the same
+    double max_invalid_fraction = 0.001; ///< more invalid realizations than this: exit status 3
+};
+
+struct Study {
+    StudyKind kind = StudyKind::single;
+    std::uint64_t seed = 1;
+    std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all
+
+    StructureSpec structure;
+    ContactSpec contact;
+    ExcitationSpec excitation;
+    std::optional<SurfaceSpec> surface;
+    std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
+    InitialSpec initial;
+    OutputSpec output;
+    OutcomeSpec outcome;
+    RunSpec run;
+
+    std::string text; ///< canonical TOML of all the above: two studies are the same if this is
+
+    /// Realizations of the whole study.
+    std::uint64_t total() const
+    {
+        return surface ? realizations * static_cast<std::uint64_t>(surface->cells()) : realizations;
+    }
+    /// The cell of a realization: frequency row x number of PGAs + PGA column.
+    std::uint64_t cell(std::uint64_t index) const { return surface ? index / realizations : 0; }
+};
+
+} // namespace stylobate

@@ -1,0 +1,33 @@
+#pragma once
+/// Ground-motion records: files of any known format in, acceleration in m/s2 out.
+
+#include "ensemble/motion.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// One component as it stands in the file, converted to m/s2, nothing corrected.
+struct Record {
+    std::string file;
+    std::string format;    ///< "peer-at2" or "columns"
+    std::string component; ///< its name in the file, or "column 2"
+    std::string title;     ///< event and station, as the file says
+    std::string unit;      ///< the file's unit: "g", "m/s2", "cm/s2", "mm/s2"
+    double dt_s = 0;
+    std::vector<double> acceleration_m_s2;
+};
+
+/// Reads every component of a file; the format is recognised from its content.
+/// @param unit of the acceleration: "g", "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file must say it
+/// @throws InputError if it cannot be read, is truncated, contradicts its own header, is of no known format,
+///         says no unit and none is given, or says another unit than the one given
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit);
+
+/// The one component that is asked for: by name or by column number ("2"); empty = the only one there is.
+/// @throws InputError as above, and if there is no such component or none was named among several
+Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit);
+
+} // namespace stylobate

@@ -1,0 +1,128 @@
+#pragma once
+/// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
+
+#include "ensemble/outcome.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What is fixed when a store is created.
+struct ResultHeader {
+    std::string kind; ///< "single" or "surface"
+    std::string study_toml;
+    std::uint64_t seed = 0;
+    std::string code_version;
+    std::uint64_t total = 0;              ///< rows
+    std::vector<std::string> input_names; ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
+                                          ///< column 3 of the two-dimensional dataset input/friction
+    std::vector<double> frequency_hz;     ///< surface axis (nf), empty for other kinds
+    std::vector<double> pga_m_s2;         ///< surface axis (np)
+};
+
+/// One row of /realizations.
+struct ResultRow {
+    std::uint64_t index = 0;
+    std::uint64_t cell = 0;
+    double frequency_hz = 0;
+    double pga_m_s2 = 0;
+    std::vector<double> inputs; ///< as in `ResultHeader::input_names`
+    Outcome outcome;
+};
+
+/// /surface, each array (nf x np), frequency by frequency.
+struct SurfaceTable {
+    std::vector<double> frequency_hz;
+    std::vector<double> pga_m_s2;
+    std::vector<std::uint64_t> trials; ///< valid realizations
+    std::vector<std::uint64_t> collapses;
+    std::vector<double> probability; ///< NaN where there is no trial
+    std::vector<double> lower;
+    std::vector<double> upper;
+    std::string interval; ///< name of the interval and its level, for example "wilson 0.95"
+};
+
+struct Trajectory {
+    std::uint64_t index = 0;
+    std::vector<double> time_s;    ///< (nt)
+    std::vector<double> x_m;       ///< (nt x n_block), row by row: centre in the frame of the base
+    std::vector<double> y_m;       ///< (nt x n_block)
+    std::vector<double> theta_rad; ///< (nt x n_block)
+    std::vector<double> base_x_m;  ///< (nt) displacement of the base
+    std::vector<double> half_width_m;  ///< (n_block)
+    std::vector<double> half_height_m; ///< (n_block)
+    std::size_t blocks() const { return half_width_m.size(); }
+};
+
+/// A results file that is being written. Rows may come in any order; a chunk of rows is written, with its checksum,
+/// as soon as all its rows are there. A process that is killed at any moment leaves a file that `resume` continues.
+class ResultWriter {
+public:
+    static constexpr std::uint64_t rows_per_chunk = 256;
+
+    /// Creates the file (under another name first, so that no half-made file is ever seen).
+    /// @throws InputError if the folder is missing or cannot be written, or if the file exists already
+    static std::unique_ptr<ResultWriter> create(const std::filesystem::path& file, const ResultHeader& header);
+
+    /// Opens an unfinished file of the same study.
+    /// @throws InputError if it is another study's, complete already, another version's, damaged, or no such file;
+    ///         nothing is changed then
+    static std::unique_ptr<ResultWriter> resume(const std::filesystem::path& file, const ResultHeader& header);
+
+    ~ResultWriter();
+    ResultWriter(const ResultWriter&) = delete;
+    ResultWriter& operator=(const ResultWriter&) = delete;
+
+    /// True for rows that are in the file already (whole chunks only, checksum verified).
+    bool has(std::uint64_t index) const;
+    /// Rows in the file already.
+    std::uint64_t rows() const;
+    /// Rows in the file already, by outcome state, for the progress line. (5)
+    std::vector<std::uint64_t> rows_by_state() const;
+
+    /// Takes one row; not thread-safe.
+    void add(const ResultRow& row);
+    void add(const Trajectory& trajectory);
+    /// Writes the surface's table, and marks the file complete. All rows must have been added.
+    void finish(const SurfaceTable* surface);
+    /// Makes what is written so far safe against the end of the process.
+    void flush();
+
+private:
+    struct Impl;
+    explicit ResultWriter(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+/// A results file that is read. Opening verifies every checksum.
+class ResultReader {
+public:
+    /// @throws InputError if there is no such file, if it is no result of stylobate, or if it is damaged
+    explicit ResultReader(const std::filesystem::path& file);
+    ~ResultReader();
+    ResultReader(const ResultReader&) = delete;
+    ResultReader& operator=(const ResultReader&) = delete;
+
+    const ResultHeader& header() const;
+    bool complete() const;
+    bool has(std::uint64_t index) const;
+    /// @throws InputError if the row is not in the file
+    ResultRow row(std::uint64_t index) const;
+    /// All rows that are there, in index order.
+    std::vector<ResultRow> rows() const;
+    /// Empty axes if there is none.
+    SurfaceTable surface() const;
+    std::vector<std::uint64_t> trajectory_indices() const;
+    /// @throws InputError if there is none of this index
+    Trajectory trajectory(std::uint64_t index) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,22 @@
+#pragma once
+/// The study file: TOML in, `Study` out, every key checked.
+
+#include "ensemble/study.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Reads a study file. `overrides` are "KEY=VALUE" settings of the command line (any key, dotted; the value as in TOML,
+/// and a bare word is taken as a string), applied before anything is checked.
+///
+/// @throws InputError with file, line, key, value, the allowed range and what to do: a misspelt key ('did you mean'),
+///         a wrong type, a missing key, a value out of range, a key that the chosen kind does not use
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same from text; `name` stands for the file in messages.
+Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
+
+} // namespace stylobate
