@@ -1,0 +1,133 @@
+#include "ensemble/base_motion.hpp"
+
+#include "ensemble/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace stylobate
+{
+
+namespace
+{
+
+constexpr double abrupt = 1e300; // ramps per cycle of an abrupt start: any time > 0 is past it
+
+} // namespace
+
+MotionFormula BaseMotion::formula(ExcitationKind kind)
+{
+    switch (kind) {
+    case ExcitationKind::harmonic:
+        return MotionFormula::harmonic;
+    case ExcitationKind::half_sine:
+    case ExcitationKind::full_sine:
+        return MotionFormula::pulse;
+    default:
+        return MotionFormula::still;
+    }
+}
+
+BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Motion* record)
+    : formula_(formula(e.kind)), step_s_(r.step_s)
+{
+    if (e.kind == ExcitationKind::none) {
+        duration_s_ = e.duration_s;
+        return;
+    }
+    if (e.kind == ExcitationKind::record) {
+        record_ = record;
+        // a surface's frequency axis is the record's predominant frequency, moved by stretching its time
+        const double stretch = record->predominant_frequency_hz / r.frequency_hz;
+        spacing_s_ = record->dt_s * stretch;
+        scale_ = r.pga_m_s2 > 0 ? r.pga_m_s2 / record->pga_m_s2 : 1;
+        duration_s_ = record->duration_s() * stretch;
+        return;
+    }
+    const double w = 2 * std::numbers::pi * r.frequency_hz;
+    rate_hz_ = r.frequency_hz;
+    amplitude_m_ = r.pga_m_s2 / (w * w);
+    if (formula_ == MotionFormula::pulse) {
+        cycles_ = e.kind == ExcitationKind::half_sine ? 0.5 : 1;
+        end_velocity_ = e.kind == ExcitationKind::half_sine ? 2 : 0;
+    } else {
+        cycles_ = e.cycles;
+        const double turns = r.phase_rad / (2 * std::numbers::pi);
+        phase_cycles_ = turns - std::nearbyint(turns);
+        const bool smooth_start = e.start == HarmonicEdge::smooth;
+        offset_ = smooth_start ? 0 : std::sin(r.phase_rad);
+        start_ramps_per_cycle_ = smooth_start ? 1 / e.ramp_cycles : abrupt;
+        end_ramps_per_cycle_ = e.end == HarmonicEdge::smooth ? 1 / e.ramp_cycles : abrupt;
+    }
+    duration_s_ = cycles_ / rate_hz_;
+}
+
+void BaseMotion::store(const FormulaParameters& p, int lane) const
+{
+    p.cycles_per_step[lane] = rate_hz_ * step_s_;
+    p.amplitude_m[lane] = amplitude_m_;
+    p.cycles[lane] = cycles_;
+    p.phase_cycles[lane] = phase_cycles_;
+    p.offset[lane] = offset_;
+    p.start_ramps_per_cycle[lane] = start_ramps_per_cycle_;
+    p.end_ramps_per_cycle[lane] = end_ramps_per_cycle_;
+    p.end_velocity[lane] = end_velocity_;
+}
+
+void BaseMotion::fill(double first_step, double* table, int lanes) const
+{
+    // The second difference of a displacement with piecewise linear acceleration is dt2 times the acceleration, plus
+    // what the bend at the nearest sample adds within one step of it: (change of slope) x (dt - distance)^3 / 6.
+    const std::vector<double>& a = record_->acceleration_m_s2;
+    const double last = static_cast<double>(a.size() - 1);
+    const double ratio = step_s_ / spacing_s_; // steps in samples
+    const double dt2 = step_s_ * step_s_ * scale_;
+    const auto sample = [&](double i) { return i < 0 || i > last ? 0.0 : a[static_cast<std::size_t>(i)]; };
+    for (int k = 0; k < chunk_steps; ++k) {
+        const double position = (first_step + k) * ratio;
+        if (position - ratio > last + 1) { // the motion ends one sample after its last, at rest
+            table[k * lanes] = 0;
+            continue;
+        }
+        const double i = std::floor(position);
+        const double a0 = sample(i), a1 = sample(i + 1);
+        double difference = dt2 * std::fma(position - i, a1 - a0, a0);
+        const double knot = position - i < 0.5 ? i : i + 1;
+        const double reach = ratio - std::fabs(position - knot);
+        if (reach > 0) {
+            const double bend = sample(knot + 1) - 2 * sample(knot) + sample(knot - 1);
+            difference += dt2 * bend * reach * reach * reach / (6 * ratio * ratio);
+        }
+        table[k * lanes] = difference;
+    }
+}
+
+double BaseMotion::displacement_m(double time_s) const
+{
+    if (time_s <= 0)
+        return 0;
+    if (record_ != nullptr) {
+        const std::size_t n = record_->acceleration_m_s2.size();
+        const double position = time_s / spacing_s_;
+        const std::size_t i = std::min(static_cast<std::size_t>(position), n - 1);
+        const double d = record_->dt_s, t = (position - static_cast<double>(i)) * d;
+        const double a0 = record_->acceleration_m_s2[i];
+        const double a1 = i + 1 < n ? record_->acceleration_m_s2[i + 1] : 0;
+        const double u = record_->displacement_m[i] + record_->velocity_m_s[i] * t +
+                         (i + 1 < n ? a0 * t * t / 2 + (a1 - a0) * t * t * t / (6 * d) : 0);
+        const double stretch = spacing_s_ / d;
+        return u * scale_ * stretch * stretch;
+    }
+    double rate = rate_hz_ * time_s, amplitude = amplitude_m_, cycles = cycles_, phase = phase_cycles_,
+           offset = offset_, start = start_ramps_per_cycle_, end = end_ramps_per_cycle_, velocity = end_velocity_;
+    const FormulaParameters p{&rate, &amplitude, &cycles, &phase, &offset, &start, &end, &velocity};
+    return base_displacement<double>(formula_, p, 1.0);
+}
+
+double tail_after_shaking(const Realization& realization)
+{
+    return 12 / scales_of(realization).p_rad_s;
+}
+
+} // namespace stylobate

@@ -1,0 +1,374 @@
+#include "ensemble/lanes.hpp"
+
+#include "ensemble/static_state.hpp"
+#include "kernels/step.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+namespace stylobate
+{
+
+namespace
+{
+
+// A realization has come to rest when, after the shaking, its kinetic energy stays below this part of what it takes to
+// topple the weakest part of it, for as long as 2 / p.
+constexpr double rest_energy = 1e-3;
+constexpr double rest_time = 2;
+// A block that has turned beyond its slenderness angle has fallen unless it comes back within 1 / p.
+constexpr double fall_time = 1;
+// What the energy balance may lack before a realization is set aside, over the energy that went through it.
+constexpr double energy_bound = 0.5;
+// Chunks between two audits: they cost as much as several steps.
+constexpr std::uint64_t audit_chunks = 16;
+
+double* allocate(std::size_t doubles)
+{
+    const std::size_t bytes = (doubles * sizeof(double) + 63) / 64 * 64;
+    auto* memory = static_cast<double*>(std::aligned_alloc(64, bytes));
+    if (memory == nullptr)
+        throw std::bad_alloc();
+    std::fill(memory, memory + bytes / sizeof(double), 0.0);
+    return memory;
+}
+
+std::uint64_t whole_chunks(double time_s, double step_s)
+{
+    const double chunks = std::ceil(time_s / step_s / chunk_steps);
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(chunks)) * chunk_steps;
+}
+
+} // namespace
+
+void LaneSet::AlignedFree::operator()(double* p) const
+{
+    std::free(p);
+}
+
+LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern)
+    : study_(study),
+      record_(record),
+      kernels_(kernels),
+      lanes_(static_cast<std::size_t>(kernels.lanes)),
+      place_of_(pattern.blocks.size(), -1),
+      places_(static_cast<std::size_t>(kernels.lanes))
+{
+    const auto take = [&](int block) {
+        if (place_of_[static_cast<std::size_t>(block)] < 0) {
+            place_of_[static_cast<std::size_t>(block)] = static_cast<int>(order_.size());
+            order_.push_back(block);
+        }
+    };
+    for (const Joint& joint : pattern.joints)
+        for (int block : {joint.lower, joint.upper})
+            if (pattern.blocks[static_cast<std::size_t>(block)].fixed)
+                take(block);
+    topology_.fixed = static_cast<int>(order_.size());
+    for (std::size_t i = 0; i < pattern.blocks.size(); ++i)
+        if (!pattern.blocks[i].fixed)
+            take(static_cast<int>(i));
+    for (const Joint& joint : pattern.joints)
+        joints_.push_back(
+            {place_of_[static_cast<std::size_t>(joint.lower)], place_of_[static_cast<std::size_t>(joint.upper)]});
+    topology_.blocks = static_cast<int>(order_.size());
+    topology_.top = topology_.blocks - 1;
+    topology_.joints = static_cast<int>(joints_.size());
+    topology_.joint = joints_.data();
+
+    memory_.reset(allocate(bundle_registers(topology_) * lanes_));
+    bundle_ = bind_bundle(topology_, kernels_.lanes, memory_.get());
+    parameters_memory_.reset(allocate(9 * lanes_));
+    double* p = parameters_memory_.get();
+    for (double** array : {&parameters_.cycles_per_step, &parameters_.amplitude_m, &parameters_.cycles,
+                           &parameters_.phase_cycles, &parameters_.offset, &parameters_.start_ramps_per_cycle,
+                           &parameters_.end_ramps_per_cycle, &parameters_.end_velocity, &first_step_}) {
+        *array = p;
+        p += lanes_;
+    }
+    for (int lane = 0; lane < kernels_.lanes; ++lane)
+        clear(lane);
+    active_ = 0;
+}
+
+void LaneSet::clear(int lane)
+{
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    if (place.busy)
+        --active_;
+    place = Place{};
+    for (std::size_t i = 0; i < bundle_registers(topology_); ++i)
+        memory_[i * lanes_ + static_cast<std::size_t>(lane)] = 0;
+    BaseMotion{}.store(parameters_, lane);
+    // an empty lane must not divide by a rate of zero
+    parameters_.cycles_per_step[lane] = 1;
+    first_step_[lane] = 0;
+}
+
+void LaneSet::store_state(int lane, const Realization& r)
+{
+    const StaticState rest = static_state(r);
+    const double dt = r.step_s, dt2 = dt * dt;
+    for (int k = 0; k < topology_.blocks; ++k) {
+        const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
+        const Block& block = r.blocks[i];
+        bundle_.at(OfBlock::half_width, k, lane) = block.half_width_m;
+        bundle_.at(OfBlock::half_height, k, lane) = block.half_height_m;
+        bundle_.at(OfBlock::mass, k, lane) = block.mass_kg;
+        bundle_.at(OfBlock::inertia, k, lane) = block.inertia_kg_m2;
+        if (block.fixed)
+            continue;
+        bundle_.at(OfBlock::dt2_per_mass, k, lane) = dt2 / block.mass_kg;
+        bundle_.at(OfBlock::dt2_per_inertia, k, lane) = dt2 / block.inertia_kg_m2;
+        bundle_.at(OfBlock::x, k, lane) = rest.x_m[i];
+        bundle_.at(OfBlock::y, k, lane) = rest.y_m[i];
+        bundle_.at(OfBlock::theta, k, lane) = rest.theta_rad[i];
+    }
+    for (int k = 0; k < topology_.joints; ++k) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(k)];
+        const bool per_chord = joint.damping_chord_m > 0;
+        const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+        const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+        bundle_.at(OfJoint::reference_x, k, lane) = upper.x_m - lower.x_m;
+        bundle_.at(OfJoint::height, k, lane) = lower.half_height_m + upper.half_height_m;
+        bundle_.at(OfJoint::depth_limit, k, lane) = 0.1 * std::min(lower.half_height_m, upper.half_height_m);
+        bundle_.at(OfJoint::K_n, k, lane) = joint.normal_stiffness_n_m2;
+        bundle_.at(OfJoint::K_t, k, lane) = joint.tangential_stiffness_n_m;
+        bundle_.at(OfJoint::per_K_t, k, lane) = 1 / joint.tangential_stiffness_n_m;
+        bundle_.at(OfJoint::C_n_per_dt, k, lane) = per_chord ? 0 : joint.normal_damping_n_s_m / dt;
+        bundle_.at(OfJoint::C_t_per_dt, k, lane) = per_chord ? 0 : joint.tangential_damping_n_s_m / dt;
+        bundle_.at(OfJoint::C_n_chord, k, lane) =
+            per_chord ? joint.normal_damping_n_s_m / (joint.damping_chord_m * dt) : 0;
+        bundle_.at(OfJoint::C_t_chord, k, lane) =
+            per_chord ? joint.tangential_damping_n_s_m / (joint.damping_chord_m * dt) : 0;
+        bundle_.at(OfJoint::mu, k, lane) = joint.friction;
+        bundle_.at(OfJoint::spring, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
+        bundle_.at(OfJoint::shear_force, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
+    }
+    bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
+    bundle_.at(OfRealization::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
+}
+
+/// The increments before the first step: U(-dt) = U0 + a0 dt2 / 2 for a start from rest, a0 by one trial step of the
+/// contact forces and gravity alone (the base does not move before it starts).
+void LaneSet::first_increments(int lane)
+{
+    const std::size_t registers = bundle_registers(topology_) - chunk_steps; // the table of base motion stays at 0
+    const std::unique_ptr<double[], AlignedFree> memory(allocate(registers + chunk_steps));
+    const Bundle one = bind_bundle(topology_, 1, memory.get());
+    for (std::size_t i = 0; i < registers; ++i)
+        memory[i] = memory_[i * lanes_ + static_cast<std::size_t>(lane)];
+    kernels(Isa::scalar).run(topology_, one, 0, 1);
+    for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+        bundle_.at(OfBlock::dx, i, lane) = -0.5 * one.at(OfBlock::dx, i, 0);
+        bundle_.at(OfBlock::dy, i, lane) = -0.5 * one.at(OfBlock::dy, i, 0);
+        bundle_.at(OfBlock::dtheta, i, lane) = -0.5 * one.at(OfBlock::dtheta, i, 0);
+    }
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    place.start_potential_j =
+        one.at(OfRealization::potential, 0) / (place.realization.step_s * place.realization.step_s);
+    place.start_shear_j = spring_energy(lane);
+    place.start_spring_j = place.start_shear_j;
+    for (int j = 0; j < topology_.joints; ++j)
+        place.start_spring_j += one.at(OfJoint::elastic, j, 0);
+}
+
+void LaneSet::load(int lane, Realization realization)
+{
+    clear(lane);
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    place.busy = true;
+    ++active_;
+    place.realization = std::move(realization);
+    const Realization& r = place.realization;
+    place.scales = scales_of(r);
+    const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
+    place.base_top_m = base.y_m + base.half_height_m;
+    place.motion = BaseMotion(study_.excitation, r, record_);
+    place.motion.store(parameters_, lane);
+
+    const bool shaken = study_.excitation.kind != ExcitationKind::none;
+    place.shaking_end_s = place.motion.duration_s();
+    const double tail = shaken ? study_.excitation.tail_s.value_or(12 / place.scales.p_rad_s) : 0;
+    place.last_step = whole_chunks(place.shaking_end_s + tail, r.step_s);
+    place.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
+    place.fall_steps = whole_chunks(fall_time / place.scales.p_rad_s, r.step_s);
+    store_state(lane, r);
+    first_increments(lane);
+    place.start_top_x_m = bundle_.at(OfBlock::x, topology_.top, lane);
+}
+
+void LaneSet::advance()
+{
+    advance(0, chunk_steps);
+}
+
+void LaneSet::advance(int first, int last)
+{
+    if (first == 0) {
+        if (study_.excitation.kind == ExcitationKind::record) {
+            for (int lane = 0; lane < kernels_.lanes; ++lane)
+                if (!free(lane))
+                    motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);
+        } else {
+            kernels_.fill(BaseMotion::formula(study_.excitation.kind), parameters_, first_step_, bundle_.base_table);
+        }
+    }
+    kernels_.run(topology_, bundle_, first, last);
+    if (last == chunk_steps)
+        for (int lane = 0; lane < kernels_.lanes; ++lane)
+            if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
+                look(lane);
+}
+
+double LaneSet::spring_energy(int lane) const
+{
+    double energy = 0;
+    for (int j = 0; j < topology_.joints; ++j) {
+        const double spring = bundle_.at(OfJoint::spring, j, lane);
+        energy += 0.5 * spring * spring * bundle_.at(OfJoint::per_K_t, j, lane);
+    }
+    return energy;
+}
+
+double LaneSet::audit(int lane, Outcome& o) const
+{
+    const Place& place = places_[static_cast<std::size_t>(lane)];
+    const double per_dt2 = 1 / (place.realization.step_s * place.realization.step_s);
+    double normal = 0;
+    for (int j = 0; j < topology_.joints; ++j)
+        normal += bundle_.at(OfJoint::elastic, j, lane);
+    const double tangential = spring_energy(lane);
+    o.energy_kinetic_j = 0.5 * bundle_.at(OfRealization::kinetic, lane) * per_dt2;
+    o.energy_potential_j = bundle_.at(OfRealization::potential, lane) * per_dt2 - place.start_potential_j;
+    o.energy_spring_j = normal + tangential - place.start_spring_j;
+    o.energy_friction_j = bundle_.at(OfRealization::friction_energy, lane);
+    o.energy_damping_j = 0.5 * bundle_.at(OfRealization::dashpot_energy, lane) +
+                         0.5 * bundle_.at(OfRealization::shear_energy, lane) - (tangential - place.start_shear_j) -
+                         o.energy_friction_j;
+    o.energy_base_work_j = 0.5 * bundle_.at(OfRealization::base_energy, lane) * per_dt2;
+    const double lacks = o.energy_kinetic_j + o.energy_potential_j + o.energy_spring_j + o.energy_friction_j +
+                         o.energy_damping_j - o.energy_base_work_j;
+    return lacks / (place.scales.barrier_j + std::fabs(o.energy_friction_j) + std::fabs(o.energy_damping_j));
+}
+
+int LaneSet::fallen_block(int lane, bool& for_good) const
+{
+    const Place& place = places_[static_cast<std::size_t>(lane)];
+    for (int k = topology_.fixed; k < topology_.blocks; ++k) {
+        const int block = order_[static_cast<std::size_t>(k)];
+        const double rest = place.realization.blocks[static_cast<std::size_t>(block)].y_m - place.base_top_m;
+        for_good = rest + bundle_.at(OfBlock::y, k, lane) < study_.outcome.collapse_height_fraction * rest;
+        if (for_good || std::fabs(bundle_.at(OfBlock::theta, k, lane)) > place.scales.rotation_rad)
+            return block;
+    }
+    return -1;
+}
+
+void LaneSet::look(int lane)
+{
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    const double dt = place.realization.step_s;
+    place.steps += chunk_steps;
+    first_step_[lane] = static_cast<double>(place.steps);
+
+    double sum = 0.5 * bundle_.at(OfRealization::kinetic, lane);
+    for (int k = topology_.fixed; k < topology_.blocks; ++k)
+        sum += bundle_.at(OfBlock::x, k, lane) + bundle_.at(OfBlock::y, k, lane) + bundle_.at(OfBlock::theta, k, lane);
+    if (!std::isfinite(sum))
+        return end(lane, State::invalid, InvalidReason::not_finite);
+
+    bool for_good = false;
+    const int block = fallen_block(lane, for_good);
+    if (block < 0) {
+        place.falling = false;
+    } else {
+        if (!place.falling) {
+            place.falling = true;
+            place.falling_since = place.steps;
+            place.falling_block = block;
+        }
+        if (for_good || place.steps - place.falling_since >= place.fall_steps)
+            return end(lane, State::collapsed, InvalidReason::none);
+    }
+
+    if (place.steps % (audit_chunks * chunk_steps) == 0) {
+        Outcome trial;
+        if (!(std::fabs(audit(lane, trial)) < energy_bound))
+            return end(lane, State::invalid, InvalidReason::energy);
+    }
+
+    const double kinetic = 0.5 * bundle_.at(OfRealization::kinetic, lane) / (dt * dt);
+    if (block < 0 && std::fabs(kinetic) < rest_energy * place.scales.barrier_j) {
+        if (!place.quiet)
+            place.quiet_since = place.steps;
+        place.quiet = true;
+    } else {
+        place.quiet = false;
+    }
+    const double time = static_cast<double>(place.steps) * dt;
+    const bool at_rest = study_.excitation.kind != ExcitationKind::none && time > place.shaking_end_s && place.quiet &&
+                         static_cast<double>(place.quiet_since) * dt >= place.shaking_end_s &&
+                         place.steps - place.quiet_since >= place.rest_steps;
+    if (at_rest || place.steps >= place.last_step)
+        end(lane, place.falling ? State::collapsed : State::stood, InvalidReason::none);
+}
+
+void LaneSet::end(int lane, State state, InvalidReason reason)
+{
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    const Realization& r = place.realization;
+    Outcome o;
+    o.step_s = r.step_s;
+    o.steps = place.steps;
+    o.end_time_s = static_cast<double>(place.steps) * r.step_s;
+    o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
+    o.residual_top_displacement_m = bundle_.at(OfBlock::x, topology_.top, lane) - place.start_top_x_m;
+    o.total_sliding_m = bundle_.at(OfRealization::slip, lane);
+    o.sliding_path_m = bundle_.at(OfRealization::path, lane);
+    for (int j = 0; j < topology_.joints; ++j) {
+        const double rotation = bundle_.at(OfJoint::max_rotation, j, lane);
+        o.total_rocking_rad += rotation;
+        o.max_relative_rotation_rad = std::max(o.max_relative_rotation_rad, rotation);
+    }
+    o.energy_residual = audit(lane, o);
+    if (state != State::invalid && !(std::fabs(o.energy_residual) < energy_bound)) {
+        state = State::invalid;
+        reason = InvalidReason::energy;
+    }
+    if (state == State::collapsed) {
+        o.collapse_time_s = static_cast<double>(place.falling_since) * r.step_s;
+        o.first_collapse_block = place.falling_block;
+    } else if (state == State::stood) {
+        // the dominant of the two ways of moving, by the displacement that each stands for at the edge of a drum
+        const bool rocks = o.max_relative_rotation_rad > study_.outcome.rocking_threshold_rad;
+        const bool slides = o.total_sliding_m > study_.outcome.sliding_threshold * place.scales.width_m;
+        const double opening = o.total_rocking_rad * place.scales.width_m;
+        if (rocks && (!slides || opening >= o.total_sliding_m))
+            state = State::rocked;
+        else if (slides)
+            state = State::slid;
+    }
+    o.state = state;
+    o.invalid_reason = reason;
+    place.outcome = o;
+}
+
+Snapshot LaneSet::snapshot(int lane) const
+{
+    const Realization& r = realization(lane);
+    Snapshot s;
+    for (std::size_t i = 0; i < r.blocks.size(); ++i) {
+        const Block& block = r.blocks[i];
+        const int k = place_of_[i];
+        s.x_m.push_back(block.x_m + (k < 0 ? 0 : bundle_.at(OfBlock::x, k, lane)));
+        s.y_m.push_back(block.y_m + (k < 0 ? 0 : bundle_.at(OfBlock::y, k, lane)));
+        s.theta_rad.push_back(k < 0 ? 0 : bundle_.at(OfBlock::theta, k, lane));
+    }
+    return s;
+}
+
+} // namespace stylobate

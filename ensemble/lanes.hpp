@@ -1,0 +1,102 @@
+#pragma once
+/// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
+
+#include "ensemble/base_motion.hpp"
+#include "ensemble/outcome.hpp"
+#include "ensemble/scales.hpp"
+#include "ensemble/study.hpp"
+#include "kernels/isa.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace stylobate
+{
+
+/// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.
+struct Snapshot {
+    std::vector<double> x_m, y_m, theta_rad; ///< (blocks) centres and rotations
+};
+
+/// What is done to a realization is a function of it alone: whether it is looked at, ended or set aside depends on the
+/// number of its own steps, never on its lane or on its neighbours.
+class LaneSet
+{
+public:
+    /// @param record may be null unless the excitation is one
+    LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);
+
+    int lanes() const { return kernels_.lanes; }
+    int active() const { return active_; }
+    bool free(int lane) const { return !places_[static_cast<std::size_t>(lane)].busy; }
+    const Realization& realization(int lane) const { return places_[static_cast<std::size_t>(lane)].realization; }
+
+    /// Puts a realization into a free lane, at its static rest.
+    void load(int lane, Realization realization);
+
+    /// Steps all lanes by one chunk and looks at each; `outcome(lane)` then tells which have ended.
+    void advance();
+    /// Part of a chunk, for trajectories: steps `first` to `last - 1`; the look comes with the chunk's last step.
+    void advance(int first, int last);
+
+    /// The outcome of a realization that has ended.
+    const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
+    /// Frees a lane; its place is at rest and does nothing until the next `load`.
+    void clear(int lane);
+
+    /// Where the blocks are now.
+    Snapshot snapshot(int lane) const;
+    const BaseMotion& motion(int lane) const { return places_[static_cast<std::size_t>(lane)].motion; }
+
+private:
+    struct Place {
+        bool busy = false;
+        Realization realization;
+        Scales scales;
+        BaseMotion motion;
+        std::optional<Outcome> outcome;
+        double shaking_end_s = 0; ///< no realization is at rest before
+        std::uint64_t steps = 0;
+        std::uint64_t last_step = 0;  ///< a multiple of chunk_steps
+        std::uint64_t rest_steps = 0; ///< needed in a row
+        std::uint64_t quiet_since = 0;
+        std::uint64_t fall_steps = 0; ///< needed in a row
+        std::uint64_t falling_since = 0;
+        bool quiet = false, falling = false;
+        int falling_block = -1;
+        double base_top_m = 0;
+        double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0;
+        double start_top_x_m = 0;
+    };
+
+    void store_state(int lane, const Realization& r);
+    void first_increments(int lane);
+    double spring_energy(int lane) const;
+    /// Energy balance so far; also fills the energies of the outcome. Returns what it lacks, over its scale.
+    double audit(int lane, Outcome& outcome) const;
+    void look(int lane);
+    int fallen_block(int lane, bool& for_good) const;
+    void end(int lane, State state, InvalidReason reason);
+
+    const Study& study_;
+    const Motion* record_;
+    const KernelTable& kernels_;
+    const std::size_t lanes_;
+    std::vector<int> order_;    ///< kernel's block -> realization's block: the fixed ones first
+    std::vector<int> place_of_; ///< realization's block -> kernel's block, -1 for one that touches no free block
+    std::vector<TopologyJoint> joints_;
+    Topology topology_;
+    struct AlignedFree {
+        void operator()(double* p) const;
+    };
+    std::unique_ptr<double[], AlignedFree> memory_;
+    Bundle bundle_;
+    std::unique_ptr<double[], AlignedFree> parameters_memory_;
+    FormulaParameters parameters_{};
+    double* first_step_ = nullptr;
+    std::vector<Place> places_;
+    int active_ = 0;
+};
+
+} // namespace stylobate

@@ -1,0 +1,88 @@
+#pragma once
+/// Base motion by formula: harmonic and pulses, for all realizations of a bundle at once.
+///
+/// A motion is a displacement U(t) that is 0 for t <= 0. What drives the structure is its second difference
+/// U(n+1) - 2 U(n) + U(n-1): with that, stepping in the frame of the base is the same, to rounding, as moving the base.
+
+#include "kernels/bundle.hpp"
+#include "kernels/trig.hpp"
+
+namespace stylobate
+{
+
+/// Which formula; c is the time in cycles of the sine.
+enum class MotionFormula {
+    still,    ///< U = 0
+    harmonic, ///< U = A s(c / ramp) s((cycles - c) / ramp) (sin(2 pi c + phase) - sin_phase), s = 10x3 - 15x4 + 6x5
+    pulse     ///< U = A (2 pi c - sin 2 pi c) up to the end, then at the velocity reached: U'' = a sin(w t)
+};
+
+/// Parameters, each (lanes).
+struct FormulaParameters {
+    double* cycles_per_step;       ///< f dt
+    double* amplitude_m;           ///< A = a / w2
+    double* cycles;                ///< in all
+    double* phase_cycles;          ///< harmonic: phase / 2 pi, in [-1/2, 1/2]
+    double* offset;                ///< harmonic with an abrupt start: sin(phase); else 0
+    double* start_ramps_per_cycle; ///< 1 / ramp; 1e300 for an abrupt start
+    double* end_ramps_per_cycle;   ///< 1 / ramp; 1e300 for an abrupt end, which holds the last displacement
+    double* end_velocity;          ///< pulse: velocity after it, over A w: 2 for half a sine, 0 for a full one
+};
+
+template <class Real>
+STYLOBATE_INLINE Real smooth_ramp(Real x)
+{
+    const Real t = clamp(x, Real(0.0), Real(1.0));
+    return t * t * t * fma(t, fma(t, Real(6.0), Real(-15.0)), Real(10.0));
+}
+
+/// U at step n (an integer) [m].
+template <class Real>
+STYLOBATE_INLINE Real base_displacement(MotionFormula formula, const FormulaParameters& p, Real n)
+{
+    using L = Lanes<Real>;
+    const Real zero(0.0);
+    if (formula == MotionFormula::still)
+        return zero;
+    const Real rate = L::load(p.cycles_per_step), cycles = L::load(p.cycles);
+    // time in cycles, as a rounded product and its rounding error: the phase keeps its digits late in the motion
+    const Real product = n * rate;
+    const Real error = fma(n, rate, zero - product);
+    const Real c = clamp(product, zero, cycles);
+    const Real rest = select(c != product, zero, error);
+    const Real whole = round_of(c);
+    if (formula == MotionFormula::pulse) {
+        const Real two_pi(0x1.921fb54442d18p+2);
+        const Real sine = sine_of_cycles((c - whole) + rest);
+        const Real after = L::load(p.end_velocity) * max_of(product - cycles, zero);
+        return L::load(p.amplitude_m) * (fma(two_pi, c + after, zero - sine));
+    }
+    Real turn = (c - whole) + rest + L::load(p.phase_cycles);
+    turn = turn - round_of(turn);
+    const Real ramp = smooth_ramp(c * L::load(p.start_ramps_per_cycle)) *
+                      select(c >= cycles, select(L::load(p.end_ramps_per_cycle) > Real(1e299), Real(1.0), zero),
+                             smooth_ramp((cycles - c) * L::load(p.end_ramps_per_cycle)));
+    return L::load(p.amplitude_m) * ramp * (sine_of_cycles(turn) - L::load(p.offset));
+}
+
+/// Fills the table for the chunk that begins at each realization's step `first_step` (lanes).
+template <class Real>
+void fill_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+{
+    using L = Lanes<Real>;
+    const Real first = L::load(first_step);
+    Real before = base_displacement(formula, p, first - Real(1.0));
+    Real now = base_displacement(formula, p, first);
+    // once the motion is over for the whole of a step's reach, nothing but rounding is left of the difference
+    const Real over = formula == MotionFormula::still ? Real(0.0) : L::load(p.cycles) / L::load(p.cycles_per_step);
+    for (int k = 0; k < chunk_steps; ++k) {
+        const Real n = first + Real(static_cast<double>(k));
+        const Real next = base_displacement(formula, p, n + Real(1.0));
+        const Real difference = (next - now) - (now - before);
+        L::store(table + k * L::count, select(n - Real(1.0) >= over, Real(0.0), difference));
+        before = now;
+        now = next;
+    }
+}
+
+} // namespace stylobate

@@ -1,0 +1,122 @@
+#pragma once
+/// Bundle: the realizations that share one register, one in each lane.
+///
+/// Its memory is rows of registers: a block (or joint) has one row, a row has one register for each field. So a field
+/// of a block is a constant distance from the block's row, and what a step needs of a block lies together. The kernels
+/// allocate nothing: the caller gives the memory, and writes and reads single lanes with `at`.
+
+#include "kernels/topology.hpp"
+
+#include <cstddef>
+
+namespace stylobate
+{
+
+/// Steps between two looks at a realization (collapsed? at rest? finite?), and the length of the table of base motion.
+inline constexpr int chunk_steps = 64;
+
+/// Fields of a block. Displacements are against the reference stack, in the frame of the base. "step": written by it.
+struct OfBlock {
+    enum Field : int {
+        x,               ///< [m] step
+        y,               ///< [m] step
+        theta,           ///< [rad], counter-clockwise; step
+        dx,              ///< increment of the last step [m]; step
+        dy,              ///< [m] step
+        dtheta,          ///< [rad] step
+        force_x,         ///< sum of the contact forces [N]; step
+        force_y,         ///< [N] step
+        moment,          ///< [N m] step
+        sine,            ///< of theta; step
+        versine,         ///< 1 - cos theta; step
+        half_width,      ///< [m]
+        half_height,     ///< [m]
+        mass,            ///< [kg]
+        inertia,         ///< [kg m2]
+        dt2_per_mass,    ///< dt2 / m [s2/kg]
+        dt2_per_inertia, ///< dt2 / I [s2/(kg m2)]
+        count
+    };
+};
+
+/// Fields of a joint.
+struct OfJoint {
+    enum Field : int {
+        spring,        ///< elastic part of F_T [N]; step
+        dashpot_force, ///< F_N - K_N A of the last step [N]; step
+        shear_force,   ///< F_T of the last step [N]; step
+        max_rotation,  ///< largest |relative rotation| so far [rad]; step
+        elastic,       ///< energy of the normal spring at the last step of a chunk [J]; step
+        reference_x,   ///< upper centre - lower centre in the reference stack [m]
+        height,        ///< the same upwards: sum of the half heights [m]
+        depth_limit,   ///< of the closed form of the overlap [m]
+        K_n,           ///< [N/m2]
+        K_t,           ///< [N/m]
+        C_n_per_dt,    ///< C_N / dt [N/m]
+        C_t_per_dt,    ///< [N/m]
+        C_n_chord,     ///< C_N / (dt x contact length) [N/m2]
+        C_t_chord,     ///< [N/m2]
+        mu,
+        per_K_t, ///< 1 / K_T [m/N]
+        count
+    };
+};
+
+/// Fields of a realization as a whole. Energies are summed up as written, to save what the look can do once.
+struct OfRealization {
+    enum Field : int {
+        gravity_dx,      ///< dt2 x horizontal gravity (base out of level) [m]
+        gravity_dy,      ///< dt2 x vertical gravity, negative [m]
+        base_step,       ///< second difference of the base displacement in the last step [m]; step
+        slip,            ///< sum over joints and time of the slip while slipping [m]; step
+        path,            ///< sum over joints and time of the relative path in contact [m]; step
+        friction_energy, ///< dissipated by slipping [J]; step
+        dashpot_energy,  ///< 2 x what the normal dashpots dissipated [J]; step
+        shear_energy,    ///< 2 x the work against F_T: slip, dashpot and tangential spring [J]; step
+        base_energy,     ///< 2 dt2 x the work of the base [J s2]; step
+        peak_top,        ///< largest |x| of the top block's centre [m]; step
+        kinetic,         ///< 2 dt2 x the kinetic energy at the last step of a chunk [J s2]; step
+        potential,       ///< dt2 x the potential energy at the last step of a chunk [J s2]; step
+        count
+    };
+};
+
+struct Bundle {
+    int lanes = 0;
+    double* blocks = nullptr;       ///< (blocks x OfBlock::count x lanes)
+    double* joints = nullptr;       ///< (joints x OfJoint::count x lanes)
+    double* realizations = nullptr; ///< (OfRealization::count x lanes)
+    double* base_table = nullptr;   ///< (chunk_steps x lanes) second difference of the base displacement [m]
+
+    double& at(OfBlock::Field field, int block, int lane) const
+    {
+        return blocks[(block * OfBlock::count + field) * lanes + lane];
+    }
+    double& at(OfJoint::Field field, int joint, int lane) const
+    {
+        return joints[(joint * OfJoint::count + field) * lanes + lane];
+    }
+    double& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
+};
+
+/// Registers that a bundle needs, each of `lanes` doubles.
+inline std::size_t bundle_registers(const Topology& topology)
+{
+    return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
+                                    OfRealization::count + chunk_steps);
+}
+
+/// Lays a bundle out.
+/// @param memory `bundle_registers` x lanes doubles, aligned to 64 bytes
+inline Bundle bind_bundle(const Topology& topology, int lanes, double* memory)
+{
+    Bundle b;
+    b.lanes = lanes;
+    b.blocks = memory;
+    b.joints = b.blocks + topology.blocks * OfBlock::count * lanes;
+    b.realizations = b.joints + topology.joints * OfJoint::count * lanes;
+    b.base_table = b.realizations + OfRealization::count * lanes;
+    return b;
+}
+
+} // namespace stylobate

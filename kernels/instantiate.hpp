@@ -1,0 +1,39 @@
+#pragma once
+/// What a file such as `step_avx2.cpp` makes of the templates: one table. Nothing else may be in such a file: code
+/// compiled for one instruction set must not leak into functions that others share.
+
+#include "kernels/isa.hpp"
+#include "kernels/step.hpp"
+
+namespace stylobate
+{
+
+template <class Real>
+double peak_fma(long count)
+{
+    // enough independent chains to hide the latency of the multiply-add
+    constexpr int chains = 12;
+    Real sums[chains];
+    for (int i = 0; i < chains; ++i)
+        sums[i] = Real(1.0 + i);
+    const Real factor(0.999999), term(1e-6);
+    for (long k = 0; k < count; k += chains)
+        for (int i = 0; i < chains; ++i)
+            sums[i] = fma(sums[i], factor, term);
+    Real total(0.0);
+    for (int i = 0; i < chains; ++i)
+        total = total + sums[i];
+    alignas(64) double out[Lanes<Real>::count];
+    Lanes<Real>::store(out, total);
+    return out[0];
+}
+
+template <class Real>
+constexpr KernelTable kernel_table(Isa isa)
+{
+    return {isa, Lanes<Real>::count,
+            [](const Topology& t, const Bundle& b, int first, int last) { run_steps<Real>(t, b, first, last); },
+            fill_base_table<Real>, peak_fma<Real>};
+}
+
+} // namespace stylobate

@@ -1,0 +1,40 @@
+#pragma once
+/// The kernels of one instruction set behind plain function pointers, and the choice of one at run time.
+
+#include "kernels/base_motion.hpp"
+#include "kernels/bundle.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace stylobate
+{
+
+enum class Isa { scalar, avx2, avx512, neon };
+
+struct KernelTable {
+    Isa isa = Isa::scalar;
+    int lanes = 1; ///< realizations in a register
+
+    /// Runs steps `first` to `last - 1` of the table of base motion.
+    void (*run)(const Topology&, const Bundle&, int first, int last) = nullptr;
+    /// Fills the bundle's table of base motion by formula.
+    void (*fill)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
+    /// Multiply-adds on registers, `count` of them: what the machine can do at the most. Returns a number to keep.
+    double (*peak_fma)(long count) = nullptr;
+};
+
+const char* to_string(Isa isa);
+/// "scalar", "avx2", "avx512" or "neon"; false for any other word.
+bool parse_isa(std::string_view name, Isa& isa);
+
+/// The instruction sets that are built in and that this processor has, narrowest first.
+std::vector<Isa> usable_isas();
+inline Isa best_isa()
+{
+    return usable_isas().back();
+}
+/// @pre isa is usable
+const KernelTable& kernels(Isa isa);
+
+} // namespace stylobate

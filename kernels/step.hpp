@@ -1,0 +1,303 @@
+#pragma once
+/// One step of all realizations of a bundle: the heart of Stylobate. `THEORY.md` goes through it symbol by symbol.
+///
+///   angles      sine and versine of every block's rotation
+///   geometry    where each joint's upper block lies, seen from its lower one
+///   overlap     area, centroid and direction of the contact (closed form; general where that does not hold)
+///   faces       relative displacement of the faces in the last step, at the centroid
+///   forces      Eqs. 1 to 3, the energy terms, and the sums over the blocks
+///   update      Eqs. 4 to 6 as d += dt2 F / m, u += d
+///
+/// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory:
+/// neighbouring joints are independent within a phase, so that the processor works on several at once, where one pass
+/// from geometry to force would wait for each result in turn.
+
+#include "kernels/bundle.hpp"
+#include "kernels/mechanism.hpp"
+#include "kernels/overlap.hpp"
+#include "kernels/trig.hpp"
+
+namespace stylobate
+{
+
+namespace detail
+{
+
+/// Joints that go through the phases together.
+inline constexpr int joint_group = 8;
+
+/// Area and contact length below which two blocks do not touch.
+inline constexpr double least_area = 1e-18;  // m2
+inline constexpr double least_chord = 1e-12; // m
+
+/// What the phases hand on, per joint.
+template <class Real>
+struct JointScratch {
+    Placement<Real> place;         // geometry -> overlap
+    Real apart_x, apart_y;         // geometry -> faces: upper centre - lower centre, frame of the base
+    Real area, chord;              // overlap -> forces
+    Real arm_x, arm_y;             // overlap -> faces: centroid from the lower block's centre, in its frame
+    Real normal_x, normal_y;       // overlap -> faces: lower block's frame; faces -> forces: frame of the base
+    Real lower_arm_x, lower_arm_y; // faces -> forces: centroid from the blocks' centres, frame of the base
+    Real upper_arm_x, upper_arm_y; //
+    Real closing, sliding;         // faces -> forces
+};
+
+} // namespace detail
+
+template <class Real, class Mechanism>
+class Stepper
+{
+public:
+    Stepper(const Topology& topology, const Bundle& bundle, const typename Mechanism::State& mechanism)
+        : topology_(topology), b_(bundle), mechanism_(mechanism)
+    {
+    }
+
+    /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
+    STYLOBATE_INLINE void run(int first, int last) const
+    {
+        detail::JointScratch<Real> scratch[detail::joint_group];
+        const int joints = topology_.joints;
+        for (int step = first; step < last; ++step) {
+            const bool audit = step + 1 == last;
+            angles();
+            for (int begin = 0; begin < joints; begin += detail::joint_group) {
+                const int count = joints - begin < detail::joint_group ? joints - begin : detail::joint_group;
+                for (int j = 0; j < count; ++j)
+                    geometry(begin + j, scratch[j]);
+                for (int j = 0; j < count; ++j)
+                    overlap(begin + j, scratch[j], audit);
+                for (int j = 0; j < count; ++j)
+                    faces(begin + j, scratch[j]);
+                forces(begin, count, scratch);
+            }
+            update(step, audit);
+        }
+    }
+
+private:
+    using L = Lanes<Real>;
+    using Scratch = detail::JointScratch<Real>;
+
+    STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
+    STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
+    STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * L::count]); }
+    STYLOBATE_INLINE void put(OfBlock::Field f, int i, Real v) const
+    {
+        L::store(&b_.blocks[row(i, OfBlock::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfJoint::Field f, int i, Real v) const
+    {
+        L::store(&b_.joints[row(i, OfJoint::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * L::count], v); }
+    STYLOBATE_INLINE static long row(int i, int fields, int f)
+    {
+        return (static_cast<long>(i) * fields + f) * L::count;
+    }
+
+    STYLOBATE_INLINE void angles() const
+    {
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            const Angle<Real> a = angle(get(OfBlock::theta, i));
+            put(OfBlock::sine, i, a.sine);
+            put(OfBlock::versine, i, a.versine);
+            put(OfBlock::force_x, i, Real(0.0));
+            put(OfBlock::force_y, i, Real(0.0));
+            put(OfBlock::moment, i, Real(0.0));
+        }
+    }
+
+    /// Relative placement from relative displacements and versines: nothing large cancels.
+    STYLOBATE_INLINE void geometry(int joint, Scratch& s) const
+    {
+        const auto [lower, upper] = topology_.joint[joint];
+        const Real sl = get(OfBlock::sine, lower), vl = get(OfBlock::versine, lower);
+        const Real su = get(OfBlock::sine, upper), vu = get(OfBlock::versine, upper);
+        const Real one(1.0);
+        const Real cl = one - vl, cu = one - vu;
+        const Real x = get(OfJoint::reference_x, joint) + (get(OfBlock::x, upper) - get(OfBlock::x, lower));
+        const Real rise = get(OfBlock::y, upper) - get(OfBlock::y, lower);
+        const Real height = get(OfJoint::height, joint);
+        const Real y = rise + height;
+        const Real hu = get(OfBlock::half_height, upper);
+        const Real versine = fnma(su, sl, fnma(vl, vu, vl + vu));
+        const Real sine = fms(su, cl, cu * sl);
+        s.place.sine = sine;
+        s.place.cosine = one - versine;
+        s.place.x = fma(x, cl, fma(y, sl, hu * sine));
+        s.place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
+        s.apart_x = x;
+        s.apart_y = y;
+        const Real rotation = abs_of(get(OfBlock::theta, upper) - get(OfBlock::theta, lower));
+        put(OfJoint::max_rotation, joint, max_of(get(OfJoint::max_rotation, joint), rotation));
+    }
+
+    STYLOBATE_INLINE void overlap(int joint, Scratch& s, bool audit) const
+    {
+        const auto [lower, upper] = topology_.joint[joint];
+        auto fits = s.place.sine < s.place.sine;
+        Overlap<Real> o = stacked_overlap(s.place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
+                                          get(OfJoint::depth_limit, joint), fits);
+        if (any(!fits)) [[unlikely]]
+            fall_back(joint, s.place, fits, o);
+
+        // one division for both: 1 / (area x chord)
+        const Real zero(0.0);
+        const Real chord = sqrt_of(fma(o.normal_x, o.normal_x, o.normal_y * o.normal_y));
+        const auto pressed = (o.area > Real(detail::least_area)) & (chord > Real(detail::least_chord));
+        s.area = select(pressed, o.area, zero);
+        s.chord = chord;
+        const Real inverse = Real(1.0) / select(pressed, o.area * chord, Real(1.0));
+        const Real per_area = chord * inverse, per_chord = s.area * inverse;
+        s.arm_x = o.moment_x * per_area;
+        s.arm_y = fnma(o.moment_depth, per_area, get(OfBlock::half_height, lower));
+        s.normal_x = o.normal_x * per_chord;
+        s.normal_y = o.normal_y * per_chord;
+        if (audit)
+            put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
+    }
+
+    /// The general overlap, for the realizations whose closed form does not hold. Rare, so kept out of the way.
+    template <class Mask>
+#if defined(__GNUC__)
+    __attribute__((noinline))
+#endif
+    void
+    fall_back(int joint, const Placement<Real>& place, Mask fits, Overlap<Real>& o) const
+    {
+        const auto [lower, upper] = topology_.joint[joint];
+        const Overlap<Real> g =
+            general_overlap(place, PairSizes<Real>{get(OfBlock::half_width, lower), get(OfBlock::half_height, lower),
+                                                   get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)});
+        o.area = select(fits, o.area, g.area);
+        o.moment_x = select(fits, o.moment_x, g.moment_x);
+        o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
+        o.normal_x = select(fits, o.normal_x, g.normal_x);
+        o.normal_y = select(fits, o.normal_y, g.normal_y);
+        o.elastic = select(fits, o.elastic, g.elastic);
+    }
+
+    STYLOBATE_INLINE void faces(int joint, Scratch& s) const
+    {
+        const auto [lower, upper] = topology_.joint[joint];
+        const Real zero(0.0);
+        const Real sine = get(OfBlock::sine, lower), cosine = Real(1.0) - get(OfBlock::versine, lower);
+        const Real nx = fms(s.normal_x, cosine, s.normal_y * sine);
+        const Real ny = fma(s.normal_x, sine, s.normal_y * cosine);
+        const Real lx = fms(s.arm_x, cosine, s.arm_y * sine);
+        const Real ly = fma(s.arm_x, sine, s.arm_y * cosine);
+        const Real ux = lx - s.apart_x;
+        const Real uy = ly - s.apart_y;
+        const Real wl = get(OfBlock::dtheta, lower), wu = get(OfBlock::dtheta, upper);
+        const Real vx = fma(wl, ly, fnma(wu, uy, get(OfBlock::dx, upper) - get(OfBlock::dx, lower)));
+        const Real vy = fnma(wl, lx, fma(wu, ux, get(OfBlock::dy, upper) - get(OfBlock::dy, lower)));
+        // blocks that do not touch neither close nor slide
+        const auto pressed = s.area > zero;
+        s.closing = select(pressed, fnma(vx, nx, zero - vy * ny), zero);
+        s.sliding = select(pressed, fms(vx, ny, vy * nx), zero);
+        s.normal_x = nx;
+        s.normal_y = ny;
+        s.lower_arm_x = lx;
+        s.lower_arm_y = ly;
+        s.upper_arm_x = ux;
+        s.upper_arm_y = uy;
+    }
+
+    STYLOBATE_INLINE void forces(int begin, int count, const Scratch* scratch) const
+    {
+        Real dashpot_energy = get(OfRealization::dashpot_energy), shear_energy = get(OfRealization::shear_energy);
+        Real friction_energy = get(OfRealization::friction_energy);
+        Real slip_sum = get(OfRealization::slip), path = get(OfRealization::path);
+        for (int j = 0; j < count; ++j) {
+            const int joint = begin + j;
+            const Scratch& s = scratch[j];
+            const auto [lower, upper] = topology_.joint[joint];
+            const JointLaw<Real> law{get(OfJoint::K_n, joint),        get(OfJoint::K_t, joint),
+                                     get(OfJoint::C_n_per_dt, joint), get(OfJoint::C_t_per_dt, joint),
+                                     get(OfJoint::C_n_chord, joint),  get(OfJoint::C_t_chord, joint),
+                                     get(OfJoint::mu, joint)};
+            const ContactForce<Real> f = Mechanism::force(mechanism_, joint, law, s.area, s.chord, s.closing, s.sliding,
+                                                          get(OfJoint::spring, joint));
+            put(OfJoint::spring, joint, f.spring);
+
+            const Real fx = fms(f.normal, s.normal_x, f.tangential * s.normal_y);
+            const Real fy = fma(f.normal, s.normal_y, f.tangential * s.normal_x);
+            put(OfBlock::force_x, upper, get(OfBlock::force_x, upper) + fx);
+            put(OfBlock::force_y, upper, get(OfBlock::force_y, upper) + fy);
+            put(OfBlock::moment, upper, fnma(s.upper_arm_y, fx, fma(s.upper_arm_x, fy, get(OfBlock::moment, upper))));
+            put(OfBlock::force_x, lower, get(OfBlock::force_x, lower) - fx);
+            put(OfBlock::force_y, lower, get(OfBlock::force_y, lower) - fy);
+            put(OfBlock::moment, lower, fma(s.lower_arm_y, fx, fnma(s.lower_arm_x, fy, get(OfBlock::moment, lower))));
+
+            // energy: the work of this step is its displacement times the mean of the forces at its two ends
+            const Real dashpot = fnma(law.K_n, s.area, f.normal);
+            dashpot_energy = fma(dashpot + get(OfJoint::dashpot_force, joint), s.closing, dashpot_energy);
+            put(OfJoint::dashpot_force, joint, dashpot);
+            shear_energy = fma(f.tangential + get(OfJoint::shear_force, joint), s.sliding, shear_energy);
+            put(OfJoint::shear_force, joint, f.tangential);
+            const Real slip = f.excess * get(OfJoint::per_K_t, joint);
+            slip_sum = slip_sum + slip;
+            friction_energy = fma(slip, law.mu * f.normal, friction_energy);
+            path = path + abs_of(s.sliding);
+        }
+        put(OfRealization::dashpot_energy, dashpot_energy);
+        put(OfRealization::shear_energy, shear_energy);
+        put(OfRealization::friction_energy, friction_energy);
+        put(OfRealization::slip, slip_sum);
+        put(OfRealization::path, path);
+    }
+
+    /// Energies at the positions that the step starts from. The kinetic one is the product of the velocities half a
+    /// step before and after: with it, and the works as above, the balance of the scheme is exact.
+    STYLOBATE_INLINE void update(int step, bool audit) const
+    {
+        const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
+        const Real base = L::load(&b_.base_table[step * L::count]);
+        const Real push = gx - base;
+        Real kinetic(0.0), potential(0.0), momentum(0.0);
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            const Real dx = get(OfBlock::dx, i), dy = get(OfBlock::dy, i), dtheta = get(OfBlock::dtheta, i);
+            const Real x = get(OfBlock::x, i), y = get(OfBlock::y, i);
+            const Real per_mass = get(OfBlock::dt2_per_mass, i), mass = get(OfBlock::mass, i);
+            const Real ex = fma(per_mass, get(OfBlock::force_x, i), dx + push);
+            const Real ey = fma(per_mass, get(OfBlock::force_y, i), dy + gy);
+            const Real etheta = fma(get(OfBlock::dt2_per_inertia, i), get(OfBlock::moment, i), dtheta);
+            momentum = fma(mass, dx, momentum);
+            if (audit) {
+                const Real twice = fma(dx, ex, dy * ey);
+                kinetic = fma(mass, twice, fma(get(OfBlock::inertia, i), dtheta * etheta, kinetic));
+                potential = fnma(mass, fma(gx, x, gy * y), potential);
+            }
+            put(OfBlock::dx, i, ex);
+            put(OfBlock::dy, i, ey);
+            put(OfBlock::dtheta, i, etheta);
+            put(OfBlock::x, i, x + ex);
+            put(OfBlock::y, i, y + ey);
+            put(OfBlock::theta, i, get(OfBlock::theta, i) + etheta);
+        }
+        const Real both = get(OfRealization::base_step) + base;
+        put(OfRealization::base_energy, fnma(both, momentum, get(OfRealization::base_energy)));
+        put(OfRealization::base_step, base);
+        put(OfRealization::peak_top, max_of(get(OfRealization::peak_top), abs_of(get(OfBlock::x, topology_.top))));
+        if (audit) {
+            put(OfRealization::kinetic, kinetic);
+            put(OfRealization::potential, potential);
+        }
+    }
+
+    const Topology& topology_;
+    const Bundle b_;
+    const typename Mechanism::State& mechanism_;
+};
+
+/// Runs steps `first` to `last - 1` of the chunk for all realizations of the bundle.
+template <class Real, class Mechanism = Baseline>
+void run_steps(const Topology& topology, const Bundle& bundle, int first, int last,
+               const typename Mechanism::State& state = {})
+{
+    Stepper<Real, Mechanism>(topology, bundle, state).run(first, last);
+}
+
+} // namespace stylobate
