@@ -6,11 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace stylobate
-{
+namespace stylobate {
 
-namespace
-{
+namespace {
 
 constexpr double abrupt = 1e300; // ramps per cycle of an abrupt start: any time > 0 is past it
 

@@ -6,11 +6,9 @@
 #include "ensemble/study.hpp"
 #include "kernels/base_motion.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
-class BaseMotion
-{
+class BaseMotion {
 public:
     BaseMotion() = default;
     /// @param record needed for `ExcitationKind::record`, and must outlive this object

@@ -14,10 +14,15 @@ public:
     using std::runtime_error::runtime_error;
 
     /// "file:line: text"; without the line where `line` is 0.
-    InputError(std::string_view file, long line, std::string_view text)
-        : std::runtime_error(std::string(file) + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " +
-                             std::string(text))
+    InputError(std::string_view file, long line, std::string_view text) : std::runtime_error(join(file, line, text)) {}
+
+private:
+    static std::string join(std::string_view file, long line, std::string_view text)
     {
+        std::string message(file);
+        if (line > 0)
+            message.append(":").append(std::to_string(line));
+        return message.append(": ").append(text);
     }
 };
 

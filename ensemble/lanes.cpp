@@ -9,11 +9,9 @@
 #include <cstdlib>
 #include <new>
 
-namespace stylobate
-{
+namespace stylobate {
 
-namespace
-{
+namespace {
 
 // A realization has come to rest when, after the shaking, its kinetic energy stays below this part of what it takes to
 // topple the weakest part of it, for as long as 2 / p.
@@ -50,12 +48,8 @@ void LaneSet::AlignedFree::operator()(double* p) const
 }
 
 LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern)
-    : study_(study),
-      record_(record),
-      kernels_(kernels),
-      lanes_(static_cast<std::size_t>(kernels.lanes)),
-      place_of_(pattern.blocks.size(), -1),
-      places_(static_cast<std::size_t>(kernels.lanes))
+    : study_(study), record_(record), kernels_(kernels), lanes_(static_cast<std::size_t>(kernels.lanes)),
+      place_of_(pattern.blocks.size(), -1), places_(static_cast<std::size_t>(kernels.lanes))
 {
     const auto take = [&](int block) {
         if (place_of_[static_cast<std::size_t>(block)] < 0) {

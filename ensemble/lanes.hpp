@@ -11,8 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.
 struct Snapshot {
@@ -21,8 +20,7 @@ struct Snapshot {
 
 /// What is done to a realization is a function of it alone: whether it is looked at, ended or set aside depends on the
 /// number of its own steps, never on its lane or on its neighbours.
-class LaneSet
-{
+class LaneSet {
 public:
     /// @param record may be null unless the excitation is one
     LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);

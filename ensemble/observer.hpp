@@ -7,14 +7,14 @@
 namespace stylobate {
 
 struct Progress {
-    std::uint64_t done = 0;       ///< realizations that have ended, those of an earlier part of the run counted
-    std::uint64_t total = 0;      ///< of the study
-    std::uint64_t collapsed = 0;  ///< among `done`
-    std::uint64_t invalid = 0;    ///< among `done`
+    std::uint64_t done = 0;        ///< realizations that have ended, those of an earlier part of the run counted
+    std::uint64_t total = 0;       ///< of the study
+    std::uint64_t collapsed = 0;   ///< among `done`
+    std::uint64_t invalid = 0;     ///< among `done`
     std::uint64_t block_steps = 0; ///< free blocks x steps of this run
-    double seconds = 0;           ///< since this run began
-    double rate = 0;              ///< realizations per second of this run
-    double occupancy = 0;         ///< part of the lanes that worked on a realization
+    double seconds = 0;            ///< since this run began
+    double rate = 0;               ///< realizations per second of this run
+    double occupancy = 0;          ///< part of the lanes that worked on a realization
 };
 
 class Observer {

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace stylobate
-{
+namespace stylobate {
 
 Scales scales_of(const Realization& r)
 {

@@ -3,8 +3,7 @@
 
 #include "ensemble/realization.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
 struct Scales {
     double p_rad_s = 0;      ///< sqrt(3 g / (4 R)), R half the diagonal of the whole free structure

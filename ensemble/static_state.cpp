@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stylobate
-{
+namespace stylobate {
 
-namespace
-{
+namespace {
 
 struct Pose {
     double x, y, theta; ///< centre in the frame of the base, rotation

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Displacements against the reference stack, block by block, and the elastic part of the friction forces.
 struct StaticState {

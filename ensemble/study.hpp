@@ -89,16 +89,16 @@ struct SurfaceSpec {
 
 /// What can be perturbed. The names in study files are the enumerators' names.
 enum class Quantity {
-    friction,           ///< mu; per joint or structure
-    normal_stiffness,   ///< K_N; per joint or structure
+    friction,             ///< mu; per joint or structure
+    normal_stiffness,     ///< K_N; per joint or structure
     tangential_stiffness, ///< K_T; per joint or structure
-    damping_ratio,      ///< both damping ratios at once; per structure
-    drum_width,         ///< B; per block or structure
-    drum_height,        ///< H; per block or structure
-    drum_offset,        ///< horizontal offset of a drum from the axis; per block
-    density,            ///< mass at given sizes; per block or structure
-    tilt,               ///< of the base, out of level; per structure [rad]
-    phase               ///< of the harmonic; per structure [rad]
+    damping_ratio,        ///< both damping ratios at once; per structure
+    drum_width,           ///< B; per block or structure
+    drum_height,          ///< H; per block or structure
+    drum_offset,          ///< horizontal offset of a drum from the axis; per block
+    density,              ///< mass at given sizes; per block or structure
+    tilt,                 ///< of the base, out of level; per structure [rad]
+    phase                 ///< of the harmonic; per structure [rad]
 };
 inline constexpr int quantity_count = 10;
 const char* to_string(Quantity quantity);

@@ -17,6 +17,7 @@ struct ResultHeader {
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;
+    std::uint64_t first = 0;              ///< index of the first row: 0 but for a replay
     std::uint64_t total = 0;              ///< rows
     std::vector<std::string> input_names; ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
                                           ///< column 3 of the two-dimensional dataset input/friction
@@ -48,11 +49,11 @@ struct SurfaceTable {
 
 struct Trajectory {
     std::uint64_t index = 0;
-    std::vector<double> time_s;    ///< (nt)
-    std::vector<double> x_m;       ///< (nt x n_block), row by row: centre in the frame of the base
-    std::vector<double> y_m;       ///< (nt x n_block)
-    std::vector<double> theta_rad; ///< (nt x n_block)
-    std::vector<double> base_x_m;  ///< (nt) displacement of the base
+    std::vector<double> time_s;        ///< (nt)
+    std::vector<double> x_m;           ///< (nt x n_block), row by row: centre in the frame of the base
+    std::vector<double> y_m;           ///< (nt x n_block)
+    std::vector<double> theta_rad;     ///< (nt x n_block)
+    std::vector<double> base_x_m;      ///< (nt) displacement of the base
     std::vector<double> half_width_m;  ///< (n_block)
     std::vector<double> half_height_m; ///< (n_block)
     std::size_t blocks() const { return half_width_m.size(); }
@@ -84,12 +85,16 @@ public:
     /// Rows in the file already, by outcome state, for the progress line. (5)
     std::vector<std::uint64_t> rows_by_state() const;
 
-    /// Takes one row; not thread-safe.
+    /// Takes one row; not thread-safe. A row that is there already changes nothing.
+    /// @throws std::system_error if it cannot be written (full disk); what is written already stays
     void add(const ResultRow& row);
+    /// Takes a trajectory; it is kept in memory until `finish`, so a resumed run adds it again, also where it `has` the
+    /// row.
     void add(const Trajectory& trajectory);
-    /// Writes the surface's table, and marks the file complete. All rows must have been added.
+    /// Writes the surface's table and the trajectories, and marks the file complete, in one step: killed meanwhile, the
+    /// file stays as it was. All rows must have been added. Needs the disk space of the file once more.
     void finish(const SurfaceTable* surface);
-    /// Makes what is written so far safe against the end of the process.
+    /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
 private:

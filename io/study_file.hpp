@@ -17,6 +17,11 @@ namespace stylobate {
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
+/// A relative `excitation.file` is left as it is.
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
+
+/// The canonical TOML text of a study, written from its values: every key with its default, one order, numbers that
+/// read back to the same bits. `parse_study` of it gives the same study, with the same text.
+std::string study_text(const Study& study);
 
 } // namespace stylobate

@@ -7,8 +7,7 @@
 #include "kernels/bundle.hpp"
 #include "kernels/trig.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Which formula; c is the time in cycles of the sine.
 enum class MotionFormula {
@@ -66,7 +65,8 @@ STYLOBATE_INLINE Real base_displacement(MotionFormula formula, const FormulaPara
 }
 
 /// Fills the table for the chunk that begins at each realization's step `first_step` (lanes).
-template <class Real>
+/// @tparam Here see `kernel_table`
+template <class Real, class Here = void>
 void fill_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
 {
     using L = Lanes<Real>;

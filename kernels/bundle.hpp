@@ -9,8 +9,7 @@
 
 #include <cstddef>
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Steps between two looks at a realization (collapsed? at rest? finite?), and the length of the table of base motion.
 inline constexpr int chunk_steps = 64;

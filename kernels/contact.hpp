@@ -3,8 +3,7 @@
 
 #include "kernels/real.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Law of one joint, in units that suit a step: the dashpots act on the displacement of one step, not on a velocity.
 template <class Real>

@@ -3,18 +3,16 @@
 #include <array>
 #include <cassert>
 
-namespace stylobate
-{
+namespace stylobate {
 
 extern const KernelTable scalar_kernels;
 #if defined(STYLOBATE_X86)
-extern const KernelTable avx2_kernels, avx512_kernels;
+extern const KernelTable portable_kernels, avx2_kernels, avx512_kernels;
 #elif defined(STYLOBATE_NEON)
 extern const KernelTable neon_kernels;
 #endif
 
-namespace
-{
+namespace {
 
 constexpr std::array names{"scalar", "avx2", "avx512", "neon"};
 
@@ -78,6 +76,10 @@ const KernelTable& kernels(Isa isa)
         return neon_kernels;
 #endif
     default:
+#if defined(STYLOBATE_X86)
+        if (!__builtin_cpu_supports("fma"))
+            return portable_kernels;
+#endif
         return scalar_kernels;
     }
 }

@@ -5,10 +5,9 @@
 #include "kernels/isa.hpp"
 #include "kernels/step.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
-template <class Real>
+template <class Real, class Here>
 double peak_fma(long count)
 {
     // enough independent chains to hide the latency of the multiply-add
@@ -28,12 +27,13 @@ double peak_fma(long count)
     return out[0];
 }
 
-template <class Real>
+/// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
+template <class Real, class Here>
 constexpr KernelTable kernel_table(Isa isa)
 {
     return {isa, Lanes<Real>::count,
-            [](const Topology& t, const Bundle& b, int first, int last) { run_steps<Real>(t, b, first, last); },
-            fill_base_table<Real>, peak_fma<Real>};
+            [](const Topology& t, const Bundle& b, int first, int last) { run_steps<Real, Here>(t, b, first, last); },
+            fill_base_table<Real, Here>, peak_fma<Real, Here>};
 }
 
 } // namespace stylobate

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stylobate
-{
+namespace stylobate {
 
 enum class Isa { scalar, avx2, avx512, neon };
 

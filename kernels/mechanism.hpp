@@ -7,14 +7,12 @@
 
 #include "kernels/contact.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// The paper's model, and nothing else.
 struct Baseline {
     /// Per-step state and parameters of the mechanism; none here.
-    struct State {
-    };
+    struct State {};
 
     /// The contact law of joint `joint`.
     template <class Real>

@@ -8,8 +8,7 @@
 
 #include "kernels/real.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Where the upper block's bottom face is, seen from the lower block.
 template <class Real>

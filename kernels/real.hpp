@@ -8,20 +8,17 @@
 
 #include <cmath>
 
+// Always inlined, in debug builds too: a function that is compiled for one instruction set must not be the copy that
+// the linker keeps for all.
 #if defined(__CUDACC__)
-#define STYLOBATE_HD __host__ __device__ inline
-#else
-#define STYLOBATE_HD inline
-#endif
-
-#if defined(__GNUC__) && !defined(__CUDACC__)
+#define STYLOBATE_INLINE __host__ __device__ __forceinline__
+#elif defined(__GNUC__)
 #define STYLOBATE_INLINE __attribute__((always_inline)) inline
 #else
-#define STYLOBATE_INLINE STYLOBATE_HD
+#define STYLOBATE_INLINE inline
 #endif
 
-namespace stylobate
-{
+namespace stylobate {
 
 /// Number of realizations in a register, and how to move it from and to memory.
 template <class Real>
@@ -30,56 +27,56 @@ struct Lanes;
 template <>
 struct Lanes<double> {
     static constexpr int count = 1;
-    STYLOBATE_HD static double load(const double* from) { return *from; }
-    STYLOBATE_HD static void store(double* to, double value) { *to = value; }
+    STYLOBATE_INLINE static double load(const double* from) { return *from; }
+    STYLOBATE_INLINE static void store(double* to, double value) { *to = value; }
 };
 
 /// a * b + c with one rounding.
-STYLOBATE_HD double fma(double a, double b, double c)
+STYLOBATE_INLINE double fma(double a, double b, double c)
 {
     return std::fma(a, b, c);
 }
 /// c - a * b with one rounding.
-STYLOBATE_HD double fnma(double a, double b, double c)
+STYLOBATE_INLINE double fnma(double a, double b, double c)
 {
     return std::fma(-a, b, c);
 }
 /// a * b - c with one rounding.
-STYLOBATE_HD double fms(double a, double b, double c)
+STYLOBATE_INLINE double fms(double a, double b, double c)
 {
     return std::fma(a, b, -c);
 }
-STYLOBATE_HD double select(bool mask, double yes, double no)
+STYLOBATE_INLINE double select(bool mask, double yes, double no)
 {
     return mask ? yes : no;
 }
-STYLOBATE_HD double min_of(double a, double b)
+STYLOBATE_INLINE double min_of(double a, double b)
 {
     return a < b ? a : b;
 }
-STYLOBATE_HD double max_of(double a, double b)
+STYLOBATE_INLINE double max_of(double a, double b)
 {
     return a > b ? a : b;
 }
-STYLOBATE_HD double abs_of(double a)
+STYLOBATE_INLINE double abs_of(double a)
 {
     return std::fabs(a);
 }
-STYLOBATE_HD double sqrt_of(double a)
+STYLOBATE_INLINE double sqrt_of(double a)
 {
     return std::sqrt(a);
 }
 /// Nearest integer, halves to the even one.
-STYLOBATE_HD double round_of(double a)
+STYLOBATE_INLINE double round_of(double a)
 {
     return std::nearbyint(a);
 }
 /// `a` with its sign turned where `sign` is negative (or is -0).
-STYLOBATE_HD double turn_sign(double a, double sign)
+STYLOBATE_INLINE double turn_sign(double a, double sign)
 {
     return std::signbit(sign) ? -a : a;
 }
-STYLOBATE_HD bool any(bool mask)
+STYLOBATE_INLINE bool any(bool mask)
 {
     return mask;
 }

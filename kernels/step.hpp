@@ -17,11 +17,9 @@
 #include "kernels/overlap.hpp"
 #include "kernels/trig.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
-namespace detail
-{
+namespace detail {
 
 /// Joints that go through the phases together.
 inline constexpr int joint_group = 8;
@@ -46,8 +44,7 @@ struct JointScratch {
 } // namespace detail
 
 template <class Real, class Mechanism>
-class Stepper
-{
+class Stepper {
 public:
     Stepper(const Topology& topology, const Bundle& bundle, const typename Mechanism::State& mechanism)
         : topology_(topology), b_(bundle), mechanism_(mechanism)

@@ -1,7 +1,12 @@
 #include "kernels/instantiate.hpp"
 #include "kernels/wide.hpp"
 
-namespace stylobate
-{
-extern const KernelTable avx2_kernels = kernel_table<Wide<xsimd::fma3<xsimd::avx2>>>(Isa::avx2);
-}
+namespace stylobate {
+
+namespace {
+struct Here : Baseline {};
+} // namespace
+
+extern const KernelTable avx2_kernels = kernel_table<Wide<xsimd::fma3<xsimd::avx2>>, Here>(Isa::avx2);
+
+} // namespace stylobate

@@ -1,7 +1,12 @@
 #include "kernels/instantiate.hpp"
 #include "kernels/wide.hpp"
 
-namespace stylobate
-{
-extern const KernelTable avx512_kernels = kernel_table<Wide<xsimd::avx512dq>>(Isa::avx512);
-}
+namespace stylobate {
+
+namespace {
+struct Here : Baseline {};
+} // namespace
+
+extern const KernelTable avx512_kernels = kernel_table<Wide<xsimd::avx512dq>, Here>(Isa::avx512);
+
+} // namespace stylobate

@@ -1,7 +1,12 @@
 #include "kernels/instantiate.hpp"
 #include "kernels/wide.hpp"
 
-namespace stylobate
-{
-extern const KernelTable neon_kernels = kernel_table<Wide<xsimd::neon64>>(Isa::neon);
-}
+namespace stylobate {
+
+namespace {
+struct Here : Baseline {};
+} // namespace
+
+extern const KernelTable neon_kernels = kernel_table<Wide<xsimd::neon64>, Here>(Isa::neon);
+
+} // namespace stylobate

@@ -1,6 +1,12 @@
 #include "kernels/instantiate.hpp"
 
-namespace stylobate
-{
-extern const KernelTable scalar_kernels = kernel_table<double>(Isa::scalar);
-}
+namespace stylobate {
+
+namespace {
+struct Here : Baseline {};
+} // namespace
+
+// Needs the fused multiply-add: every x86-64 processor since 2013, and all of arm64.
+extern const KernelTable scalar_kernels = kernel_table<double, Here>(Isa::scalar);
+
+} // namespace stylobate

@@ -1,8 +1,7 @@
 #pragma once
 /// Which blocks meet at which joints: a list, so that a column, a colonnade and a heap are the same to the kernel.
 
-namespace stylobate
-{
+namespace stylobate {
 
 struct TopologyJoint {
     int lower = 0; ///< the overlap is described in this block's frame

@@ -8,8 +8,7 @@
 
 #include "kernels/real.hpp"
 
-namespace stylobate
-{
+namespace stylobate {
 
 template <class Real>
 struct Angle {
@@ -17,8 +16,7 @@ struct Angle {
     Real versine; ///< 1 - cos, which keeps its digits where the angle is small
 };
 
-namespace detail
-{
+namespace detail {
 
 template <class Real>
 STYLOBATE_INLINE Angle<Real> reduced_angle(Real r)

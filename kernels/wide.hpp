@@ -7,8 +7,7 @@
 
 #include <xsimd/xsimd.hpp>
 
-namespace stylobate
-{
+namespace stylobate {
 
 template <class Arch>
 struct Wide {

@@ -1,0 +1,98 @@
+/// The kernel alone, and what the machine could do at the most.
+
+#include "bench/counted.hpp"
+#include "bench/scenes.hpp"
+#include "ensemble/lanes.hpp"
+#include "kernels/step.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+using namespace stylobate;
+
+namespace {
+
+/// Rate of multiply-adds on registers, two operations each.
+void peak_fma(benchmark::State& state, Isa isa)
+{
+    constexpr long count = 12'000'000;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(kernels(isa).peak_fma(count));
+    const double flops = 2.0 * count * kernels(isa).lanes;
+    state.counters["flops_per_second"] =
+        benchmark::Counter(flops, benchmark::Counter::kIsIterationInvariantRate, benchmark::Counter::kIs1000);
+}
+
+/// What a block costs in one step: the step counted on a bundle of one realization that rocks.
+OperationCounts operations_per_block_step(int blocks)
+{
+    const Study study = rocking_column(blocks);
+    const Sampler sampler(study, nullptr);
+    std::vector<TopologyJoint> joints;
+    for (int i = 1; i < blocks; ++i)
+        joints.push_back({i - 1, i});
+    const Topology topology{blocks, 1, blocks - 1, blocks - 1, joints.data()};
+    std::vector<double> memory(bundle_registers(topology), 0.0);
+    const Bundle b = bind_bundle(topology, 1, memory.data());
+    const Realization r = sampler.realization(0);
+    for (int i = 0; i < blocks; ++i) {
+        const Block& block = r.blocks[static_cast<std::size_t>(i)];
+        b.at(OfBlock::half_width, i, 0) = block.half_width_m;
+        b.at(OfBlock::half_height, i, 0) = block.half_height_m;
+        b.at(OfBlock::y, i, 0) = -1e-6 * i;
+    }
+    for (int j = 0; j < blocks - 1; ++j) {
+        b.at(OfJoint::height, j, 0) = 0.029;
+        b.at(OfJoint::depth_limit, j, 0) = 0.001;
+        b.at(OfJoint::K_n, j, 0) = 1e8;
+    }
+    counted = {};
+    Stepper<Counted, Baseline>(topology, b, {}).run(0, 16);
+    const long block_steps = 16L * (blocks - 1);
+    return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
+            counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,
+            counted.store / block_steps};
+}
+
+/// A bundle as the ensemble runs it: base motion, steps, and the look at each realization after every chunk.
+void step(benchmark::State& state, Isa isa, int blocks)
+{
+    const Study study = rocking_column(blocks);
+    const Sampler sampler(study, nullptr);
+    LaneSet lanes(study, nullptr, kernels(isa), sampler.realization(0));
+    std::uint64_t next = 0;
+    for (int lane = 0; lane < lanes.lanes(); ++lane)
+        lanes.load(lane, sampler.realization(next++));
+    for (int chunk = 0; chunk < 100; ++chunk) // into the motion
+        lanes.advance();
+    for (auto _ : state) {
+        lanes.advance();
+        for (int lane = 0; lane < lanes.lanes(); ++lane)
+            if (lanes.outcome(lane)) {
+                state.PauseTiming();
+                lanes.load(lane, sampler.realization(next++));
+                state.ResumeTiming();
+            }
+    }
+    const OperationCounts per = operations_per_block_step(blocks);
+    const double block_steps = static_cast<double>(lanes.lanes()) * (blocks - 1) * chunk_steps;
+    using benchmark::Counter;
+    state.counters["block_steps_per_second"] = Counter(block_steps, Counter::kIsIterationInvariantRate);
+    state.counters["flops_per_second"] =
+        Counter(block_steps * static_cast<double>(per.flops()), Counter::kIsIterationInvariantRate);
+    state.counters["flops_per_block_step"] = static_cast<double>(per.flops());
+    state.counters["divisions_per_block_step"] = static_cast<double>(per.div + per.sqrt);
+}
+
+const bool registered = [] {
+    for (const Isa isa : usable_isas()) {
+        const std::string name = to_string(isa);
+        benchmark::RegisterBenchmark(("BM_PeakFma/" + name).c_str(), peak_fma, isa);
+        for (const int blocks : {2, 4, 7, 13, 25, 49})
+            benchmark::RegisterBenchmark(("BM_Step/" + name + "/" + std::to_string(blocks)).c_str(), step, isa, blocks);
+    }
+    return true;
+}();
+
+} // namespace

@@ -1,0 +1,18 @@
+# Writes OUTPUT with the version and the commit, and leaves it alone if nothing has changed.
+set(version "${VERSION}")
+find_package(Git QUIET)
+if(GIT_FOUND)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty --exclude=* --abbrev=10
+    WORKING_DIRECTORY ${SOURCE_DIR} OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(commit)
+    string(APPEND version "+${commit}")
+  endif()
+endif()
+set(text "#include \"studies/version.hpp\"\n\nconst char* stylobate::code_version()\n{\n    return \"${version}\";\n}\n")
+set(old "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()

@@ -1,0 +1,120 @@
+#include "ensemble/distribution.hpp"
+
+#include "ensemble/input_error.hpp"
+
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const char* name(DistributionKind kind)
+{
+    switch (kind) {
+    case DistributionKind::normal:
+        return "normal";
+    case DistributionKind::lognormal:
+        return "lognormal";
+    case DistributionKind::uniform:
+        return "uniform";
+    case DistributionKind::log_uniform:
+        return "log_uniform";
+    }
+    return "?";
+}
+
+double log_ratio(double a, double b)
+{
+    return static_cast<double>(std::log(static_cast<long double>(a) / b));
+}
+
+} // namespace
+
+Distribution::Distribution(const Perturbation& perturbation, double nominal)
+    : kind_(perturbation.distribution), location_(nominal), scale_(0), min_(perturbation.min.value_or(-infinity)),
+      max_(perturbation.max.value_or(infinity))
+{
+    const boost::math::normal_distribution<double> standard;
+    const auto none_left = [&] {
+        return InputError(fmt::format("perturbation.{}: a {} distribution about the nominal value {:g} has no "
+                                      "probability between min = {:g} and max = {:g}. Widen these limits, or leave "
+                                      "them out.",
+                                      to_string(perturbation.quantity), name(kind_), nominal, min_, max_));
+    };
+    const auto set_tails = [&](double lower, double upper) {
+        // quantities at infinity are taken from the initial values: Boost refuses infinite arguments in some versions
+        if (lower > -infinity) {
+            below_min_ = cdf(standard, lower);
+            above_min_ = cdf(complement(standard, lower));
+        }
+        if (upper < infinity) {
+            below_max_ = cdf(standard, upper);
+            above_max_ = cdf(complement(standard, upper));
+        }
+        const double inside = lower > 0 ? above_min_ - above_max_ : below_max_ - below_min_;
+        if (!(inside > 0))
+            throw none_left();
+    };
+
+    switch (kind_) {
+    case DistributionKind::normal:
+        scale_ = perturbation.cov > 0 ? perturbation.cov * std::abs(nominal) : perturbation.sd;
+        if (scale_ > 0)
+            set_tails((min_ - location_) / scale_, (max_ - location_) / scale_);
+        break;
+    case DistributionKind::lognormal:
+        if (!(nominal > 0))
+            throw InputError(fmt::format("perturbation.{}: a lognormal distribution needs a nominal value above 0, and "
+                                         "it is {:g}. Use \"normal\" with an sd instead.",
+                                         to_string(perturbation.quantity), nominal));
+        scale_ = perturbation.sigma_ln;
+        if (!(max_ > 0))
+            throw none_left();
+        if (scale_ > 0)
+            set_tails(min_ > 0 ? log_ratio(min_, nominal) / scale_ : -infinity,
+                      max_ < infinity ? log_ratio(max_, nominal) / scale_ : infinity);
+        break;
+    case DistributionKind::uniform:
+    case DistributionKind::log_uniform:
+        location_ = std::max(perturbation.from, min_);
+        scale_ = std::min(perturbation.to, max_);
+        if (!(location_ <= scale_))
+            throw none_left();
+        min_ = location_;
+        max_ = scale_;
+        break;
+    }
+    // without spread the distribution is the nominal value
+    if (scale_ == 0 && (location_ < min_ || location_ > max_))
+        throw none_left();
+}
+
+double Distribution::value(double u) const
+{
+    if (kind_ == DistributionKind::uniform)
+        return std::clamp(location_ * (1 - u) + scale_ * u, min_, max_);
+    if (kind_ == DistributionKind::log_uniform) {
+        const long double a = std::log(static_cast<long double>(location_));
+        const long double b = std::log(static_cast<long double>(scale_));
+        return std::clamp(static_cast<double>(std::exp(a * (1 - u) + b * u)), min_, max_);
+    }
+    if (scale_ == 0)
+        return location_;
+
+    const boost::math::normal_distribution<double> standard;
+    const double below = below_min_ * (1 - u) + below_max_ * u;
+    const double above = above_min_ * (1 - u) + above_max_ * u;
+    const double z = below <= above ? quantile(standard, below) : quantile(complement(standard, above));
+    const double x = kind_ == DistributionKind::normal
+                         ? location_ + scale_ * z
+                         : static_cast<double>(location_ * std::exp(static_cast<long double>(scale_) * z));
+    return std::clamp(x, min_, max_);
+}
+
+} // namespace stylobate

@@ -1,0 +1,38 @@
+#pragma once
+/// From a uniform number to a value of a perturbed quantity.
+
+#include "ensemble/study.hpp"
+
+namespace stylobate {
+
+/// The distribution of one perturbed quantity about its nominal value, truncated to [min, max] where these are given
+/// (see `Perturbation`). Sampled by inversion: one uniform number in, one value out, non-decreasing.
+///
+/// The truncated normal is inverted through the tail that is nearer, so that it keeps its relative accuracy when
+/// both limits lie far out on one side. Logarithms and exponentials are those of the C library in long double, rounded
+/// to double once: on machines with a long double of 64 bits or more in the significand the value does not depend on
+/// which version of `exp` the library picks for the processor, except in rare ties.
+class Distribution {
+public:
+    /// @param nominal value of the quantity without perturbation, in its unit
+    /// @throws InputError if no probability lies between min and max, or if a lognormal has nominal <= 0
+    Distribution(const Perturbation& perturbation, double nominal);
+
+    /// @param u uniform in (0, 1)
+    /// @return the value, within [min, max], in the quantity's unit
+    double value(double u) const;
+
+private:
+    DistributionKind kind_;
+    double location_; ///< mean; nominal of a lognormal; from
+    double scale_;    ///< standard deviation; of a lognormal that of ln value; for the uniform ones: to
+    double min_;      ///< -infinity where there is none
+    double max_;      ///< infinity where there is none
+    // normal and lognormal: probabilities below and above min and max, both kept because 1 - p loses the tail
+    double below_min_ = 0;
+    double below_max_ = 1;
+    double above_min_ = 1;
+    double above_max_ = 0;
+};
+
+} // namespace stylobate

@@ -1,0 +1,154 @@
+#include "ensemble/executor.hpp"
+
+#include "ensemble/lanes.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <optional>
+
+namespace stylobate {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the workers share.
+class Run {
+public:
+    Run(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
+        const RunPlan& plan, Observer& observer)
+        : study_(study), sampler_(sampler), record_(record), kernels_(kernels(options.isa)), plan_(plan),
+          observer_(observer), progress_(plan.before), pattern_(sampler.realization(0))
+    {
+        progress_.total = plan.total;
+    }
+
+    /// One worker: a bundle that is refilled until nothing is left.
+    void work() noexcept
+    {
+        try {
+            LaneSet lanes(study_, record_, kernels_, pattern_);
+            for (int lane = 0; lane < lanes.lanes(); ++lane)
+                refill(lanes, lane);
+            while (lanes.active() > 0 && !stopped_) {
+                const auto active = static_cast<std::uint64_t>(lanes.active());
+                lanes.advance();
+                lane_chunks_ += static_cast<std::uint64_t>(lanes.lanes());
+                active_chunks_ += active;
+                for (int lane = 0; lane < lanes.lanes(); ++lane)
+                    if (lanes.outcome(lane)) {
+                        deliver(lanes.realization(lane), *lanes.outcome(lane));
+                        refill(lanes, lane);
+                    }
+                report(false);
+            }
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!error_)
+                error_ = std::current_exception();
+            stopped_ = true;
+        }
+    }
+
+    Progress finish()
+    {
+        if (error_)
+            std::rethrow_exception(error_);
+        report(true);
+        return progress_;
+    }
+
+private:
+    void refill(LaneSet& lanes, int lane)
+    {
+        if (const std::optional<std::uint64_t> index = next())
+            lanes.load(lane, sampler_.realization(*index));
+        else
+            lanes.clear(lane);
+    }
+
+    std::optional<std::uint64_t> next()
+    {
+        const std::lock_guard lock(mutex_);
+        while (next_ < plan_.total && plan_.done && plan_.done(next_))
+            ++next_;
+        if (next_ >= plan_.total || stopped_)
+            return std::nullopt;
+        return next_++;
+    }
+
+    void deliver(const Realization& realization, const Outcome& outcome)
+    {
+        const std::lock_guard lock(mutex_);
+        plan_.sink(realization, outcome);
+        ++progress_.done;
+        progress_.collapsed += outcome.state == State::collapsed;
+        progress_.invalid += outcome.state == State::invalid;
+        std::uint64_t free_blocks = 0;
+        for (const Block& block : realization.blocks)
+            free_blocks += !block.fixed;
+        progress_.block_steps += free_blocks * outcome.steps;
+        ++delivered_;
+    }
+
+    /// Tells the observer, at most ten times a second unless it is the last time, and asks whether to go on.
+    void report(bool last)
+    {
+        const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+        if (!last && seconds < next_report_)
+            return;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock.owns_lock())
+            return;
+        next_report_ = seconds + 0.1;
+        progress_.seconds = seconds;
+        progress_.rate = seconds > 0 ? static_cast<double>(delivered_) / seconds : 0;
+        const std::uint64_t chunks = lane_chunks_;
+        progress_.occupancy = chunks > 0 ? static_cast<double>(active_chunks_) / static_cast<double>(chunks) : 0;
+        observer_.progress(progress_);
+        if (observer_.stop_requested())
+            stopped_ = true;
+    }
+
+    const Study& study_;
+    const Sampler& sampler_;
+    const Motion* record_;
+    const KernelTable& kernels_;
+    const RunPlan& plan_;
+    Observer& observer_;
+    const Clock::time_point start_ = Clock::now();
+    std::mutex mutex_; ///< guards the sink, the observer and what follows
+    Progress progress_;
+    std::uint64_t next_ = 0;
+    std::uint64_t delivered_ = 0;
+    std::exception_ptr error_;
+    std::atomic<double> next_report_ = 0;
+    std::atomic<bool> stopped_ = false;
+    std::atomic<std::uint64_t> lane_chunks_ = 0, active_chunks_ = 0;
+    const Realization pattern_; ///< the topology that all realizations share
+};
+
+} // namespace
+
+Progress run_ensemble(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
+                      const RunPlan& plan, Observer& observer)
+{
+    Run run(study, sampler, record, options, plan, observer);
+    // TBB would otherwise not start more threads than there are cores
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(options.threads));
+    tbb::task_arena arena(options.threads);
+    arena.execute([&] {
+        tbb::parallel_for(
+            0, options.threads, [&](int) { run.work(); }, tbb::simple_partitioner());
+    });
+    return run.finish();
+}
+
+} // namespace stylobate

@@ -1,0 +1,34 @@
+#pragma once
+/// Intervals for a probability that is estimated from trials.
+///
+/// Surfaces use Jeffreys' interval. Exact coverage at level 0.95, by summing the binomial probabilities:
+///
+///                        n = 16          n = 64          n = 256
+///   average over p       J .9516 W .9533  J .9500 W .9515  J .9499 W .9506
+///   worst p              J .8962 W .8362  J .8822 W .8377  J .8777 W .8381
+///   average width        J .3556 W .3587  J .1882 W .1892  J .0957 W .0958
+///
+/// Both are right on average. Wilson's fails most at p = 0.18 / n, and most cells of a collapse surface have a
+/// probability near 0 or 1; Jeffreys' errs less there, and is not wider.
+
+#include <cstdint>
+
+namespace stylobate {
+
+struct BinomialInterval {
+    double lower = 0;
+    double upper = 1;
+};
+
+/// Wilson's score interval: all probabilities that a two-sided normal test with the true variance does not reject.
+///
+/// @param level confidence, in (0, 1)
+/// @pre successes <= trials
+/// @return [0, 1] without trials; the lower limit is exactly 0 at no success, the upper one exactly 1 at no failure
+BinomialInterval wilson(std::uint64_t trials, std::uint64_t successes, double level);
+
+/// Jeffreys' interval: equal tails of the posterior Beta(successes + 1/2, failures + 1/2); the lower limit is 0 at no
+/// success and the upper one 1 at no failure. Arguments and result as above.
+BinomialInterval jeffreys(std::uint64_t trials, std::uint64_t successes, double level);
+
+} // namespace stylobate

@@ -1,0 +1,34 @@
+#pragma once
+/// Random numbers that are a pure function of where they are used: no state, no order, no thread matters.
+///
+/// Philox4x64-10 of Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as 1, 2, 3" (2011), from Random123:
+/// the key is (seed, realization index), the counter is (stream, element, 0, 0), and the first of the four words is
+/// the draw.
+
+#include <cstdint>
+
+namespace stylobate {
+
+/// What a draw is for. A number stands for ever: a new entry takes a new number and none is reused, or the
+/// realizations of every older study would change. 0 to 63 are for the perturbed quantities of a study.
+enum class Stream : std::uint64_t {
+    friction = 0,             ///< coefficient of friction; element = joint, from the bottom
+    normal_stiffness = 1,     ///< K_N; element = joint
+    tangential_stiffness = 2, ///< K_T; element = joint
+    damping_ratio = 3,        ///< damping ratios of the dashpots; element = 0
+    drum_width = 4,           ///< B; element = block, from the bottom
+    drum_height = 5,          ///< H; element = block
+    drum_offset = 6,          ///< horizontal offset of a drum; element = block
+    density = 7,              ///< mass at given sizes; element = block
+    tilt = 8,                 ///< base out of level; element = 0
+    phase = 9                 ///< phase of the harmonic; element = 0
+};
+
+/// 64 random bits. What belongs to the structure as a whole uses element 0.
+std::uint64_t random_bits(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element);
+
+/// A number in the open interval (0, 1): an odd multiple of 2^-53, each equally likely. Never 0 or 1, exact in
+/// double, and so is its complement 1 - u, which is on the same grid.
+double uniform01(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element);
+
+} // namespace stylobate

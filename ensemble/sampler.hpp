@@ -1,0 +1,58 @@
+#pragma once
+/// From a study and an index to one realization.
+
+#include "ensemble/distribution.hpp"
+#include "ensemble/motion.hpp"
+#include "ensemble/random.hpp"
+#include "ensemble/realization.hpp"
+#include "ensemble/study.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Draws the realizations of a study. Each is a pure function of (study, index): asking for them in another order,
+/// twice, or from several threads at once changes nothing.
+class Sampler {
+public:
+    /// @param record the base motion of a study with `excitation.kind = "record"`, else ignored; not kept
+    /// @throws InputError if a perturbation leaves no probability between its limits
+    /// @throws std::invalid_argument if such a study comes without its record
+    Sampler(const Study& study, const Motion* record);
+
+    /// @param index from 0 to study.total() - 1; in a surface it says the cell too
+    /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
+    ///         that this is meant
+    Realization realization(std::uint64_t index) const;
+
+    /// Names of `Realization::inputs`: "friction[0]", "friction[1]" and so on for each joint (or block), from the
+    /// bottom; the name alone for what is drawn once for the structure.
+    const std::vector<std::string>& input_names() const { return input_names_; }
+
+private:
+    struct Drawn {
+        Quantity quantity;
+        Stream stream;
+        std::size_t draws; ///< joints, blocks or 1
+        Distribution distribution;
+    };
+    struct Values;
+
+    std::size_t count(Quantity quantity) const;
+    double nominal(Quantity quantity) const;
+    Values draw(std::uint64_t index, std::vector<double>& inputs) const;
+    void stack(const Values& values, Realization& realization) const;
+    void join(const Values& values, Realization& realization) const;
+    void shake(const Values& values, Realization& realization) const;
+    double step(const Realization& realization) const;
+
+    Study study_;
+    double record_frequency_hz_ = 0;
+    double record_pga_m_s2_ = 0;
+    std::vector<Drawn> drawn_; ///< in the order of the study
+    std::vector<std::string> input_names_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,71 @@
+#pragma once
+/// How long a time step may be, from the linear vibrations of the stack.
+///
+/// The scheme is the central difference with the dashpots at the velocity of the step before (Eqs. 1, 2, 4 to 6):
+///
+///   M (u[n+1] - 2 u[n] + u[n-1]) = -dt2 K u[n] - dt C (u[n] - u[n-1])
+///
+/// With u[n] = v lambda^n and the quotients m, c, k of v it is stable while 4 m - 2 dt c - dt2 k > 0 for every v, so
+/// while 4 M - 2 dt C - dt2 K is positive definite; instability begins at lambda = -1.
+
+#include "ensemble/realization.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// What sets the bound.
+enum class StepLimit {
+    stiffness,   ///< full contacts, no dashpot in the structure
+    dashpot,     ///< full contacts with their dashpots
+    edge_dashpot ///< a dashpot that keeps its coefficient while only an edge of the contact is left
+};
+
+/// "stiffness of the contacts" and so on, for messages.
+const char* to_string(StepLimit limit);
+
+struct StepBound {
+    double dt_s = 0;        ///< the safe bound: the smallest of what follows
+    double stiffness_s = 0; ///< full contacts without dashpots: 2 / w
+    double dashpot_s = 0;   ///< full contacts with dashpots: (2 / w) (sqrt(1 + z2) - z)
+    double edge_s = 0;      ///< dashpots at an edge; infinity where there are none
+    StepLimit governed_by = StepLimit::stiffness;
+    int block = 0; ///< that sets w
+};
+
+/// A step that is safe for every state of the contacts between the blocks, from the realization's own parameters.
+///
+/// Full contacts: w2 = 2 max over the free blocks of eig(M^-1 sum K_bb), K_bb the 3 x 3 stiffness of a block from
+/// each of its joints. It bounds the whole stack's because a joint's energy is at most twice the sum of what each of
+/// its two blocks would store with the other one held. A partial contact is a part of the full one and softer.
+///
+/// With dashpots: C <= beta K in each joint with beta = max(C_N / k_n, C_T / K_T), so z = beta w / 2 = C w / (2 k),
+/// the largest over the joints. For equal drums it is xi w / sqrt(min(k_n, K_T) / m), and coefficients that were given
+/// as such work alike.
+///
+/// Edge: a dashpot with a constant coefficient (`damping_chord_m` == 0) stays as it is when the contact has shrunk to
+/// an edge, where the stiffness has gone and the effective mass is smaller, 1 / G with G = 1/m + b2/I for the normal
+/// direction. A block's rebound does not change sign in one step while dt times the largest eigenvalue of G diag(C_N,
+/// C_T) is below 1 (G: 2 x 2, both blocks, at the corner where it is largest). A block that is held at edges by two
+/// joints at once then has at most 2, which is where the scheme becomes unstable.
+///
+/// @pre at least one joint; stiffnesses, sizes and masses above 0
+StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints);
+
+/// The linear vibrations of the whole structure about its static equilibrium, all contacts full, no slip.
+struct LinearResponse {
+    std::vector<double> frequency_hz; ///< undamped natural frequencies, ascending (3 x free blocks); 0 for a shape in
+                                      ///< which the structure buckles under its weight
+    double undamped_step_s = 0;       ///< critical step without dashpots: 2 / w_max
+    double step_s = 0;                ///< critical step of the scheme with its dashpots
+};
+
+/// Exact where `step_bound` is a bound; cost grows with the cube of the number of blocks. Gravity enters through the
+/// weight N that each joint carries: each of its blocks leans on the joint from half its height above or below, which
+/// takes N H / 2 from its rotational stiffness.
+///
+/// @param gravity_m_s2 0 leaves the weight out
+/// @pre as above, and every free block is connected to a fixed one by joints
+LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2);
+
+} // namespace stylobate

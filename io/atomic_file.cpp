@@ -1,0 +1,67 @@
+#include "io/atomic_file.hpp"
+
+#include "ensemble/input_error.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace stylobate {
+
+AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
+{
+    std::error_code ignored;
+    if (file_.filename().empty() || std::filesystem::is_directory(file_, ignored))
+        fail(EISDIR);
+    temporary_ = (file_.parent_path() / fmt::format(".{}.XXXXXX", file_.filename().string())).string();
+    descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+    if (descriptor_ < 0)
+        fail(errno);
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (descriptor_ < 0)
+        return;
+    ::close(descriptor_);
+    ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view content)
+{
+    while (!content.empty()) {
+        const ssize_t written = ::write(descriptor_, content.data(), content.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            fail(errno);
+        content.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void AtomicFile::commit()
+{
+    // mkostemp makes the file private; its reader is whoever the user's umask says.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0 ||
+        ::rename(temporary_.c_str(), file_.c_str()) != 0)
+        fail(errno);
+    ::close(descriptor_);
+    descriptor_ = -1;
+}
+
+void AtomicFile::fail(int error) const
+{
+    throw InputError(
+        fmt::format("cannot write '{}': {}.\n  Name a file in a folder that exists, can be written and has "
+                    "room; nothing was written.",
+                    file_.string(), std::generic_category().message(error)));
+}
+
+} // namespace stylobate

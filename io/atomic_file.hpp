@@ -1,0 +1,34 @@
+#pragma once
+/// A file that appears whole or not at all.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace stylobate {
+
+/// Written under another name beside its target, and renamed by `commit`. Without a commit nothing remains,
+/// and a file that bore the name before stays as it was.
+class AtomicFile {
+public:
+    /// @throws InputError if the folder is missing or cannot be written, or if `file` is a folder
+    explicit AtomicFile(std::filesystem::path file);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// @throws InputError if the content cannot be written (full disk)
+    void write(std::string_view content);
+    /// Makes the content safe on the disk and gives the file its name.
+    /// @throws InputError if that fails
+    void commit();
+
+private:
+    [[noreturn]] void fail(int error) const;
+
+    std::filesystem::path file_;
+    std::string temporary_;
+    int descriptor_ = -1;
+};
+
+} // namespace stylobate

@@ -1,0 +1,217 @@
+#include "io/export_csv.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/atomic_file.hpp"
+
+#include <array>
+#include <fmt/format.h>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace stylobate {
+namespace {
+
+/// One line of a table, field by field.
+class Line {
+public:
+    explicit Line(std::string& text) : text_(text) {}
+    ~Line() { text_ += '\n'; }
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+
+    template <class Number>
+    Line& operator<<(Number value)
+    {
+        separate();
+        // fmt's default for doubles is the shortest decimal that reads back as the same double.
+        fmt::format_to(std::back_inserter(text_), "{}", value);
+        return *this;
+    }
+    Line& operator<<(std::string_view value)
+    {
+        separate();
+        if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
+            text_ += value;
+            return *this;
+        }
+        text_ += '"';
+        for (const char c : value)
+            text_.append(c == '"' ? 2 : 1, c);
+        text_ += '"';
+        return *this;
+    }
+    Line& operator<<(const char* value) { return *this << std::string_view(value); }
+    Line& operator<<(const std::string& value) { return *this << std::string_view(value); }
+
+private:
+    void separate()
+    {
+        if (!first_)
+            text_ += ',';
+        first_ = false;
+    }
+
+    std::string& text_;
+    bool first_ = true;
+};
+
+/// "normal_stiffness[3]" -> "input_normal_stiffness_n_m2[3]".
+std::string input_column(const std::string& name)
+{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> units{{
+        {"normal_stiffness", "_n_m2"},
+        {"tangential_stiffness", "_n_m"},
+        {"drum_width", "_m"},
+        {"drum_height", "_m"},
+        {"drum_offset", "_m"},
+        {"density", "_kg_m3"},
+        {"tilt", "_rad"},
+        {"phase", "_rad"},
+    }};
+    const std::string_view quantity = std::string_view(name).substr(0, name.find('['));
+    for (const auto& [known, unit] : units)
+        if (quantity == known)
+            return fmt::format("input_{}{}{}", quantity, unit, std::string_view(name).substr(quantity.size()));
+    return "input_" + name;
+}
+
+std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows)
+{
+    std::string text;
+    {
+        Line line(text);
+        line << "index"
+             << "cell"
+             << "frequency_hz"
+             << "pga_m_s2";
+        for (const std::string& name : header.input_names)
+            line << input_column(name);
+        line << "state"
+             << "invalid_reason"
+             << "collapse_time_s"
+             << "first_collapse_block"
+             << "peak_top_displacement_m"
+             << "residual_top_displacement_m"
+             << "total_sliding_m"
+             << "total_rocking_rad"
+             << "sliding_path_m"
+             << "max_relative_rotation_rad"
+             << "energy_kinetic_j"
+             << "energy_potential_j"
+             << "energy_spring_j"
+             << "energy_friction_j"
+             << "energy_damping_j"
+             << "energy_base_work_j"
+             << "energy_residual"
+             << "end_time_s"
+             << "step_s"
+             << "steps";
+    }
+    for (const ResultRow& row : rows) {
+        if (row.inputs.size() != header.input_names.size())
+            throw InputError(fmt::format("realization {} has {} inputs where {} are named: the results are damaged.\n"
+                                         "  Run the study again into a new file.",
+                                         row.index, row.inputs.size(), header.input_names.size()));
+        Line line(text);
+        line << row.index << row.cell << row.frequency_hz << row.pga_m_s2;
+        for (const double value : row.inputs)
+            line << value;
+        const Outcome& o = row.outcome;
+        line << to_string(o.state) << to_string(o.invalid_reason) << o.collapse_time_s << o.first_collapse_block
+             << o.peak_top_displacement_m << o.residual_top_displacement_m << o.total_sliding_m << o.total_rocking_rad
+             << o.sliding_path_m << o.max_relative_rotation_rad << o.energy_kinetic_j << o.energy_potential_j
+             << o.energy_spring_j << o.energy_friction_j << o.energy_damping_j << o.energy_base_work_j
+             << o.energy_residual << o.end_time_s << o.step_s << o.steps;
+    }
+    return text;
+}
+
+std::string surface_text(const SurfaceTable& surface)
+{
+    const std::size_t columns = surface.pga_m_s2.size();
+    const std::size_t cells = surface.frequency_hz.size() * columns;
+    if (surface.trials.size() != cells || surface.collapses.size() != cells || surface.probability.size() != cells ||
+        surface.lower.size() != cells || surface.upper.size() != cells)
+        throw InputError(fmt::format("the surface has {} x {} cells, but its tables have other sizes: the results are "
+                                     "damaged.\n  Run the study again into a new file.",
+                                     surface.frequency_hz.size(), columns));
+    std::string text;
+    Line(text) << "cell"
+               << "frequency_hz"
+               << "pga_m_s2"
+               << "trials"
+               << "collapses"
+               << "probability"
+               << "lower"
+               << "upper"
+               << "interval";
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        Line(text) << cell << surface.frequency_hz[cell / columns] << surface.pga_m_s2[cell % columns]
+                   << surface.trials[cell] << surface.collapses[cell] << surface.probability[cell]
+                   << surface.lower[cell] << surface.upper[cell] << surface.interval;
+    return text;
+}
+
+} // namespace
+
+void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
+               const SurfaceTable& surface)
+{
+    const std::string realizations = realizations_text(header, rows);
+    const bool has_surface = !surface.frequency_hz.empty() && !surface.pga_m_s2.empty();
+    const std::string cells = has_surface ? surface_text(surface) : std::string();
+
+    std::error_code error;
+    std::filesystem::create_directory(folder, error);
+    if (error)
+        throw InputError(fmt::format("cannot make the folder '{}': {}.\n  Name a folder whose parent exists and can be "
+                                     "written; nothing was written.",
+                                     folder.string(), error.message()));
+    AtomicFile realizations_file(folder / "realizations.csv");
+    realizations_file.write(realizations);
+    if (has_surface) {
+        AtomicFile surface_file(folder / "surface.csv");
+        surface_file.write(cells);
+        surface_file.commit();
+    }
+    realizations_file.commit();
+}
+
+void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory)
+{
+    const std::size_t blocks = trajectory.blocks();
+    const std::size_t samples = trajectory.time_s.size();
+    if (trajectory.half_height_m.size() != blocks || trajectory.base_x_m.size() != samples ||
+        trajectory.x_m.size() != samples * blocks || trajectory.y_m.size() != samples * blocks ||
+        trajectory.theta_rad.size() != samples * blocks)
+        throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
+                                     "  Replay the realization into a new file.",
+                                     trajectory.index));
+    std::string text;
+    {
+        Line line(text);
+        line << "time_s"
+             << "base_x_m";
+        for (std::size_t i = 0; i < blocks; ++i)
+            line << fmt::format("x_m[{}]", i) << fmt::format("y_m[{}]", i) << fmt::format("theta_rad[{}]", i);
+        for (std::size_t i = 0; i < blocks; ++i)
+            line << fmt::format("half_width_m[{}]", i) << fmt::format("half_height_m[{}]", i);
+    }
+    for (std::size_t t = 0; t < samples; ++t) {
+        Line line(text);
+        line << trajectory.time_s[t] << trajectory.base_x_m[t];
+        for (std::size_t i = t * blocks; i < (t + 1) * blocks; ++i)
+            line << trajectory.x_m[i] << trajectory.y_m[i] << trajectory.theta_rad[i];
+        for (std::size_t i = 0; i < blocks; ++i)
+            line << trajectory.half_width_m[i] << trajectory.half_height_m[i];
+    }
+    AtomicFile out(file);
+    out.write(text);
+    out.commit();
+}
+
+} // namespace stylobate

@@ -1,0 +1,27 @@
+#pragma once
+/// Results as comma-separated values: a header line, the unit in the column's name, numbers that read back bit by bit.
+
+#include "io/result_store.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace stylobate {
+
+/// Writes `realizations.csv` (one line per row, every field of `ResultRow` and `Outcome`; drawn values in the columns
+/// "input_...") and, if the surface has axes, `surface.csv` (one line per cell, frequency by frequency) into `folder`,
+/// which is made if its parent exists. Numbers are the shortest decimals with the same double, "nan" and "inf" where
+/// they are not finite. Both files appear whole, or neither is touched.
+///
+/// @throws InputError if the folder cannot be made or written, if a row has another number of inputs than the header,
+///         or if the surface's arrays do not fit its axes
+void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
+               const SurfaceTable& surface);
+
+/// Writes a trajectory as one line per time: time_s, base_x_m, then x_m[i], y_m[i], theta_rad[i] for each block i,
+/// from the bottom. The blocks' sizes follow as half_width_m[i], half_height_m[i], the same in every line.
+///
+/// @throws InputError if the file cannot be written, or if the trajectory's arrays do not fit each other
+void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory);
+
+} // namespace stylobate

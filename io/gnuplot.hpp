@@ -1,0 +1,35 @@
+#pragma once
+/// gnuplot as a separate program: finds it, feeds it a script, brings the picture home.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace stylobate {
+
+/// Size of a picture in pixels.
+struct PictureSize {
+    int width = 1800;
+    int height = 1350;
+};
+
+/// Where gnuplot is: the program named by the environment variable STYLOBATE_GNUPLOT if that is set, else the first
+/// one in PATH.
+/// @throws InputError if there is none, with what to install
+std::filesystem::path find_gnuplot();
+
+/// A literal of gnuplot for any text: quoted, nothing in it is interpreted, line breaks and other control characters
+/// become blanks, bytes that are not UTF-8 become '?'.
+std::string gnuplot_text(std::string_view text);
+
+/// Commands for the two lines above a picture: the title (smaller if it is long) and what is said about it.
+std::string gnuplot_heading(std::string_view title, std::string_view subtitle);
+
+/// Runs a script whose terminal and output are set already (PNG, UTF-8, no markup in texts) and writes the picture to
+/// `png`, whole or not at all. The script and its by-products live in a temporary folder that is removed.
+///
+/// @throws InputError if gnuplot is missing, cannot be started or reports an error (its first lines are quoted), if the
+///         machine has no fonts, or if the picture cannot be written
+void run_gnuplot(const std::string& script, PictureSize size, const std::filesystem::path& png);
+
+} // namespace stylobate

@@ -1,0 +1,331 @@
+#include "io/hdf5.hpp"
+
+#include <algorithm>
+
+namespace stylobate::hdf5 {
+namespace {
+
+/// Keeps the library from printing its error stack while it lives.
+class Quiet {
+public:
+    Quiet()
+    {
+        H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+    Quiet(const Quiet&) = delete;
+    Quiet& operator=(const Quiet&) = delete;
+
+private:
+    H5E_auto2_t function_ = nullptr;
+    void* data_ = nullptr;
+};
+
+herr_t keep_first(unsigned n, const H5E_error2_t* error, void* text)
+{
+    if (n == 0 && error->desc)
+        *static_cast<std::string*>(text) = error->desc;
+    return 0;
+}
+
+/// Calls the library in silence; a negative answer becomes an exception with the innermost reason.
+template <class Function>
+auto call(const std::string& what, Function function)
+{
+    const Quiet quiet;
+    const auto answer = function();
+    if (answer < 0) {
+        std::string reason;
+        H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &reason);
+        H5Eclear2(H5E_DEFAULT);
+        throw Error(what + (reason.empty() ? "" : " (" + reason + ")"));
+    }
+    return answer;
+}
+
+template <class Function>
+Handle handle(const std::string& what, herr_t (*close)(hid_t), Function function)
+{
+    return Handle(call(what, function), close);
+}
+
+Handle file_access()
+{
+    Handle access = handle("no file access list", H5Pclose, [] { return H5Pcreate(H5P_FILE_ACCESS); });
+    call("no file locking setting", [&] { return H5Pset_file_locking(access.id(), false, true); });
+    return access;
+}
+
+Handle dataspace(const Dims& dims)
+{
+    return handle("no data space", H5Sclose,
+                  [&] { return H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr); });
+}
+
+Handle scalar()
+{
+    return handle("no data space", H5Sclose, [] { return H5Screate(H5S_SCALAR); });
+}
+
+Handle text_type()
+{
+    Handle type = handle("no text type", H5Tclose, [] { return H5Tcopy(H5T_C_S1); });
+    call("no text type", [&] { return H5Tset_size(type.id(), H5T_VARIABLE); });
+    call("no text type", [&] { return H5Tset_cset(type.id(), H5T_CSET_UTF8); });
+    return type;
+}
+
+Handle open_attribute(hid_t object, const std::string& name)
+{
+    return handle("no attribute '" + name + "'", H5Aclose, [&] { return H5Aopen(object, name.c_str(), H5P_DEFAULT); });
+}
+
+Dims shape(hid_t dataset, const std::string& path)
+{
+    const Handle space = handle("no shape of '" + path + "'", H5Sclose, [&] { return H5Dget_space(dataset); });
+    const int rank = call("no shape of '" + path + "'", [&] { return H5Sget_simple_extent_ndims(space.id()); });
+    Dims dims(static_cast<std::size_t>(rank));
+    if (rank > 0)
+        call("no shape of '" + path + "'", [&] { return H5Sget_simple_extent_dims(space.id(), dims.data(), nullptr); });
+    return dims;
+}
+
+template <class T>
+void write_new(hid_t parent, const std::string& path, hid_t stored, hid_t native, const std::vector<T>& values,
+               const Dims& dims, const std::string& unit)
+{
+    hsize_t count = 1;
+    for (const hsize_t n : dims)
+        count *= n;
+    if (count != values.size())
+        throw std::invalid_argument(path + " has not as many values as its shape says");
+    const Handle dataset = create_dataset(parent, path, stored, dims);
+    if (count > 0)
+        call("cannot write '" + path + "'",
+             [&] { return H5Dwrite(dataset.id(), native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+    if (!unit.empty())
+        write_text(dataset.id(), "unit", unit);
+}
+
+template <class T>
+std::vector<T> read_whole(hid_t parent, const std::string& path, hid_t stored, hid_t native, const Dims& dims)
+{
+    const Handle dataset = open_dataset(parent, path, stored, dims);
+    hsize_t count = 1;
+    for (const hsize_t n : dims)
+        count *= n;
+    std::vector<T> values(count);
+    if (count > 0)
+        call("cannot read '" + path + "'",
+             [&] { return H5Dread(dataset.id(), native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+    return values;
+}
+
+} // namespace
+
+Handle& Handle::operator=(Handle&& other) noexcept
+{
+    if (this != &other) {
+        reset();
+        id_ = std::exchange(other.id_, H5I_INVALID_HID);
+        closer_ = other.closer_;
+    }
+    return *this;
+}
+
+void Handle::reset() noexcept
+{
+    if (id_ >= 0) {
+        const Quiet quiet;
+        closer_(std::exchange(id_, H5I_INVALID_HID));
+    }
+}
+
+void Handle::close()
+{
+    const hid_t id = std::exchange(id_, H5I_INVALID_HID);
+    call("cannot close", [&] { return closer_(id); });
+}
+
+Handle create_file(const std::filesystem::path& file, std::uint64_t user_block)
+{
+    const Handle access = file_access();
+    const Handle creation = handle("no file creation list", H5Pclose, [] { return H5Pcreate(H5P_FILE_CREATE); });
+    call("bad user block", [&] { return H5Pset_userblock(creation.id(), user_block); });
+    return handle("cannot create an HDF5 file", H5Fclose,
+                  [&] { return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()); });
+}
+
+Handle open_file(const std::filesystem::path& file, bool writable)
+{
+    const Handle access = file_access();
+    return handle("cannot open as HDF5", H5Fclose,
+                  [&] { return H5Fopen(file.c_str(), writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()); });
+}
+
+Handle create_group(hid_t parent, const std::string& path)
+{
+    return handle("cannot create the group '" + path + "'", H5Gclose,
+                  [&] { return H5Gcreate2(parent, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT); });
+}
+
+Handle open_group(hid_t parent, const std::string& path)
+{
+    return handle("no group '" + path + "'", H5Gclose, [&] { return H5Gopen2(parent, path.c_str(), H5P_DEFAULT); });
+}
+
+std::vector<std::string> names_in(hid_t group)
+{
+    std::vector<std::string> names;
+    const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+        static_cast<std::vector<std::string>*>(list)->push_back(name);
+        return 0;
+    };
+    call("cannot list a group",
+         [&] { return H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names); });
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool exists(hid_t parent, const std::string& path)
+{
+    return call("cannot look for '" + path + "'", [&] { return H5Lexists(parent, path.c_str(), H5P_DEFAULT); }) > 0;
+}
+
+Handle create_dataset(hid_t parent, const std::string& path, hid_t type, const Dims& dims, const void* fill)
+{
+    const std::string what = "cannot create '" + path + "'";
+    const Handle creation = handle(what, H5Pclose, [] { return H5Pcreate(H5P_DATASET_CREATE); });
+    call(what, [&] { return H5Pset_layout(creation.id(), H5D_CONTIGUOUS); });
+    call(what, [&] { return H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY); });
+    call(what, [&] { return H5Pset_fill_time(creation.id(), fill ? H5D_FILL_TIME_ALLOC : H5D_FILL_TIME_NEVER); });
+    // without the time of creation equal results are equal files
+    call(what, [&] { return H5Pset_obj_track_times(creation.id(), false); });
+    if (fill)
+        call(what, [&] { return H5Pset_fill_value(creation.id(), type, fill); });
+    const Handle space = dataspace(dims);
+    return handle(what, H5Dclose, [&] {
+        return H5Dcreate2(parent, path.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT);
+    });
+}
+
+Handle open_dataset(hid_t parent, const std::string& path, hid_t type, const Dims& dims)
+{
+    Handle dataset =
+        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+    const Handle stored = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    if (call("no type of '" + path + "'", [&] { return H5Tequal(stored.id(), type); }) == 0)
+        throw Error("'" + path + "' is not of the type that it should have");
+    if (shape(dataset.id(), path) != dims)
+        throw Error("'" + path + "' has not the shape that it should have");
+    return dataset;
+}
+
+Dims dims_of(hid_t parent, const std::string& path)
+{
+    const Handle dataset =
+        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+    return shape(dataset.id(), path);
+}
+
+std::uint64_t offset_of(hid_t dataset)
+{
+    const Handle creation = handle("no layout", H5Pclose, [&] { return H5Dget_create_plist(dataset); });
+    const Quiet quiet;
+    const haddr_t offset = H5Dget_offset(dataset);
+    if (H5Pget_layout(creation.id()) != H5D_CONTIGUOUS || H5Pget_external_count(creation.id()) != 0 ||
+        offset == HADDR_UNDEF)
+        throw Error("a data set is not in one piece");
+    return offset;
+}
+
+void write_array(hid_t parent, const std::string& path, const std::vector<double>& values, const Dims& dims,
+                 const std::string& unit)
+{
+    write_new(parent, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, dims, unit);
+}
+
+void write_array(hid_t parent, const std::string& path, const std::vector<std::uint64_t>& values, const Dims& dims,
+                 const std::string& unit)
+{
+    write_new(parent, path, H5T_STD_U64LE, H5T_NATIVE_UINT64, values, dims, unit);
+}
+
+std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims)
+{
+    return read_whole<double>(parent, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dims);
+}
+
+std::vector<std::uint64_t> read_counts(hid_t parent, const std::string& path, const Dims& dims)
+{
+    return read_whole<std::uint64_t>(parent, path, H5T_STD_U64LE, H5T_NATIVE_UINT64, dims);
+}
+
+void write_text(hid_t object, const std::string& name, const std::string& text)
+{
+    const std::string what = "cannot write the attribute '" + name + "'";
+    const Handle type = text_type();
+    const Handle space = scalar();
+    const Handle attribute = handle(what, H5Aclose, [&] {
+        return H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT);
+    });
+    const char* value = text.c_str();
+    call(what, [&] { return H5Awrite(attribute.id(), type.id(), &value); });
+}
+
+void write_number(hid_t object, const std::string& name, hid_t type, std::uint64_t value)
+{
+    const std::string what = "cannot write the attribute '" + name + "'";
+    const Handle space = scalar();
+    const Handle attribute = handle(
+        what, H5Aclose, [&] { return H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT); });
+    call(what, [&] { return H5Awrite(attribute.id(), H5T_NATIVE_UINT64, &value); });
+}
+
+void change_number(hid_t object, const std::string& name, std::uint64_t value)
+{
+    const Handle attribute = open_attribute(object, name);
+    call("cannot write the attribute '" + name + "'",
+         [&] { return H5Awrite(attribute.id(), H5T_NATIVE_UINT64, &value); });
+}
+
+std::string read_text(hid_t object, const std::string& name)
+{
+    const std::string what = "cannot read the attribute '" + name + "'";
+    const Handle attribute = open_attribute(object, name);
+    const Handle stored = handle(what, H5Tclose, [&] { return H5Aget_type(attribute.id()); });
+    const Handle space = handle(what, H5Sclose, [&] { return H5Aget_space(attribute.id()); });
+    if (H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) <= 0 ||
+        H5Sget_simple_extent_type(space.id()) != H5S_SCALAR)
+        throw Error("the attribute '" + name + "' is not a text");
+    const Handle type = text_type();
+    char* value = nullptr;
+    call(what, [&] { return H5Aread(attribute.id(), type.id(), &value); });
+    const std::string text = value ? value : "";
+    H5free_memory(value);
+    return text;
+}
+
+std::uint64_t read_number(hid_t object, const std::string& name)
+{
+    const std::string what = "cannot read the attribute '" + name + "'";
+    const Handle attribute = open_attribute(object, name);
+    const Handle stored = handle(what, H5Tclose, [&] { return H5Aget_type(attribute.id()); });
+    const Handle space = handle(what, H5Sclose, [&] { return H5Aget_space(attribute.id()); });
+    if (H5Tget_class(stored.id()) != H5T_INTEGER || H5Sget_simple_extent_type(space.id()) != H5S_SCALAR)
+        throw Error("the attribute '" + name + "' is not one whole number");
+    std::uint64_t value = 0;
+    call(what, [&] { return H5Aread(attribute.id(), H5T_NATIVE_UINT64, &value); });
+    return value;
+}
+
+Handle byte_enumeration(const std::vector<std::pair<const char*, std::uint8_t>>& members)
+{
+    Handle type = handle("no enumeration", H5Tclose, [] { return H5Tenum_create(H5T_STD_U8LE); });
+    for (const auto& [name, value] : members)
+        call("no enumeration", [&, n = name, v = value] { return H5Tenum_insert(type.id(), n, &v); });
+    return type;
+}
+
+} // namespace stylobate::hdf5

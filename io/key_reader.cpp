@@ -1,0 +1,247 @@
+#include "io/key_reader.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/suggest.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// A number for people: three decimals where they are exact (1.450), else as many digits as are worth reading.
+std::string readable(double value)
+{
+    const auto thousandths = std::round(value * 1000);
+    if (std::abs(thousandths) >= 1 && std::abs(thousandths - value * 1000) < 1e-9 * std::abs(thousandths))
+        return fmt::format("{:.3f}", value);
+    return fmt::format("{:.6g}", value);
+}
+
+/// A key for a message: as it stands if it is a bare one.
+std::string shown_key(const std::string& key)
+{
+    const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+    constexpr std::size_t longest = 60;
+    if (bare && key.size() <= longest)
+        return key;
+    TomlValue quoted;
+    quoted.type = TomlValue::Type::string;
+    quoted.text = key;
+    return quoted.shown();
+}
+
+std::string with_todo(const std::string& what, std::string todo)
+{
+    while (!todo.empty() && todo.back() == ' ')
+        todo.pop_back(); // where a key has no hint
+    return todo.empty() ? what : what + "\n  " + todo;
+}
+
+} // namespace
+
+bool Range::contains(double value) const
+{
+    return std::isfinite(value) && (open ? value > low : value >= low) && value <= high;
+}
+
+std::string Range::text() const
+{
+    const auto bound = [](double value) {
+        return std::abs(value) < 1e6 ? fmt::format("{}", value) : fmt::format("{:g}", value);
+    };
+    return fmt::format("{}{}, {}]", open ? '(' : '[', bound(low), bound(high));
+}
+
+KeyReader::KeyReader(const TomlValue* table, std::string path, const TomlPlace& above)
+    : table_(table), path_(std::move(path)), place_(table ? table->place : above)
+{
+    if (table_ && table_->type != TomlValue::Type::table)
+        throw InputError(
+            place_.source, place_.line,
+            with_todo(fmt::format("{} = {} is {}, not a table.", path_, table_->shown(), table_->type_name()),
+                      "Tables are [sections] or { key = value, ... }."));
+}
+
+std::string KeyReader::full(std::string_view key) const
+{
+    const auto shown = shown_key(std::string(key));
+    return path_.empty() ? shown : path_ + "." + shown;
+}
+
+void KeyReader::allow_only(const std::vector<std::string>& known) const
+{
+    if (!table_)
+        return;
+    const TomlValue* first = nullptr;
+    for (const auto& entry : table_->entries) {
+        const bool is_known = std::find(known.begin(), known.end(), entry.key) != known.end();
+        if (!is_known && (!first || entry.place.line < first->place.line))
+            first = &entry;
+    }
+    if (!first)
+        return;
+
+    const auto meant = meant_key(first->key, known);
+    std::string todo;
+    if (meant.empty())
+        todo = fmt::format("Known {}: {}.", path_.empty() ? "sections" : "keys of " + path_, fmt::join(known, ", "));
+    else if (without_unit(meant) != meant && std::string_view(first->key).starts_with(without_unit(meant)))
+        todo = fmt::format("Did you mean {}? The unit is part of the key.", meant);
+    else
+        todo = fmt::format("Did you mean {}?", meant);
+    throw InputError(
+        first->place.source, first->place.line,
+        with_todo(fmt::format("unknown {} {}.", path_.empty() ? "section" : "key", full(first->key)), todo));
+}
+
+void KeyReader::refuse_unused(const std::vector<std::string>& used, const std::string& why) const
+{
+    if (!table_)
+        return;
+    const TomlValue* first = nullptr;
+    for (const auto& entry : table_->entries) {
+        const bool is_used = std::find(used.begin(), used.end(), entry.key) != used.end();
+        if (!is_used && (!first || entry.place.line < first->place.line))
+            first = &entry;
+    }
+    if (first)
+        refuse(first->key, "is not used by " + why,
+               fmt::format("Remove it. Keys that are used: {}.", fmt::join(used, ", ")));
+}
+
+KeyReader KeyReader::table(std::string_view key) const
+{
+    return KeyReader(find(key), full(key), place_);
+}
+
+const TomlValue& KeyReader::need(std::string_view key, const std::string& todo) const
+{
+    const auto* value = find(key);
+    if (!value)
+        missing(key, todo);
+    return *value;
+}
+
+double KeyReader::check(std::string_view key, const TomlValue& value, const Range& range) const
+{
+    if (value.type != TomlValue::Type::number && value.type != TomlValue::Type::integer)
+        refuse(key, fmt::format("is {}, not a number", value.type_name()),
+               fmt::format("Give a number in {}. {}", range.text(), range.hint));
+    if (!range.contains(value.number)) {
+        std::string todo = range.hint;
+        if (range.guess != 0 && range.contains(value.number * range.guess))
+            todo += fmt::format(" Did you mean {}?", readable(value.number * range.guess));
+        refuse(key, "is outside " + range.text(), todo);
+    }
+    return value.number + 0.0; // -0 becomes 0, so that equal studies have equal texts
+}
+
+double KeyReader::number(std::string_view key, const Range& range) const
+{
+    return check(key, need(key, fmt::format("Give a number in {}. {}", range.text(), range.hint)), range);
+}
+
+double KeyReader::number_or(std::string_view key, const Range& range, double absent) const
+{
+    return has(key) ? number(key, range) : absent;
+}
+
+std::optional<double> KeyReader::maybe_number(std::string_view key, const Range& range) const
+{
+    return has(key) ? std::optional<double>(number(key, range)) : std::nullopt;
+}
+
+std::uint64_t KeyReader::whole(std::string_view key, std::uint64_t low, std::uint64_t high,
+                               const std::string& hint) const
+{
+    const auto range = fmt::format("[{}, {}]", low, high);
+    const auto& value = need(key, fmt::format("Give a whole number in {}. {}", range, hint));
+    if (value.type == TomlValue::Type::integer) {
+        if (value.integer >= 0 && static_cast<std::uint64_t>(value.integer) >= low &&
+            static_cast<std::uint64_t>(value.integer) <= high)
+            return static_cast<std::uint64_t>(value.integer);
+        refuse(key, "is outside " + range, hint);
+    }
+    // 1e6 is a float in TOML; below 2^53 it stands for one whole number only
+    constexpr double exact = 9007199254740992.0;
+    if (value.type != TomlValue::Type::number ||
+        (std::isfinite(value.number) && value.number != std::floor(value.number)))
+        refuse(key, fmt::format("is {}, not a whole number", value.type_name()),
+               fmt::format("Give a whole number in {}. {}", range, hint));
+    if (!(value.number >= static_cast<double>(low) && value.number <= static_cast<double>(high) &&
+          value.number < exact))
+        refuse(key, "is outside " + range, hint);
+    return static_cast<std::uint64_t>(value.number);
+}
+
+std::uint64_t KeyReader::whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
+                                  const std::string& hint) const
+{
+    return has(key) ? whole(key, low, high, hint) : absent;
+}
+
+bool KeyReader::boolean_or(std::string_view key, bool absent) const
+{
+    const auto* value = find(key);
+    if (!value)
+        return absent;
+    if (value->type != TomlValue::Type::boolean)
+        refuse(key, fmt::format("is {}, not true or false", value->type_name()), "Give true or false, without quotes.");
+    return value->boolean;
+}
+
+std::string KeyReader::text(std::string_view key) const
+{
+    const auto& value = need(key, "Give a string in double quotes.");
+    const bool typed = value.place.command_line && !value.text.empty();
+    if (value.type != TomlValue::Type::string && !typed)
+        refuse(key, fmt::format("is {}, not a string", value.type_name()), "Give a string in double quotes.");
+    if (value.text.empty())
+        refuse(key, "is empty", "Give a string, or leave the key out.");
+    constexpr std::size_t longest = 2048;
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (value.text.size() > longest || std::any_of(value.text.begin(), value.text.end(), is_control))
+        refuse(key, fmt::format("is longer than {} characters or has control characters in it", longest),
+               "In a path write / for a backslash, or use single quotes: 'C:\\folder\\file'.");
+    return value.text;
+}
+
+std::size_t KeyReader::word_index(std::string_view key, const std::vector<std::string>& words) const
+{
+    std::string allowed = "Allowed:";
+    for (const auto& word : words)
+        allowed += (&word == words.data() ? " " : ", ") + toml_quoted(word);
+    allowed += ".";
+
+    const auto& value = need(key, allowed);
+    if (value.type != TomlValue::Type::string)
+        refuse(key, fmt::format("is {}, not a string", value.type_name()), allowed);
+    const auto at = std::find(words.begin(), words.end(), value.text);
+    if (at == words.end()) {
+        const auto meant = nearest_word(value.text, words);
+        refuse(key, "is not allowed",
+               allowed + (meant.empty() ? std::string() : " Did you mean " + toml_quoted(meant) + "?"));
+    }
+    return static_cast<std::size_t>(at - words.begin());
+}
+
+void KeyReader::refuse(std::string_view key, const std::string& what, const std::string& todo) const
+{
+    const auto& value = *find(key);
+    throw InputError(value.place.source, value.place.line,
+                     with_todo(fmt::format("{} = {} {}.", full(key), value.shown(), what), todo));
+}
+
+void KeyReader::missing(std::string_view key, const std::string& todo) const
+{
+    throw InputError(place_.source, place_.line, with_todo(fmt::format("{} is missing.", full(key)), todo));
+}
+
+} // namespace stylobate

@@ -1,0 +1,98 @@
+#pragma once
+/// Checked access to the keys of one table of a TOML file. Every refusal is an InputError that names file and line,
+/// key, value, what is allowed and what to do.
+
+#include "io/toml_document.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stylobate {
+
+/// What a number may be; never NaN or infinite.
+struct Range {
+    double low = 0;
+    double high = 0;
+    bool open = false;     ///< `low` itself is outside
+    std::string hint = {}; ///< the unit, as a sentence
+    double guess = 0;      ///< a value outside, times this, may be what was meant (mm for m); 0: no guess
+
+    bool contains(double value) const;
+    /// "(0, 10]"
+    std::string text() const;
+};
+
+class KeyReader {
+public:
+    /// @param table null where the file has no such table: then every key is absent
+    /// @param path  its dotted name in messages; empty for the whole file
+    /// @param above where a table that is absent would be missed
+    KeyReader(const TomlValue* table, std::string path, const TomlPlace& above);
+
+    bool has(std::string_view key) const { return find(key) != nullptr; }
+    /// The value as it stands; null if absent.
+    const TomlValue* find(std::string_view key) const { return table_ ? table_->find(key) : nullptr; }
+
+    /// Refuses any key that is not one of these: 'did you mean'.
+    void allow_only(const std::vector<std::string>& known) const;
+    /// Refuses known keys other than these; `why` says who does not use them: `excitation.kind = "record"`.
+    void refuse_unused(const std::vector<std::string>& used, const std::string& why) const;
+
+    /// A table in this one, perhaps absent.
+    KeyReader table(std::string_view key) const;
+
+    double number(std::string_view key, const Range& range) const;
+    double number_or(std::string_view key, const Range& range, double absent) const;
+    std::optional<double> maybe_number(std::string_view key, const Range& range) const;
+
+    /// A whole number; 1e6 counts as one. @pre high is at most 2^63 - 1
+    std::uint64_t whole(std::string_view key, std::uint64_t low, std::uint64_t high,
+                        const std::string& hint = {}) const;
+    std::uint64_t whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
+                           const std::string& hint = {}) const;
+
+    bool boolean_or(std::string_view key, bool absent) const;
+
+    /// A string that is not empty. From the command line a number is taken as the text that was typed.
+    std::string text(std::string_view key) const;
+    std::string text_or_empty(std::string_view key) const { return has(key) ? text(key) : std::string(); }
+
+    /// One of the words of a list of `Name`s.
+    template <class List>
+    auto choice(std::string_view key, const List& names) const
+    {
+        std::vector<std::string> words;
+        for (const auto& name : names)
+            words.emplace_back(name.word);
+        return names[word_index(key, words)].value;
+    }
+    template <class List, class Enum>
+    Enum choice_or(std::string_view key, const List& names, Enum absent) const
+    {
+        return has(key) ? choice(key, names) : absent;
+    }
+    /// The place of a string among the words that are allowed.
+    std::size_t word_index(std::string_view key, const std::vector<std::string>& words) const;
+
+    /// "PLACE: path.key = value WHAT.\n  TODO"; `what` begins with a verb.
+    [[noreturn]] void refuse(std::string_view key, const std::string& what, const std::string& todo = {}) const;
+    /// "PLACE: path.key is missing.\n  TODO"
+    [[noreturn]] void missing(std::string_view key, const std::string& todo) const;
+
+    const std::string& path() const { return path_; }
+
+private:
+    std::string full(std::string_view key) const;
+    /// The value of a key that must be there.
+    const TomlValue& need(std::string_view key, const std::string& todo) const;
+    double check(std::string_view key, const TomlValue& value, const Range& range) const;
+
+    const TomlValue* table_;
+    std::string path_;
+    TomlPlace place_;
+};
+
+} // namespace stylobate

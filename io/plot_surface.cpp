@@ -1,0 +1,241 @@
+#include "io/plot_surface.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/contour.hpp"
+#include "io/gnuplot.hpp"
+#include "io/plot_axis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+constexpr std::array<double, 3> levels{0.05, 0.5, 0.95};
+
+/// viridis (van der Walt and Smith, 2015): even steps look even, to the colour-blind too, and in grey.
+constexpr std::array<const char*, 11> viridis{"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c",
+                                              "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"};
+
+/// A surface in the unit square: (0, 0) and (1, 1) are the corners of the picture's frame.
+struct UnitScale {
+    const PlotAxis& axis;
+    double from = axis.scaled(axis.edges.front());
+    double to = axis.scaled(axis.edges.back());
+    double in(double value) const { return (axis.scaled(value) - from) / (to - from); }
+    double out(double unit) const { return axis.unscaled(from + unit * (to - from)); }
+};
+
+/// The nodes of the contour grid along one axis: the cells' centres, and the frame, to which the outer cells reach.
+std::vector<double> contour_nodes(const UnitScale& scale)
+{
+    std::vector<double> nodes{0.0};
+    for (const double value : scale.axis.values)
+        nodes.push_back(scale.in(value));
+    nodes.push_back(1.0);
+    return nodes;
+}
+
+/// The contour lines of one level in the unit square.
+std::vector<ContourLine> contours(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a, double level)
+{
+    const std::size_t nf = surface.frequency_hz.size();
+    const std::size_t np = surface.pga_m_s2.size();
+    std::vector<double> z;
+    z.reserve((nf + 2) * (np + 2));
+    for (std::size_t i = 0; i < nf + 2; ++i)
+        for (std::size_t j = 0; j < np + 2; ++j)
+            z.push_back(surface.probability[(std::clamp<std::size_t>(i, 1, nf) - 1) * np +
+                                            std::clamp<std::size_t>(j, 1, np) - 1]);
+    return contour_lines(contour_nodes(f), contour_nodes(a), z, level);
+}
+
+double length(const ContourLine& line)
+{
+    double sum = 0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+        sum += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
+    return sum;
+}
+
+/// Distance of a label at `p` to the nearest point of other lines; a label is wider than high.
+double clearance(const ContourPoint& p, const std::vector<ContourLine>& lines)
+{
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const ContourLine& line : lines)
+        for (const ContourPoint& q : line)
+            nearest = std::min(nearest, std::hypot(0.6 * (p.x - q.x), p.y - q.y));
+    return nearest;
+}
+
+/// Where on its longest line a level is named: far from the lines of the other levels and from the frame.
+ContourPoint label_place(const std::vector<ContourLine>& own, const std::vector<ContourLine>& others)
+{
+    const ContourLine& line = *std::max_element(
+        own.begin(), own.end(), [](const ContourLine& a, const ContourLine& b) { return length(a) < length(b); });
+    ContourPoint best = line[line.size() / 2];
+    double best_score = -1;
+    for (const ContourPoint& p : line) {
+        const double frame = std::min({p.x, 1 - p.x, p.y, 1 - p.y});
+        // Clear of other lines first; among places that are clear enough, the one nearest the middle of the frame.
+        const double score = std::min(clearance(p, others), 0.12) + 0.1 * std::min(frame, 0.4) - (frame < 0.06 ? 1 : 0);
+        if (score > best_score) {
+            best_score = score;
+            best = p;
+        }
+    }
+    return best;
+}
+
+struct ContourCommands {
+    std::string data;
+    std::string labels;
+};
+
+ContourCommands contour_commands(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a)
+{
+    std::array<std::vector<ContourLine>, levels.size()> lines;
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        lines[k] = contours(surface, f, a, levels[k]);
+    ContourCommands commands;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        commands.data += fmt::format("$contour{} << EOD\n", k);
+        for (const ContourLine& line : lines[k]) {
+            for (const ContourPoint& p : line)
+                commands.data += fmt::format("{} {}\n", f.out(p.x), a.out(p.y));
+            commands.data += '\n';
+        }
+        commands.data += "EOD\n";
+        if (lines[k].empty())
+            continue;
+        std::vector<ContourLine> others;
+        for (std::size_t other = 0; other < levels.size(); ++other)
+            if (other != k)
+                others.insert(others.end(), lines[other].begin(), lines[other].end());
+        const ContourPoint p = label_place(lines[k], others);
+        commands.labels +=
+            fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n", levels[k],
+                        f.out(p.x), a.out(p.y));
+    }
+    return commands;
+}
+
+std::string palette()
+{
+    std::string text = "set palette defined (";
+    for (std::size_t i = 0; i < viridis.size(); ++i)
+        text += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, viridis[i]);
+    return text + ")\n";
+}
+
+std::string subtitle(const SurfaceTable& surface)
+{
+    double widest = 0;
+    for (std::size_t cell = 0; cell < surface.lower.size(); ++cell)
+        if (surface.trials[cell] > 0)
+            widest = std::max(widest, (surface.upper[cell] - surface.lower[cell]) / 2);
+    return describe_realizations(surface) +
+           fmt::format(" · {}: ± {:.3f} at most", describe_interval(surface.interval), widest);
+}
+
+} // namespace
+
+std::string describe_interval(const std::string& interval)
+{
+    const std::size_t blank = interval.find(' ');
+    if (blank == std::string::npos || blank == 0)
+        return interval;
+    char* end = nullptr;
+    const double level = std::strtod(interval.c_str() + blank, &end);
+    if (*end != '\0' || !(level > 0 && level < 1))
+        return interval;
+    std::string name = interval.substr(0, blank);
+    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    return fmt::format("{:.6g} % {} interval", 100 * level, name);
+}
+
+std::string describe_realizations(const SurfaceTable& surface)
+{
+    const std::size_t nf = surface.frequency_hz.size();
+    const std::size_t np = surface.pga_m_s2.size();
+    const std::size_t cells = nf * np;
+    if (cells == 0 || surface.trials.size() != cells || surface.collapses.size() != cells ||
+        surface.probability.size() != cells || surface.lower.size() != cells || surface.upper.size() != cells)
+        throw InputError(
+            fmt::format("the surface of {} x {} cells has tables of other sizes: the results are damaged, "
+                        "or no surface's.\n  Draw the finished results of a study with kind = \"surface\".",
+                        nf, np));
+    const std::uint64_t all = std::accumulate(surface.trials.begin(), surface.trials.end(), std::uint64_t{0});
+    const auto [least, most] = std::minmax_element(surface.trials.begin(), surface.trials.end());
+    return fmt::format("{} realizations, {} in each of {} × {} cells", all,
+                       *least == *most ? fmt::format("{}", *least) : fmt::format("{} to {}", *least, *most), nf, np);
+}
+
+void plot_surface(const SurfaceTable& surface, const std::string& title, const std::filesystem::path& png)
+{
+    const std::string below_title = subtitle(surface);
+    const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
+    const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
+    const UnitScale f{frequency};
+    const UnitScale a{pga};
+    const ContourCommands contour = contour_commands(surface, f, a);
+
+    // Each cell reaches a pixel under its right and upper neighbours, drawn after it: no seams shine through.
+    const double pixel = 1.0 / PictureSize{}.height;
+    std::string cells = "$cells << EOD\n";
+    std::size_t empty = 0;
+    const std::size_t np = pga.values.size();
+    for (std::size_t cell = 0; cell < surface.probability.size(); ++cell) {
+        const std::size_t i = cell / np;
+        const std::size_t j = cell % np;
+        if (!std::isfinite(surface.probability[cell])) {
+            ++empty;
+            continue;
+        }
+        cells += fmt::format("{} {} {} {} {} {} {}\n", frequency.values[i], pga.values[j], frequency.edges[i],
+                             f.out(f.in(frequency.edges[i + 1]) + pixel), pga.edges[j],
+                             a.out(a.in(pga.edges[j + 1]) + pixel), surface.probability[cell]);
+    }
+    cells += "EOD\n";
+
+    std::string script = cells + contour.data + palette() + gnuplot_heading(title, below_title) + contour.labels;
+    script += "set lmargin at screen 0.095\nset rmargin at screen 0.855\n"
+              "set bmargin at screen 0.115\nset tmargin at screen 0.865\n"
+              "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.8,0.6\n"
+              "set border 31 linewidth 0.8\nset tics out nomirror\nunset key\n"
+              "set xlabel 'frequency [Hz]' offset 0,-0.2\nset ylabel 'peak ground acceleration [m/s²]'\n"
+              "set cbrange [0:1]\nset cbtics 0.1 format '%.1f'\nset cblabel 'probability of collapse' offset 0.8,0\n"
+              "set style fill solid 1.0 noborder\n" +
+              frequency.commands('x') + pga.commands('y');
+    if (empty > 0)
+        script += fmt::format("set object rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#b8b8b8' "
+                              "fillstyle solid 1 noborder\n"
+                              "set label 'grey: no valid realization' at screen 0.985, screen 0.03 right font ',18' "
+                              "textcolor rgb '#505050'\n");
+    std::vector<std::string> layers;
+    if (empty < surface.probability.size())
+        layers.emplace_back("$cells using 1:2:3:4:5:6:7 with boxxyerror linecolor palette");
+    // A dark line under a white one is seen on every colour.
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        if (contour.data.find(fmt::format("$contour{} << EOD\nEOD", k)) == std::string::npos) {
+            layers.push_back(fmt::format("$contour{} with lines linewidth 3.4 linecolor rgb '#202020'", k));
+            layers.push_back(fmt::format("$contour{} with lines linewidth {} linecolor rgb '#ffffff'", k,
+                                         levels[k] == 0.5 ? 2.0 : 1.4));
+        }
+    if (layers.empty())
+        layers.emplace_back("1/0"); // the frame with nothing in it
+    script += "plot ";
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        script += (i == 0 ? "" : ", ") + layers[i];
+    run_gnuplot(script, PictureSize{}, png);
+}
+
+} // namespace stylobate

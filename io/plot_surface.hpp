@@ -1,0 +1,27 @@
+#pragma once
+/// The picture of a collapse-probability surface.
+
+#include "io/result_store.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace stylobate {
+
+/// Draws a heat map of the collapse probability over frequency and PGA (1800 x 1350 pixels): each cell at its true
+/// extent, an axis logarithmic where its values are spaced so, cells without a trial grey, contour lines at 0.05, 0.5
+/// and 0.95. Below the title: the number of realizations and the interval.
+///
+/// @param png the file; its folder must exist
+/// @throws InputError if the table has no axes or its arrays do not fit them, if gnuplot is missing or fails, or if
+///         the picture cannot be written
+void plot_surface(const SurfaceTable& surface, const std::string& title, const std::filesystem::path& png);
+
+/// "wilson 0.95" -> "95 % Wilson interval"; other texts are left as they are.
+std::string describe_interval(const std::string& interval);
+
+/// Realizations of a surface in words: "65536 realizations, 256 in each of 16 × 16 cells".
+/// @throws InputError if the table's arrays do not fit its axes
+std::string describe_realizations(const SurfaceTable& surface);
+
+} // namespace stylobate

@@ -1,0 +1,53 @@
+#pragma once
+/// A results file that exists: what its reader and its resuming writer share.
+
+#include "io/file_handle.hpp"
+#include "io/hdf5.hpp"
+#include "io/result_layout.hpp"
+#include "io/result_seal.hpp"
+
+#include <optional>
+
+namespace stylobate {
+
+/// Where the rows lie in the file, in bytes from its start.
+struct RowPlaces {
+    std::vector<std::uint64_t> column; ///< by column of the layout
+    std::uint64_t checksum = 0;
+
+    /// All of it, joined: what the seal leaves out.
+    std::vector<Extent> extents(const ResultLayout& layout) const;
+};
+
+/// The HDF5 type of a column, or of a field, in the file.
+hdf5::Handle file_type(Stored stored);
+/// Shape of a column.
+hdf5::Dims column_dims(const ResultLayout& layout, const Column& column);
+
+/// Finds the columns. @throws hdf5::Error if one is missing or has another type or shape
+RowPlaces find_rows(hid_t file, const ResultLayout& layout);
+
+/// An open results file, its seal verified.
+struct ResultFile {
+    std::filesystem::path path;
+    FileHandle handle;
+    hdf5::Handle hdf5;
+    ResultHeader header;
+    bool complete = false;
+    ResultLayout layout;
+    RowPlaces places;
+
+    /// The bytes of a chunk, or nothing if it is not written or its checksum is wrong.
+    std::optional<std::vector<std::byte>> read_chunk(std::uint64_t chunk) const;
+    /// Writes the rows first, their checksum last.
+    void write_chunk(std::uint64_t chunk, std::span<const std::byte> bytes);
+    /// Refuses with "damaged" and the reason.
+    [[noreturn]] void refuse_damaged(const std::string& text) const;
+};
+
+/// Opens and verifies all but the rows.
+/// @param writable also takes the lock of the one writer
+/// @throws InputError as `ResultReader` and `ResultWriter::resume` say
+ResultFile open_result(const std::filesystem::path& path, bool writable);
+
+} // namespace stylobate

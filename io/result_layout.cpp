@@ -1,0 +1,143 @@
+#include "io/result_layout.hpp"
+
+#include <cstring>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace stylobate {
+namespace {
+
+constexpr std::uint64_t bytes_of(Stored stored)
+{
+    switch (stored) {
+    case Stored::state:
+    case Stored::invalid_reason:
+        return 1;
+    case Stored::i32:
+        return 4;
+    case Stored::u64:
+    case Stored::f64:
+        return 8;
+    }
+    return 0;
+}
+
+/// Units of the inputs that studies name; of others none is known.
+std::string unit_of_input(const std::string& name)
+{
+    static const std::map<std::string, std::string> units = {{"normal_stiffness", "N/m2"},
+                                                             {"tangential_stiffness", "N/m"},
+                                                             {"drum_width", "m"},
+                                                             {"drum_height", "m"},
+                                                             {"drum_offset", "m"},
+                                                             {"density", "kg/m3"},
+                                                             {"tilt", "rad"},
+                                                             {"phase", "rad"}};
+    const auto found = units.find(name);
+    return found == units.end() ? std::string() : found->second;
+}
+
+struct InputName {
+    std::string base;
+    bool indexed = false;
+    std::uint64_t index = 0;
+};
+
+/// "friction" or "friction[3]".
+InputName parse_input_name(const std::string& name)
+{
+    const auto fail = [&] { throw std::invalid_argument("'" + name + "' cannot be the name of an input"); };
+    InputName result;
+    const auto bracket = name.find('[');
+    result.base = name.substr(0, bracket);
+    const std::string letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    if (result.base.empty() || result.base.find_first_not_of(letters) != std::string::npos)
+        fail();
+    if (bracket == std::string::npos)
+        return result;
+    const std::string digits = name.substr(bracket + 1, name.size() - bracket - 2);
+    if (name.back() != ']' || digits.empty() || digits.size() > 6 ||
+        digits.find_first_not_of("0123456789") != std::string::npos)
+        fail();
+    result.indexed = true;
+    result.index = std::stoull(digits);
+    return result;
+}
+
+} // namespace
+
+ResultLayout::ResultLayout(const ResultHeader& header) : first_index_(header.first), rows_(header.total)
+{
+    if (rows_ == 0)
+        throw std::invalid_argument("a results file has at least one row");
+    if (first_index_ + rows_ < rows_)
+        throw std::invalid_argument("the indices of the rows are too large");
+    ResultRow row;
+    visit_fields(row, [&](const char* path, const char* unit, auto& field) {
+        columns_.push_back({path, unit, stored_as<std::remove_cvref_t<decltype(field)>>(), false, 1, 0});
+    });
+
+    std::map<std::string, std::size_t> column_of;
+    std::set<std::pair<std::size_t, std::uint64_t>> taken;
+    for (const std::string& name : header.input_names) {
+        const InputName input = parse_input_name(name);
+        const auto [at, is_new] = column_of.try_emplace(input.base, columns_.size());
+        if (is_new)
+            columns_.push_back({"input/" + input.base, unit_of_input(input.base), Stored::f64, input.indexed, 1, 0});
+        Column& column = columns_[at->second];
+        if (column.matrix != input.indexed || !taken.emplace(at->second, input.index).second)
+            throw std::invalid_argument("the input '" + name + "' comes twice");
+        column.width = std::max(column.width, input.index + 1);
+        inputs_.push_back({at->second, input.index});
+    }
+    for (const auto& [base, column] : column_of)
+        for (std::uint64_t i = 0; i < columns_[column].width; ++i)
+            if (!taken.contains({column, i}))
+                throw std::invalid_argument("the input '" + base + "[" + std::to_string(i) + "]' is missing");
+
+    for (Column& column : columns_) {
+        column.bytes = column.width * bytes_of(column.stored);
+        before_.push_back(row_bytes_);
+        row_bytes_ += column.bytes;
+    }
+}
+
+std::size_t ResultLayout::place(std::size_t column, std::uint64_t index) const
+{
+    const std::uint64_t chunk = chunk_of(index);
+    return begin_in_chunk(column, chunk) + (index - first_index_ - first_row(chunk)) * columns_[column].bytes;
+}
+
+void ResultLayout::encode(const ResultRow& row, std::span<std::byte> chunk_bytes) const
+{
+    std::size_t column = 0;
+    visit_fields(row, [&](const char*, const char*, const auto& field) {
+        const std::size_t at = place(column++, row.index);
+        std::memcpy(chunk_bytes.subspan(at, sizeof field).data(), &field, sizeof field);
+    });
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+        const std::size_t at = place(inputs_[i].column, row.index) + inputs_[i].component * sizeof(double);
+        std::memcpy(chunk_bytes.subspan(at, sizeof(double)).data(), &row.inputs[i], sizeof(double));
+    }
+}
+
+ResultRow ResultLayout::decode(std::uint64_t index, std::span<const std::byte> chunk_bytes) const
+{
+    ResultRow row;
+    std::size_t column = 0;
+    visit_fields(row, [&](const char*, const char*, auto& field) {
+        const std::size_t at = place(column++, index);
+        std::memcpy(&field, chunk_bytes.subspan(at, sizeof field).data(), sizeof field);
+    });
+    row.inputs.resize(inputs_.size());
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+        const std::size_t at = place(inputs_[i].column, index) + inputs_[i].component * sizeof(double);
+        std::memcpy(&row.inputs[i], chunk_bytes.subspan(at, sizeof(double)).data(), sizeof(double));
+    }
+    if (row.index != index || row.outcome.state > State::invalid || row.outcome.invalid_reason > InvalidReason::energy)
+        throw std::invalid_argument("row " + std::to_string(index) + " holds what no run writes");
+    return row;
+}
+
+} // namespace stylobate

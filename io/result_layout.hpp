@@ -1,0 +1,151 @@
+#pragma once
+/// The names, types and units of everything in a results file, written once for the writer and the reader, and the
+/// bytes of a chunk of rows.
+
+#include "io/result_store.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace stylobate {
+
+inline constexpr std::uint64_t result_format_version = 1;
+inline constexpr std::uint8_t state_not_run = 255; ///< state of a row that is not written yet
+
+/// Names in the file. Those of the columns follow from `visit_fields` below.
+namespace result_names {
+inline constexpr char format[] = "stylobate";
+inline constexpr char realizations[] = "realizations";
+inline constexpr char input[] = "realizations/input";
+inline constexpr char input_order[] = "order"; ///< attribute of the group: `ResultHeader::input_names`, joined by ' '
+inline constexpr char outcome[] = "realizations/outcome";
+inline constexpr char checksum[] = "realizations/chunk_checksum";
+inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
+inline constexpr char surface[] = "surface";
+inline constexpr char surface_frequency[] = "surface/frequency_hz";
+inline constexpr char surface_pga[] = "surface/pga_m_s2";
+inline constexpr char trajectories[] = "trajectories";
+} // namespace result_names
+
+/// Calls f(path below /realizations, unit, member) for every field of a row but the inputs.
+template <class Row, class F>
+void visit_fields(Row& row, F&& f)
+{
+    f("index", "", row.index);
+    f("cell", "", row.cell);
+    f("frequency_hz", "Hz", row.frequency_hz);
+    f("pga_m_s2", "m/s2", row.pga_m_s2);
+    auto& o = row.outcome;
+    f("outcome/state", "", o.state);
+    f("outcome/invalid_reason", "", o.invalid_reason);
+    f("outcome/collapse_time_s", "s", o.collapse_time_s);
+    f("outcome/first_collapse_block", "", o.first_collapse_block);
+    f("outcome/peak_top_displacement_m", "m", o.peak_top_displacement_m);
+    f("outcome/residual_top_displacement_m", "m", o.residual_top_displacement_m);
+    f("outcome/total_sliding_m", "m", o.total_sliding_m);
+    f("outcome/total_rocking_rad", "rad", o.total_rocking_rad);
+    f("outcome/sliding_path_m", "m", o.sliding_path_m);
+    f("outcome/max_relative_rotation_rad", "rad", o.max_relative_rotation_rad);
+    f("outcome/energy_kinetic_j", "J", o.energy_kinetic_j);
+    f("outcome/energy_potential_j", "J", o.energy_potential_j);
+    f("outcome/energy_spring_j", "J", o.energy_spring_j);
+    f("outcome/energy_friction_j", "J", o.energy_friction_j);
+    f("outcome/energy_damping_j", "J", o.energy_damping_j);
+    f("outcome/energy_base_work_j", "J", o.energy_base_work_j);
+    f("outcome/energy_residual", "", o.energy_residual);
+    f("outcome/end_time_s", "s", o.end_time_s);
+    f("outcome/step_s", "s", o.step_s);
+    f("outcome/steps", "", o.steps);
+}
+static_assert(sizeof(Outcome) == 152, "a field that comes to Outcome or leaves it does so in visit_fields() too");
+
+enum class Stored { state, invalid_reason, i32, u64, f64 };
+
+template <class T>
+constexpr Stored stored_as()
+{
+    if constexpr (std::is_same_v<T, State>)
+        return Stored::state;
+    else if constexpr (std::is_same_v<T, InvalidReason>)
+        return Stored::invalid_reason;
+    else if constexpr (std::is_same_v<T, std::int32_t>)
+        return Stored::i32;
+    else if constexpr (std::is_same_v<T, std::uint64_t>)
+        return Stored::u64;
+    else {
+        static_assert(std::is_same_v<T, double>);
+        return Stored::f64;
+    }
+}
+
+/// One data set with one entry for each row.
+struct Column {
+    std::string path; ///< below /realizations
+    std::string unit; ///< empty: none
+    Stored stored = Stored::f64;
+    bool matrix = false;     ///< (n x width) instead of (n)
+    std::uint64_t width = 1; ///< values for each row
+    std::uint64_t bytes = 0; ///< for each row
+};
+
+/// The columns of a file, and how a chunk of rows becomes bytes: column by column in the order of `columns()`, each as
+/// its rows lie in the file. The checksum of a chunk is over these bytes.
+class ResultLayout {
+public:
+    ResultLayout() = default;
+    /// @throws std::invalid_argument if there is no row, or if an input name is malformed, comes twice or lacks a
+    /// neighbour
+    explicit ResultLayout(const ResultHeader& header);
+
+    const std::vector<Column>& columns() const { return columns_; }
+    std::uint64_t rows() const { return rows_; }
+    /// The realizations of the rows are first_index() ... first_index() + rows() - 1.
+    std::uint64_t first_index() const { return first_index_; }
+    bool holds(std::uint64_t index) const { return index >= first_index_ && index - first_index_ < rows_; }
+    /// Chunk of a realization. @pre holds(index)
+    std::uint64_t chunk_of(std::uint64_t index) const { return (index - first_index_) / ResultWriter::rows_per_chunk; }
+    std::uint64_t row_bytes() const { return row_bytes_; }
+    std::size_t inputs() const { return inputs_.size(); }
+
+    std::uint64_t chunks() const { return (rows_ + ResultWriter::rows_per_chunk - 1) / ResultWriter::rows_per_chunk; }
+    std::uint64_t first_row(std::uint64_t chunk) const { return chunk * ResultWriter::rows_per_chunk; }
+    std::uint64_t rows_in(std::uint64_t chunk) const
+    {
+        return std::min(ResultWriter::rows_per_chunk, rows_ - first_row(chunk));
+    }
+    /// Bytes of a column in a chunk: where they begin, and how many.
+    std::uint64_t begin_in_chunk(std::size_t column, std::uint64_t chunk) const
+    {
+        return before_[column] * rows_in(chunk);
+    }
+    std::uint64_t bytes_in_chunk(std::size_t column, std::uint64_t chunk) const
+    {
+        return columns_[column].bytes * rows_in(chunk);
+    }
+
+    /// Puts a row into its place in its chunk's bytes. @pre holds(row.index), row.inputs has inputs() values
+    void encode(const ResultRow& row, std::span<std::byte> chunk_bytes) const;
+    /// Takes a realization's row from its chunk's bytes. @pre holds(index)
+    /// @throws std::invalid_argument if a value is impossible
+    ResultRow decode(std::uint64_t index, std::span<const std::byte> chunk_bytes) const;
+
+private:
+    struct Input {
+        std::size_t column = 0;
+        std::uint64_t component = 0;
+    };
+    std::size_t place(std::size_t column, std::uint64_t index) const;
+
+    std::uint64_t first_index_ = 0;
+    std::uint64_t rows_ = 0;
+    std::uint64_t row_bytes_ = 0;
+    std::vector<Column> columns_;
+    std::vector<std::uint64_t> before_; ///< bytes for each row of the columns before this one
+    std::vector<Input> inputs_;         ///< where `ResultRow::inputs` go
+};
+
+} // namespace stylobate

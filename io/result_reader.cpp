@@ -1,0 +1,162 @@
+#include "ensemble/input_error.hpp"
+#include "io/result_file.hpp"
+#include "io/result_store.hpp"
+
+#include <algorithm>
+
+namespace stylobate {
+
+namespace names = result_names;
+
+struct ResultReader::Impl {
+    ResultFile file;
+    std::vector<bool> there; ///< by chunk
+
+    /// The chunk read last, so that reading row after row is cheap.
+    mutable std::uint64_t cached_chunk = 0;
+    mutable std::optional<std::vector<std::byte>> cached;
+
+    ResultRow row(std::uint64_t index) const
+    {
+        const std::uint64_t chunk = file.layout.chunk_of(index);
+        if (!cached || cached_chunk != chunk) {
+            cached = file.read_chunk(chunk);
+            cached_chunk = chunk;
+        }
+        if (!cached)
+            file.refuse_damaged("row " + std::to_string(index) + " has changed since the file was opened");
+        try {
+            return file.layout.decode(index, *cached);
+        } catch (const std::invalid_argument& error) {
+            file.refuse_damaged(error.what());
+        }
+    }
+
+    /// Runs a part that reads through HDF5; what it finds wrong is damage.
+    template <class Function>
+    auto guarded(Function function) const
+    {
+        try {
+            return function(file.hdf5.id());
+        } catch (const hdf5::Error& error) {
+            file.refuse_damaged(error.what());
+        }
+    }
+};
+
+ResultReader::ResultReader(const std::filesystem::path& file) : impl_(std::make_unique<Impl>())
+{
+    impl_->file = open_result(file, false);
+    const ResultFile& opened = impl_->file;
+    for (std::uint64_t chunk = 0; chunk < opened.layout.chunks(); ++chunk) {
+        impl_->there.push_back(opened.read_chunk(chunk).has_value());
+        if (opened.complete && !impl_->there.back())
+            opened.refuse_damaged("the checksum of the rows from " + std::to_string(opened.layout.first_row(chunk)) +
+                                  " on is wrong");
+    }
+}
+
+ResultReader::~ResultReader() = default;
+
+const ResultHeader& ResultReader::header() const
+{
+    return impl_->file.header;
+}
+
+bool ResultReader::complete() const
+{
+    return impl_->file.complete;
+}
+
+bool ResultReader::has(std::uint64_t index) const
+{
+    const ResultLayout& layout = impl_->file.layout;
+    return layout.holds(index) && impl_->there[layout.chunk_of(index)];
+}
+
+ResultRow ResultReader::row(std::uint64_t index) const
+{
+    const ResultLayout& layout = impl_->file.layout;
+    if (!layout.holds(index))
+        throw InputError(impl_->file.path.string(), 0,
+                         "has no realization " + std::to_string(index) + "; it has those from " +
+                             std::to_string(layout.first_index()) + " to " +
+                             std::to_string(layout.first_index() + layout.rows() - 1));
+    if (!has(index))
+        throw InputError(impl_->file.path.string(), 0,
+                         "does not hold realization " + std::to_string(index) +
+                             " yet: the run was interrupted. Continue it with 'run'.");
+    return impl_->row(index);
+}
+
+std::vector<ResultRow> ResultReader::rows() const
+{
+    std::vector<ResultRow> rows;
+    const ResultLayout& layout = impl_->file.layout;
+    for (std::uint64_t i = 0; i < layout.rows(); ++i)
+        if (has(layout.first_index() + i))
+            rows.push_back(impl_->row(layout.first_index() + i));
+    return rows;
+}
+
+SurfaceTable ResultReader::surface() const
+{
+    return impl_->guarded([this](hid_t file) {
+        SurfaceTable table;
+        const std::string group = std::string(names::surface) + "/";
+        if (!hdf5::exists(file, names::surface) || !hdf5::exists(file, group + "trials"))
+            return table;
+        table.frequency_hz = header().frequency_hz;
+        table.pga_m_s2 = header().pga_m_s2;
+        const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
+        table.trials = hdf5::read_counts(file, group + "trials", dims);
+        table.collapses = hdf5::read_counts(file, group + "collapses", dims);
+        table.probability = hdf5::read_doubles(file, group + "probability", dims);
+        table.lower = hdf5::read_doubles(file, group + "lower", dims);
+        table.upper = hdf5::read_doubles(file, group + "upper", dims);
+        table.interval = hdf5::read_text(hdf5::open_group(file, names::surface).id(), "interval");
+        return table;
+    });
+}
+
+std::vector<std::uint64_t> ResultReader::trajectory_indices() const
+{
+    return impl_->guarded([](hid_t file) {
+        std::vector<std::uint64_t> indices;
+        if (!hdf5::exists(file, names::trajectories))
+            return indices;
+        for (const std::string& name : hdf5::names_in(hdf5::open_group(file, names::trajectories).id())) {
+            if (name.empty() || name.size() > 19 || name.find_first_not_of("0123456789") != std::string::npos)
+                throw hdf5::Error("'" + name + "' is not the index of a trajectory");
+            indices.push_back(std::stoull(name));
+        }
+        std::sort(indices.begin(), indices.end());
+        return indices;
+    });
+}
+
+Trajectory ResultReader::trajectory(std::uint64_t index) const
+{
+    const auto indices = trajectory_indices();
+    if (!std::binary_search(indices.begin(), indices.end(), index))
+        throw InputError(impl_->file.path.string(), 0,
+                         "has no trajectory of realization " + std::to_string(index) + "; 'replay' makes one");
+    return impl_->guarded([index](hid_t file) {
+        const std::string group = std::string(names::trajectories) + "/" + std::to_string(index) + "/";
+        Trajectory trajectory;
+        trajectory.index = index;
+        const hdf5::Dims both = hdf5::dims_of(file, group + "x_m");
+        if (both.size() != 2)
+            throw hdf5::Error("'" + group + "x_m' is not a matrix");
+        trajectory.time_s = hdf5::read_doubles(file, group + "time_s", {both[0]});
+        trajectory.x_m = hdf5::read_doubles(file, group + "x_m", both);
+        trajectory.y_m = hdf5::read_doubles(file, group + "y_m", both);
+        trajectory.theta_rad = hdf5::read_doubles(file, group + "theta_rad", both);
+        trajectory.base_x_m = hdf5::read_doubles(file, group + "base_x_m", {both[0]});
+        trajectory.half_width_m = hdf5::read_doubles(file, group + "half_width_m", {both[1]});
+        trajectory.half_height_m = hdf5::read_doubles(file, group + "half_height_m", {both[1]});
+        return trajectory;
+    });
+}
+
+} // namespace stylobate

@@ -1,0 +1,147 @@
+#include "io/result_seal.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/result_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <zlib.h>
+
+namespace stylobate {
+namespace {
+
+/// The start of the block; the extents follow, then zeros, then the block's own CRC-32 in its last four bytes.
+struct SealHead {
+    std::array<char, 16> magic;
+    std::uint32_t version;
+    std::uint32_t block;     ///< bytes, the CRC-32 at its end included
+    std::uint64_t file_size; ///< bytes
+    std::uint32_t extents;
+    std::uint32_t crc; ///< of the file from the end of the block, without the extents
+};
+static_assert(sizeof(SealHead) == 40);
+static_assert(sizeof(Extent) == 16);
+static_assert(std::endian::native == std::endian::little,
+              "the file is little-endian and is written without conversion");
+
+constexpr std::array<char, 16> magic = {'s', 't', 'y', 'l', 'o', 'b', 'a',  't',
+                                        'e', ' ', 's', 'e', 'a', 'l', '\n', '\0'};
+constexpr std::array<unsigned char, 8> hdf5_signature = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+constexpr std::uint64_t smallest_block = 512;
+constexpr std::uint64_t largest_block = 1 << 20;
+constexpr char damaged[] = "is damaged: its bytes are not those that were written. Take a copy, or run the study again "
+                           "into another file.";
+
+std::uint32_t crc_outside(const FileHandle& file, std::uint64_t from, std::uint64_t end,
+                          const std::vector<Extent>& extents)
+{
+    std::vector<std::byte> buffer(std::size_t{1} << 18);
+    std::uint32_t crc = 0;
+    const auto add = [&](std::uint64_t to) {
+        while (from < to) {
+            const auto part = std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), to - from));
+            file.read(from, part);
+            crc = crc32_of(part, crc);
+            from += part.size();
+        }
+    };
+    for (const Extent& extent : extents) {
+        add(extent.offset);
+        from = extent.offset + extent.size;
+    }
+    add(end);
+    return crc;
+}
+
+} // namespace
+
+std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before)
+{
+    return static_cast<std::uint32_t>(
+        ::crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
+
+std::uint64_t seal_bytes(std::size_t extents)
+{
+    return std::max(smallest_block, std::bit_ceil(sizeof(SealHead) + extents * sizeof(Extent) + sizeof(std::uint32_t)));
+}
+
+std::vector<Extent> joined(std::vector<Extent> extents)
+{
+    std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) { return a.offset < b.offset; });
+    std::vector<Extent> result;
+    for (const Extent& extent : extents)
+        if (!result.empty() && result.back().offset + result.back().size == extent.offset)
+            result.back().size += extent.size;
+        else
+            result.push_back(extent);
+    return result;
+}
+
+void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents)
+{
+    const std::uint64_t size = file.size();
+    const SealHead head = {
+        magic, static_cast<std::uint32_t>(result_format_version), static_cast<std::uint32_t>(block),
+        size,  static_cast<std::uint32_t>(extents.size()),        crc_outside(file, block, size, extents)};
+    std::vector<std::byte> bytes(block);
+    std::memcpy(bytes.data(), &head, sizeof head);
+    std::memcpy(bytes.data() + sizeof head, extents.data(), extents.size() * sizeof(Extent));
+    const std::uint32_t crc = crc32_of(std::span(bytes).first(block - sizeof crc));
+    std::memcpy(bytes.data() + block - sizeof crc, &crc, sizeof crc);
+    file.write(0, bytes);
+}
+
+std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
+{
+    const auto refuse = [&](const std::string& text) { throw InputError(name, 0, text); };
+
+    const std::uint64_t size = file.size();
+    std::array<std::byte, sizeof(SealHead)> start = {};
+    file.read(0, std::span(start).first(std::min<std::uint64_t>(size, start.size())));
+    if (size == 0)
+        refuse("is empty; a results file of stylobate is needed");
+    if (std::memcmp(start.data(), hdf5_signature.data(), hdf5_signature.size()) == 0)
+        refuse(
+            "is an HDF5 file, but not a results file as stylobate writes it (another program made it or rewrote it)");
+    if (std::memcmp(start.data(), magic.data(), magic.size()) != 0)
+        refuse("is not a results file of stylobate");
+    SealHead head = {};
+    std::memcpy(&head, start.data(), sizeof head);
+    if (size < smallest_block)
+        refuse("is truncated");
+    if (!std::has_single_bit(head.block) || head.block < smallest_block || head.block > largest_block)
+        refuse(damaged);
+    if (size < head.block)
+        refuse("is truncated");
+
+    std::vector<std::byte> block(head.block);
+    file.read(0, block);
+    std::uint32_t crc = 0;
+    std::memcpy(&crc, block.data() + block.size() - sizeof crc, sizeof crc);
+    if (crc != crc32_of(std::span(block).first(block.size() - sizeof crc)))
+        refuse(damaged);
+    if (head.version != result_format_version)
+        refuse("is of format version " + std::to_string(head.version) + "; this program reads version " +
+               std::to_string(result_format_version));
+    if (size < head.file_size)
+        refuse("is truncated: " + std::to_string(size) + " bytes of " + std::to_string(head.file_size));
+    if (size > head.file_size || head.extents > (head.block - sizeof head - sizeof crc) / sizeof(Extent))
+        refuse(damaged);
+
+    std::vector<Extent> extents(head.extents);
+    std::memcpy(extents.data(), block.data() + sizeof head, extents.size() * sizeof(Extent));
+    std::uint64_t from = head.block;
+    for (const Extent& extent : extents) {
+        if (extent.offset < from || extent.offset > size || extent.size > size - extent.offset)
+            refuse(damaged);
+        from = extent.offset + extent.size;
+    }
+    if (crc_outside(file, head.block, size, extents) != head.crc)
+        refuse(damaged);
+    return extents;
+}
+
+} // namespace stylobate

@@ -1,0 +1,38 @@
+#pragma once
+/// The seal of a results file: its first bytes, in front of the HDF5 part. It holds a checksum over every byte that
+/// does not change while rows are written, so that damage is found before the HDF5 library meets it.
+
+#include "io/file_handle.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Bytes of the file that hold rows: they have checksums of their own.
+struct Extent {
+    std::uint64_t offset = 0;
+    std::uint64_t size = 0;
+    bool operator==(const Extent&) const = default;
+};
+
+/// CRC-32 of zlib, continued from `before`.
+std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before = 0);
+
+/// Room for the seal of a file with so many extents: a power of two from 512, as HDF5 wants its user block [bytes].
+std::uint64_t seal_bytes(std::size_t extents);
+/// In the order of their offsets, neighbours joined.
+std::vector<Extent> joined(std::vector<Extent> extents);
+
+/// Checks the whole file outside `extents` (joined), and writes the seal.
+/// @param block what `seal_bytes` said when the file was created
+void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents);
+
+/// Verifies the seal. @returns the extents
+/// @param name of the file, for messages
+/// @throws InputError if the file is none of ours, of another format version, truncated or damaged
+std::vector<Extent> check_seal(const FileHandle& file, const std::string& name);
+
+} // namespace stylobate

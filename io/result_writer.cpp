@@ -1,0 +1,356 @@
+#include "ensemble/input_error.hpp"
+#include "io/result_file.hpp"
+#include "io/result_store.hpp"
+
+#include <array>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace stylobate {
+namespace {
+
+namespace names = result_names;
+
+/// A name in the same folder, for what is not ready to be seen.
+std::filesystem::path beside(const std::filesystem::path& file, const char* suffix)
+{
+    return file.parent_path() / (file.filename().string() + suffix);
+}
+
+/// Removes an unfinished file when something fails on the way.
+class Temporary {
+public:
+    explicit Temporary(std::filesystem::path file) : file_(std::move(file)) {}
+    ~Temporary()
+    {
+        std::error_code ignored;
+        if (!kept_)
+            std::filesystem::remove(file_, ignored);
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    void keep() { kept_ = true; }
+
+private:
+    std::filesystem::path file_;
+    bool kept_ = false;
+};
+
+void write_rows_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& layout)
+{
+    hdf5::create_group(file, names::realizations);
+    const hdf5::Handle input = hdf5::create_group(file, names::input);
+    std::string order;
+    for (const std::string& name : header.input_names)
+        order += (order.empty() ? "" : " ") + name;
+    hdf5::write_text(input.id(), names::input_order, order);
+    hdf5::create_group(file, names::outcome);
+    for (const Column& column : layout.columns()) {
+        const auto dataset = hdf5::create_dataset(file, std::string(names::realizations) + "/" + column.path,
+                                                  file_type(column.stored).id(), column_dims(layout, column),
+                                                  column.stored == Stored::state ? &state_not_run : nullptr);
+        if (!column.unit.empty())
+            hdf5::write_text(dataset.id(), "unit", column.unit);
+    }
+    const auto checksum = hdf5::create_dataset(file, names::checksum, H5T_STD_U64LE, {layout.chunks()});
+    hdf5::write_number(checksum.id(), names::rows_per_chunk, H5T_STD_U32LE, ResultWriter::rows_per_chunk);
+}
+
+/// Everything but the values of the rows.
+void write_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& layout)
+{
+    hdf5::write_text(file, "format", names::format);
+    hdf5::write_number(file, "format_version", H5T_STD_U32LE, result_format_version);
+    hdf5::write_text(file, "kind", header.kind);
+    hdf5::write_text(file, "study_toml", header.study_toml);
+    hdf5::write_number(file, "seed", H5T_STD_U64LE, header.seed);
+    hdf5::write_text(file, "code_version", header.code_version);
+    hdf5::write_number(file, "realizations", H5T_STD_U64LE, header.total);
+    hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
+    hdf5::write_number(file, "complete", H5T_STD_U8LE, 0);
+    write_rows_skeleton(file, header, layout);
+    if (!header.frequency_hz.empty()) {
+        hdf5::create_group(file, names::surface);
+        hdf5::write_array(file, names::surface_frequency, header.frequency_hz, {header.frequency_hz.size()}, "Hz");
+        hdf5::write_array(file, names::surface_pga, header.pga_m_s2, {header.pga_m_s2.size()}, "m/s2");
+    }
+}
+
+void write_surface(hid_t file, const SurfaceTable& table)
+{
+    const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
+    const std::string group = std::string(names::surface) + "/";
+    hdf5::write_array(file, group + "trials", table.trials, dims, "");
+    hdf5::write_array(file, group + "collapses", table.collapses, dims, "");
+    hdf5::write_array(file, group + "probability", table.probability, dims, "");
+    hdf5::write_array(file, group + "lower", table.lower, dims, "");
+    hdf5::write_array(file, group + "upper", table.upper, dims, "");
+    hdf5::write_text(hdf5::open_group(file, names::surface).id(), "interval", table.interval);
+}
+
+void write_trajectory(hid_t file, const Trajectory& trajectory)
+{
+    const std::string group = std::string(names::trajectories) + "/" + std::to_string(trajectory.index);
+    hdf5::create_group(file, group);
+    const hdf5::Dims time = {trajectory.time_s.size()};
+    const hdf5::Dims block = {trajectory.blocks()};
+    const hdf5::Dims both = {trajectory.time_s.size(), trajectory.blocks()};
+    hdf5::write_array(file, group + "/time_s", trajectory.time_s, time, "s");
+    hdf5::write_array(file, group + "/x_m", trajectory.x_m, both, "m");
+    hdf5::write_array(file, group + "/y_m", trajectory.y_m, both, "m");
+    hdf5::write_array(file, group + "/theta_rad", trajectory.theta_rad, both, "rad");
+    hdf5::write_array(file, group + "/base_x_m", trajectory.base_x_m, time, "m");
+    hdf5::write_array(file, group + "/half_width_m", trajectory.half_width_m, block, "m");
+    hdf5::write_array(file, group + "/half_height_m", trajectory.half_height_m, block, "m");
+}
+
+/// Where two study texts part, for a message; empty if they are the same.
+std::string study_difference(const std::string& in_file, const std::string& asked)
+{
+    std::istringstream a(in_file);
+    std::istringstream b(asked);
+    for (int line = 1;; ++line) {
+        std::string left;
+        std::string right;
+        const bool more_left = static_cast<bool>(std::getline(a, left));
+        const bool more_right = static_cast<bool>(std::getline(b, right));
+        if (!more_left && !more_right)
+            return in_file == asked ? "" : "its study text ends differently";
+        if (more_left != more_right || left != right)
+            return "line " + std::to_string(line) + " of the study is\n    " +
+                   (more_left ? left : "(the end of the text)") + "\n  in the file and\n    " +
+                   (more_right ? right : "(the end of the text)") + "\n  in the study that was given";
+    }
+}
+
+void check_same_study(const ResultFile& file, const ResultHeader& asked)
+{
+    const ResultHeader& found = file.header;
+    const auto refuse = [&](const std::string& text) { throw InputError(file.path.string(), 0, text); };
+    std::string other = study_difference(found.study_toml, asked.study_toml);
+    if (other.empty() && found.kind != asked.kind)
+        other = "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
+    if (other.empty() && found.seed != asked.seed)
+        other = "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
+    if (other.empty() && found.total != asked.total)
+        other = "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
+    if (other.empty() && found.first != asked.first)
+        other =
+            "it begins with realization " + std::to_string(found.first) + " instead of " + std::to_string(asked.first);
+    if (other.empty() && found.input_names != asked.input_names)
+        other = "its inputs have other names";
+    if (other.empty() && (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2))
+        other = "its surface has other axes";
+    if (!other.empty())
+        refuse("holds the results of another study: " + other + ". Choose another output.");
+    if (found.code_version != asked.code_version)
+        refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
+               ", whose results may have other bits. Finish it with the old version, or choose another output.");
+    if (file.complete)
+        refuse("is complete already: nothing is left to run. Choose another output to run the study again.");
+}
+
+} // namespace
+
+struct ResultWriter::Impl {
+    /// A chunk that waits for its last rows.
+    struct Pending {
+        std::vector<std::byte> bytes;
+        std::vector<bool> taken;
+        std::uint64_t missing = 0;
+    };
+
+    ResultFile file;
+    std::vector<bool> done; ///< by chunk
+    std::uint64_t rows = 0;
+    std::array<std::uint64_t, 5> by_state = {};
+    std::map<std::uint64_t, Pending> pending;
+    std::map<std::uint64_t, Trajectory> trajectories;
+    bool finished = false;
+
+    explicit Impl(ResultFile opened) : file(std::move(opened)), done(file.layout.chunks(), false) {}
+
+    void count(std::uint64_t chunk, std::span<const std::byte> bytes)
+    {
+        done[chunk] = true;
+        const std::uint64_t first = file.layout.first_index() + file.layout.first_row(chunk);
+        for (std::uint64_t i = 0; i < file.layout.rows_in(chunk); ++i) {
+            ++by_state[static_cast<std::size_t>(file.layout.decode(first + i, bytes).outcome.state)];
+            ++rows;
+        }
+    }
+
+    void check_open() const
+    {
+        if (finished)
+            throw std::logic_error("the results file is finished: nothing can be added");
+    }
+
+    void check_table(const SurfaceTable& table) const;
+};
+
+void ResultWriter::Impl::check_table(const SurfaceTable& table) const
+{
+    const std::size_t cells = table.frequency_hz.size() * table.pga_m_s2.size();
+    if (cells == 0 || table.frequency_hz != file.header.frequency_hz || table.pga_m_s2 != file.header.pga_m_s2)
+        throw std::invalid_argument("the surface's axes are not those that its file was created with");
+    if (table.trials.size() != cells || table.collapses.size() != cells || table.probability.size() != cells ||
+        table.lower.size() != cells || table.upper.size() != cells)
+        throw std::invalid_argument("the surface's table is not (nf x np)");
+}
+
+ResultWriter::ResultWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ResultWriter::~ResultWriter() = default;
+
+std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& file, const ResultHeader& header)
+{
+    const ResultLayout layout(header);
+    if (header.frequency_hz.empty() != header.pga_m_s2.empty())
+        throw std::invalid_argument("a surface has two axes");
+    if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+        throw InputError(file.string(), 0, "exists already; choose another output");
+
+    ResultFile result;
+    result.path = file;
+    result.header = header;
+    result.layout = layout;
+    const std::filesystem::path unready = beside(file, ".creating");
+    result.handle = FileHandle::claim(unready);
+    Temporary temporary(unready);
+    try {
+        const std::uint64_t block = seal_bytes(layout.columns().size() + 1);
+        hdf5::Handle made = hdf5::create_file(unready, block);
+        write_skeleton(made.id(), header, layout);
+        result.places = find_rows(made.id(), layout);
+        made.close();
+        result.handle.reserve();
+        write_seal(result.handle, block, result.places.extents(layout));
+        result.handle.sync();
+    } catch (const hdf5::Error& error) {
+        throw InputError(file.string(), 0, std::string("cannot be written: ") + error.what());
+    } catch (const std::system_error& error) {
+        throw InputError(file.string(), 0, "cannot be written: " + error.code().message());
+    }
+    rename_new(unready, file);
+    temporary.keep();
+    return std::unique_ptr<ResultWriter>(new ResultWriter(std::make_unique<Impl>(std::move(result))));
+}
+
+std::unique_ptr<ResultWriter> ResultWriter::resume(const std::filesystem::path& file, const ResultHeader& header)
+{
+    // behind a symbolic link the file itself is continued and, at the end, replaced
+    std::error_code ignored;
+    const auto real = std::filesystem::canonical(file, ignored);
+    ResultFile opened = open_result(real.empty() ? file : real, true);
+    check_same_study(opened, header);
+    opened.hdf5.reset(); // rows need the places only
+
+    auto impl = std::make_unique<Impl>(std::move(opened));
+    for (std::uint64_t chunk = 0; chunk < impl->file.layout.chunks(); ++chunk)
+        if (const auto bytes = impl->file.read_chunk(chunk)) {
+            try {
+                impl->count(chunk, *bytes);
+            } catch (const std::invalid_argument& error) {
+                impl->file.refuse_damaged(error.what());
+            }
+        }
+    return std::unique_ptr<ResultWriter>(new ResultWriter(std::move(impl)));
+}
+
+bool ResultWriter::has(std::uint64_t index) const
+{
+    return impl_->file.layout.holds(index) && impl_->done[impl_->file.layout.chunk_of(index)];
+}
+
+std::uint64_t ResultWriter::rows() const
+{
+    return impl_->rows;
+}
+
+std::vector<std::uint64_t> ResultWriter::rows_by_state() const
+{
+    return {impl_->by_state.begin(), impl_->by_state.end()};
+}
+
+void ResultWriter::add(const ResultRow& row)
+{
+    impl_->check_open();
+    const ResultLayout& layout = impl_->file.layout;
+    if (!layout.holds(row.index) || row.inputs.size() != layout.inputs())
+        throw std::invalid_argument("row " + std::to_string(row.index) + " does not fit into the results file");
+    if (has(row.index))
+        return;
+    const std::uint64_t chunk = layout.chunk_of(row.index);
+    const auto [at, is_new] = impl_->pending.try_emplace(chunk);
+    Impl::Pending& pending = at->second;
+    if (is_new) {
+        pending.missing = layout.rows_in(chunk);
+        pending.taken.resize(pending.missing);
+        pending.bytes.resize(layout.row_bytes() * pending.missing);
+    }
+    const std::uint64_t place = row.index - layout.first_index() - layout.first_row(chunk);
+    if (pending.taken[place])
+        return;
+    layout.encode(row, pending.bytes);
+    pending.taken[place] = true;
+    if (--pending.missing > 0)
+        return;
+    impl_->file.write_chunk(chunk, pending.bytes);
+    impl_->count(chunk, pending.bytes);
+    impl_->pending.erase(at);
+}
+
+void ResultWriter::add(const Trajectory& trajectory)
+{
+    impl_->check_open();
+    const std::size_t times = trajectory.time_s.size();
+    const std::size_t values = times * trajectory.blocks();
+    if (trajectory.x_m.size() != values || trajectory.y_m.size() != values || trajectory.theta_rad.size() != values ||
+        trajectory.base_x_m.size() != times || trajectory.half_height_m.size() != trajectory.blocks())
+        throw std::invalid_argument("the arrays of a trajectory do not fit together");
+    impl_->trajectories[trajectory.index] = trajectory;
+}
+
+void ResultWriter::flush()
+{
+    impl_->file.handle.sync();
+}
+
+void ResultWriter::finish(const SurfaceTable* surface)
+{
+    impl_->check_open();
+    ResultFile& file = impl_->file;
+    if (impl_->rows != file.layout.rows())
+        throw std::logic_error("only " + std::to_string(impl_->rows) + " of " + std::to_string(file.layout.rows()) +
+                               " rows have been added");
+    if (surface)
+        impl_->check_table(*surface);
+
+    // The HDF5 structure changes now, in a copy that takes the file's place in one step: a run that is killed here
+    // leaves the unfinished file as it was.
+    const std::filesystem::path unready = beside(file.path, ".finishing");
+    std::filesystem::remove(unready);
+    FileHandle copy = FileHandle::claim(unready);
+    Temporary temporary(unready);
+    copy.copy_from(file.handle);
+    hdf5::Handle opened = hdf5::open_file(unready, true);
+    if (surface)
+        write_surface(opened.id(), *surface);
+    if (!impl_->trajectories.empty())
+        hdf5::create_group(opened.id(), names::trajectories);
+    for (const auto& [index, trajectory] : impl_->trajectories)
+        write_trajectory(opened.id(), trajectory);
+    hdf5::change_number(opened.id(), "complete", 1);
+    const RowPlaces places = find_rows(opened.id(), file.layout);
+    opened.close();
+    write_seal(copy, seal_bytes(file.layout.columns().size() + 1), places.extents(file.layout));
+    copy.sync();
+    rename_over(unready, file.path);
+    temporary.keep();
+    file.handle = std::move(copy);
+    file.places = places;
+    impl_->finished = true;
+}
+
+} // namespace stylobate

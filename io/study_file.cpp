@@ -1,0 +1,357 @@
+#include "io/study_file.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/key_reader.hpp"
+#include "io/study_names.hpp"
+#include "io/study_perturbations.hpp"
+#include "io/study_ranges.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 20;
+constexpr std::uint64_t most_realizations = 1'000'000'000;
+
+/// A word that has only one meaning so far: refused if it is another.
+void only_word(const KeyReader& keys, std::string_view key, const char* word)
+{
+    if (keys.has(key))
+        keys.word_index(key, {word});
+}
+
+StructureSpec read_structure(const KeyReader& keys)
+{
+    keys.allow_only({"kind", "blocks", "fixed_blocks", "drum_width_m", "drum_height_m", "depth_m", "drum_mass_kg",
+                     "density_kg_m3", "gravity_m_s2"});
+    only_word(keys, "kind", "column");
+
+    StructureSpec s;
+    s.blocks = static_cast<int>(keys.whole("blocks", 1, 200, "Drums of the column, the fixed ones counted."));
+    s.fixed_blocks = static_cast<int>(keys.whole_or("fixed_blocks", 0, static_cast<std::uint64_t>(s.blocks - 1), 0,
+                                                    "At least one of the drums must be free."));
+    s.drum_width_m = keys.number("drum_width_m", length_range);
+    s.drum_height_m = keys.number("drum_height_m", length_range);
+    s.depth_m = keys.number("depth_m", length_range);
+    s.gravity_m_s2 = keys.number_or("gravity_m_s2", gravity_range, s.gravity_m_s2);
+
+    const double volume = s.drum_width_m * s.drum_height_m * s.depth_m;
+    if (!(volume >= std::numeric_limits<double>::min()))
+        keys.refuse("drum_width_m", "gives a drum without volume", length_range.hint);
+    if (keys.has("drum_mass_kg") && keys.has("density_kg_m3"))
+        keys.refuse("density_kg_m3", "and drum_mass_kg exclude each other", "Give one of the two.");
+    if (keys.has("density_kg_m3")) {
+        s.drum_mass_kg = keys.number("density_kg_m3", density_range) * volume;
+        if (!mass_range.contains(s.drum_mass_kg))
+            keys.refuse("density_kg_m3",
+                        fmt::format("gives a mass of {} kg, outside {}", s.drum_mass_kg, mass_range.text()),
+                        density_range.hint);
+    } else if (keys.has("drum_mass_kg")) {
+        s.drum_mass_kg = keys.number("drum_mass_kg", mass_range);
+        // the mass of a density at the end of its range may round to just beyond it
+        constexpr double slack = 1 + 1e-12;
+        const double density = s.drum_mass_kg / volume;
+        if (!(density > 0 && density <= density_range.high * slack))
+            keys.refuse("drum_mass_kg",
+                        fmt::format("makes a density of {:.6g} kg/m3, outside {}", density, density_range.text()),
+                        "Masses are in kilograms and lengths in metres: is one in other units?");
+    } else {
+        keys.missing("drum_mass_kg", "Give the mass of a drum in kilograms, or density_kg_m3.");
+    }
+    return s;
+}
+
+/// A dashpot's ratio or its coefficient.
+void read_damping(const KeyReader& keys, const std::string& direction, double& ratio,
+                  std::optional<double>& coefficient)
+{
+    const std::string ratio_key = direction + "_damping_ratio";
+    const std::string coefficient_key = direction + "_damping_n_s_m";
+    if (keys.has(ratio_key) && keys.has(coefficient_key))
+        keys.refuse(coefficient_key, "and " + ratio_key + " exclude each other", "Give one of the two.");
+    ratio = keys.number_or(ratio_key, damping_ratio_range, ratio);
+    coefficient = keys.maybe_number(coefficient_key, damping_range);
+}
+
+ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
+{
+    keys.allow_only({"normal_stiffness_n_m2", "tangential_stiffness_n_m", "normal_damping_ratio",
+                     "normal_damping_n_s_m", "tangential_damping_ratio", "tangential_damping_n_s_m", "damping",
+                     "damping_per", "form", "friction"});
+    only_word(keys, "damping", "centroid");
+    only_word(keys, "form", "area");
+
+    ContactSpec c;
+    c.normal_stiffness_n_m2 = keys.number("normal_stiffness_n_m2", normal_stiffness_range);
+    // as stiff along the bed as across it: K_T is the axial stiffness K_N B of the full bed
+    c.tangential_stiffness_n_m = keys.number_or("tangential_stiffness_n_m", tangential_stiffness_range,
+                                                c.normal_stiffness_n_m2 * structure.drum_width_m);
+    read_damping(keys, "normal", c.normal_damping_ratio, c.normal_damping_n_s_m);
+    read_damping(keys, "tangential", c.tangential_damping_ratio, c.tangential_damping_n_s_m);
+    c.damping_per = keys.choice_or("damping_per", damping_per_names, c.damping_per);
+    c.friction = keys.number("friction", friction_range);
+    return c;
+}
+
+std::vector<std::string> excitation_keys(ExcitationKind kind)
+{
+    switch (kind) {
+    case ExcitationKind::none:
+        return {"kind", "duration_s"};
+    case ExcitationKind::harmonic:
+        return {"kind", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles", "phase_rad", "tail_s"};
+    case ExcitationKind::half_sine:
+    case ExcitationKind::full_sine:
+        return {"kind", "frequency_hz", "pga_m_s2", "tail_s"};
+    case ExcitationKind::record:
+        break;
+    }
+    return {"kind", "file", "component", "unit", "scale_to_pga_m_s2", "time_scale", "baseline", "tail_s"};
+}
+
+void read_harmonic(const KeyReader& keys, ExcitationSpec& e)
+{
+    e.start = keys.choice_or("start", edge_names, e.start);
+    e.end = keys.choice_or("end", edge_names, e.end);
+    e.ramp_cycles = keys.number_or("ramp_cycles", cycles_range, e.ramp_cycles);
+    e.cycles = keys.number_or("cycles", cycles_range, e.cycles);
+    e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
+    const int ramps = (e.start == HarmonicEdge::smooth ? 1 : 0) + (e.end == HarmonicEdge::smooth ? 1 : 0);
+    if (ramps * e.ramp_cycles > e.cycles) {
+        const auto what = fmt::format("does not fit: {} of {} cycles each in {} cycles",
+                                      ramps == 2 ? "two ramps" : "a ramp", e.ramp_cycles, e.cycles);
+        const char* todo = "Give more cycles or shorter ramps, or start or end = \"abrupt\".";
+        for (const char* key : {"ramp_cycles", "cycles"})
+            if (keys.has(key))
+                keys.refuse(key, what, todo);
+    }
+}
+
+void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
+{
+    if (!keys.has("file"))
+        keys.missing("file", "Name the record here, or on the command line: --set excitation.file=PATH");
+    e.file = keys.text("file");
+    e.component = keys.text_or_empty("component");
+    if (keys.has("unit")) {
+        const std::vector<std::string> units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};
+        e.unit = units[keys.word_index("unit", units)];
+        if (e.unit == "gal")
+            e.unit = "cm/s2"; // one name for one unit, so that equal studies have equal texts
+    }
+    if (!in_surface) {
+        e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
+        e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
+    }
+    e.baseline = keys.boolean_or("baseline", e.baseline);
+}
+
+ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
+{
+    keys.allow_only({"kind", "duration_s", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles",
+                     "phase_rad", "file", "component", "unit", "scale_to_pga_m_s2", "time_scale", "baseline",
+                     "tail_s"});
+    ExcitationSpec e;
+    e.kind = keys.choice("kind", excitation_kind_names);
+    keys.refuse_unused(excitation_keys(e.kind),
+                       fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, e.kind)));
+    if (in_surface) {
+        if (e.kind == ExcitationKind::none)
+            keys.refuse("kind", "shakes nothing, and study.kind is \"surface\"",
+                        "Give another excitation, or study.kind = \"single\".");
+        for (const char* key : {"frequency_hz", "pga_m_s2", "scale_to_pga_m_s2", "time_scale"})
+            if (keys.has(key))
+                keys.refuse(key, "is not used by study.kind = \"surface\"",
+                            "Remove it: frequency and PGA come from the axes of [surface].");
+    }
+    switch (e.kind) {
+    case ExcitationKind::none:
+        e.duration_s = keys.number("duration_s", duration_range);
+        return e;
+    case ExcitationKind::record:
+        read_record(keys, in_surface, e);
+        break;
+    case ExcitationKind::harmonic:
+    case ExcitationKind::half_sine:
+    case ExcitationKind::full_sine:
+        if (!in_surface) {
+            e.frequency_hz = keys.number("frequency_hz", frequency_range);
+            e.pga_m_s2 = keys.number("pga_m_s2", acceleration_range);
+        }
+        if (e.kind == ExcitationKind::harmonic)
+            read_harmonic(keys, e);
+        break;
+    }
+    e.tail_s = keys.maybe_number("tail_s", tail_range);
+    return e;
+}
+
+Axis read_axis(const KeyReader& surface, std::string_view key, const Range& range)
+{
+    if (!surface.has(key))
+        surface.missing(key, fmt::format("Give it as {{ from = ..., to = ..., count = ..., spacing = \"linear\" }} "
+                                         "with values in {}. {}",
+                                         range.text(), range.hint));
+    const KeyReader keys = surface.table(key);
+    keys.allow_only({"from", "to", "count", "spacing"});
+    Axis axis;
+    axis.from = keys.number("from", range);
+    axis.to = keys.number("to", range);
+    axis.count = static_cast<int>(keys.whole("count", 1, 1000));
+    axis.spacing = keys.choice_or("spacing", spacing_names, axis.spacing);
+    if (axis.from > axis.to)
+        keys.refuse("from", fmt::format("is above to = {}", axis.to), "Axes run upwards.");
+    if (axis.count == 1 && axis.from != axis.to)
+        keys.refuse("count", fmt::format("is one value, but from = {} and to = {}", axis.from, axis.to),
+                    "Give more values, or the same from and to.");
+    if (axis.count > 1 && axis.from == axis.to)
+        keys.refuse("count", fmt::format("gives equal values: from = to = {}", axis.from),
+                    "Give count = 1, or another from or to.");
+    return axis;
+}
+
+SurfaceSpec read_surface(const KeyReader& keys)
+{
+    keys.allow_only({"frequency_hz", "pga_m_s2"});
+    return {read_axis(keys, "frequency_hz", frequency_range), read_axis(keys, "pga_m_s2", acceleration_range)};
+}
+
+OutcomeSpec read_outcome(const KeyReader& keys)
+{
+    keys.allow_only({"collapse", "rocking_threshold_rad", "sliding_threshold"});
+    OutcomeSpec o;
+    const KeyReader collapse = keys.table("collapse");
+    collapse.allow_only({"height_fraction"});
+    o.collapse_height_fraction = collapse.number_or(
+        "height_fraction", {0.01, 0.99, false, "A part of the rest height.", 0.01}, o.collapse_height_fraction);
+    o.rocking_threshold_rad = keys.number_or("rocking_threshold_rad", {0, 1.5, true, "Angles are in radians.", degree},
+                                             o.rocking_threshold_rad);
+    o.sliding_threshold =
+        keys.number_or("sliding_threshold", {0, 100, true, "A part of the drum's width.", 0}, o.sliding_threshold);
+    return o;
+}
+
+RunSpec read_run(const KeyReader& keys)
+{
+    keys.allow_only({"step_fraction", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
+    RunSpec r;
+    if (keys.has("step_fraction") && keys.has("step_s"))
+        keys.refuse("step_s", "and step_fraction exclude each other", "Give one of the two.");
+    r.allow_step_above_bound = keys.boolean_or("allow_step_above_bound", r.allow_step_above_bound);
+    const Range stable{1e-6, 1, false,
+                       "It is a part of the largest safe step; beyond 1 needs run.allow_step_above_bound = true.", 0};
+    const Range meant{1e-6, 100, false, stable.hint, 0};
+    r.step_fraction = keys.number_or("step_fraction", r.allow_step_above_bound ? meant : stable, r.step_fraction);
+    r.step_s = keys.maybe_number("step_s", {1e-12, 1, false, "Times are in seconds.", 1e-3});
+    r.max_invalid_fraction = keys.number_or("max_invalid_fraction", {0, 1, false, "A part of all realizations.", 0.01},
+                                            r.max_invalid_fraction);
+    return r;
+}
+
+Study read_tree(const TomlValue& root)
+{
+    const KeyReader top(&root, "", root.place);
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "perturbation", "initial", "output",
+                    "outcome", "run"});
+
+    Study study;
+    const KeyReader keys = top.table("study");
+    keys.allow_only({"kind", "seed", "realizations"});
+    study.kind = keys.choice("kind", study_kind_names);
+    const bool is_surface = study.kind == StudyKind::surface;
+    study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
+    study.realizations = is_surface ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
+                                    : keys.whole_or("realizations", 1, most_realizations, study.realizations);
+
+    study.structure = read_structure(top.table("structure"));
+    study.contact = read_contact(top.table("contact"), study.structure);
+    study.excitation = read_excitation(top.table("excitation"), is_surface);
+    if (is_surface) {
+        if (!top.has("surface"))
+            top.missing("surface", "study.kind = \"surface\" needs the axes frequency_hz and pga_m_s2 in [surface].");
+        study.surface = read_surface(top.table("surface"));
+        if (study.total() > most_realizations)
+            keys.refuse("realizations",
+                        fmt::format("in each of {} cells is {} in all, more than {}", study.surface->cells(),
+                                    study.total(), most_realizations),
+                        "Give fewer realizations or fewer cells.");
+    } else if (top.has("surface")) {
+        top.refuse("surface", "is not used by study.kind = \"single\"",
+                   "Remove [surface], or give study.kind = \"surface\".");
+    }
+    study.perturbations = read_perturbations(top.table("perturbation"), study);
+
+    const KeyReader initial = top.table("initial");
+    initial.allow_only({"tilt_rad"});
+    study.initial.tilt_rad = initial.number_or("tilt_rad", initial_tilt_range, study.initial.tilt_rad);
+    const KeyReader output = top.table("output");
+    output.allow_only({"trajectory_rate_hz"});
+    study.output.trajectory_rate_hz = output.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0},
+                                                       study.output.trajectory_rate_hz);
+    study.outcome = read_outcome(top.table("outcome"));
+    study.run = read_run(top.table("run"));
+    return study;
+}
+
+TomlValue read_toml(const std::string& text, const std::string& name, const std::vector<std::string>& overrides)
+{
+    TomlValue root = parse_toml(text, name);
+    for (const auto& setting : overrides)
+        apply_setting(root, setting);
+    return root;
+}
+
+std::string read_text(const std::filesystem::path& file)
+{
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw InputError(file.string(), 0, "is a folder.\n  Give a study file.");
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    std::string text(largest_file + 1, '\0');
+    if (in)
+        in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!in.is_open() || in.bad())
+        throw InputError(file.string(), 0,
+                         fmt::format("cannot be read: {}.\n  Check the path and its permissions.",
+                                     errno != 0 ? std::strerror(errno) : "unknown error"));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (text.size() > largest_file)
+        throw InputError(file.string(), 0, "is larger than 1 MiB.\n  Is this a study file?");
+    return text;
+}
+
+} // namespace
+
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+{
+    const TomlValue root = read_toml(read_text(file), file.string(), overrides);
+    Study study = read_tree(root);
+    if (study.excitation.kind == ExcitationKind::record && !root.find("excitation")->find("file")->place.command_line) {
+        // beside the study, if it is there; absolute, so that the study means the same from any folder
+        std::error_code error;
+        const auto beside = std::filesystem::absolute(file, error).parent_path() / study.excitation.file;
+        if (!error && std::filesystem::path(study.excitation.file).is_relative() &&
+            std::filesystem::exists(beside, error))
+            study.excitation.file = beside.lexically_normal().string();
+    }
+    study.text = study_text(study);
+    return study;
+}
+
+Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides)
+{
+    Study study = read_tree(read_toml(text, name, overrides));
+    study.text = study_text(study);
+    return study;
+}
+
+} // namespace stylobate

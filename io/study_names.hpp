@@ -1,0 +1,70 @@
+#pragma once
+/// The words of the study file for the enumerations of a study: read and written from the same lists.
+
+#include "ensemble/study.hpp"
+
+#include <array>
+
+namespace stylobate {
+
+template <class Enum>
+struct Name {
+    const char* word;
+    Enum value;
+};
+
+inline constexpr std::array study_kind_names = {Name<StudyKind>{"single", StudyKind::single},
+                                                Name<StudyKind>{"surface", StudyKind::surface}};
+inline constexpr std::array excitation_kind_names = {Name<ExcitationKind>{"none", ExcitationKind::none},
+                                                     Name<ExcitationKind>{"harmonic", ExcitationKind::harmonic},
+                                                     Name<ExcitationKind>{"half_sine", ExcitationKind::half_sine},
+                                                     Name<ExcitationKind>{"full_sine", ExcitationKind::full_sine},
+                                                     Name<ExcitationKind>{"record", ExcitationKind::record}};
+inline constexpr std::array edge_names = {Name<HarmonicEdge>{"smooth", HarmonicEdge::smooth},
+                                          Name<HarmonicEdge>{"abrupt", HarmonicEdge::abrupt}};
+inline constexpr std::array damping_per_names = {Name<DampingPer>{"contact", DampingPer::contact},
+                                                 Name<DampingPer>{"chord", DampingPer::chord}};
+inline constexpr std::array spacing_names = {Name<Spacing>{"linear", Spacing::linear},
+                                             Name<Spacing>{"log", Spacing::log}};
+inline constexpr std::array distribution_names = {Name<DistributionKind>{"normal", DistributionKind::normal},
+                                                  Name<DistributionKind>{"lognormal", DistributionKind::lognormal},
+                                                  Name<DistributionKind>{"uniform", DistributionKind::uniform},
+                                                  Name<DistributionKind>{"log_uniform", DistributionKind::log_uniform}};
+inline constexpr std::array per_names = {Name<Per>{"joint", Per::joint}, Name<Per>{"block", Per::block},
+                                         Name<Per>{"structure", Per::structure}};
+
+/// The word for a value that its list holds.
+template <class List, class Enum>
+const char* word_for(const List& names, Enum value)
+{
+    for (const auto& name : names)
+        if (name.value == value)
+            return name.word;
+    return "?";
+}
+
+/// The study file's key for the standard deviation of a quantity: its unit is part of it.
+constexpr const char* sd_key(Quantity quantity)
+{
+    switch (quantity) {
+    case Quantity::normal_stiffness:
+        return "sd_n_m2";
+    case Quantity::tangential_stiffness:
+        return "sd_n_m";
+    case Quantity::drum_width:
+    case Quantity::drum_height:
+    case Quantity::drum_offset:
+        return "sd_m";
+    case Quantity::density:
+        return "sd_kg_m3";
+    case Quantity::tilt:
+    case Quantity::phase:
+        return "sd_rad";
+    case Quantity::friction:
+    case Quantity::damping_ratio:
+        break;
+    }
+    return "sd";
+}
+
+} // namespace stylobate

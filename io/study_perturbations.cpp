@@ -1,0 +1,232 @@
+#include "io/study_perturbations.hpp"
+
+#include "io/study_names.hpp"
+#include "io/study_ranges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace stylobate {
+
+namespace {
+
+/// No double-precision uniform number maps to a normal one beyond this: without `min`, draws go down to here.
+constexpr double farthest_sd = 9;
+/// Less probability than this between `min` and `max` is a mistake, and its quantiles are not accurate.
+constexpr double least_kept = 1e-6;
+
+struct Rule {
+    std::vector<double> nominal;    ///< the values that are perturbed
+    Range value;                    ///< what a value may be
+    Range sd;                       ///< what a standard deviation may be
+    bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
+    std::vector<Name<Per>> allowed; ///< the first is the default
+};
+
+Rule rule_for(Quantity quantity, const Study& study)
+{
+    constexpr Name<Per> joint{"joint", Per::joint}, block{"block", Per::block}, structure{"structure", Per::structure};
+    const auto& s = study.structure;
+    const auto& c = study.contact;
+    const auto below = [](Range range, double high) {
+        range.low = 0;
+        range.high = high;
+        range.open = true;
+        return range;
+    };
+    switch (quantity) {
+    case Quantity::friction:
+        return {{c.friction}, friction_range, below(friction_range, c.friction), true, {joint, structure}};
+    case Quantity::normal_stiffness:
+        return {{c.normal_stiffness_n_m2},
+                normal_stiffness_range,
+                below(normal_stiffness_range, c.normal_stiffness_n_m2),
+                true,
+                {structure, joint}};
+    case Quantity::tangential_stiffness:
+        return {{c.tangential_stiffness_n_m},
+                tangential_stiffness_range,
+                below(tangential_stiffness_range, c.tangential_stiffness_n_m),
+                true,
+                {structure, joint}};
+    case Quantity::damping_ratio:
+        return {{c.normal_damping_ratio, c.tangential_damping_ratio},
+                damping_ratio_range,
+                below(damping_ratio_range, damping_ratio_range.high),
+                true,
+                {structure}};
+    case Quantity::drum_width:
+        return {{s.drum_width_m}, length_range, below(length_range, s.drum_width_m), true, {block, structure}};
+    case Quantity::drum_height:
+        return {{s.drum_height_m}, length_range, below(length_range, s.drum_height_m), true, {block, structure}};
+    case Quantity::drum_offset: {
+        Range offset = length_range;
+        offset.low = -s.drum_width_m;
+        offset.high = s.drum_width_m;
+        offset.open = false;
+        return {{0}, offset, below(length_range, s.drum_width_m), false, {block}};
+    }
+    case Quantity::density: {
+        const double density = s.drum_mass_kg / (s.drum_width_m * s.drum_height_m * s.depth_m);
+        return {{density}, density_range, below(density_range, density), true, {block, structure}};
+    }
+    case Quantity::tilt:
+        return {{0}, tilt_range, below(tilt_range, tilt_range.high), false, {structure}};
+    case Quantity::phase:
+        break;
+    }
+    return {{study.excitation.phase_rad}, phase_range, below(phase_range, phase_range.high), false, {structure}};
+}
+
+/// Probability of a standard normal number between a and b.
+double normal_between(double a, double b)
+{
+    const auto upper = [](double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); };
+    return a > 0 ? upper(a) - upper(b) : upper(-b) - upper(-a); // differences of small tails, not of ones
+}
+
+/// min and max: inside the physical range, in order, and with something left between them.
+void read_ends(const KeyReader& keys, const Rule& rule, Perturbation& p)
+{
+    Range range = rule.value;
+    range.guess = 0;
+    p.min = keys.maybe_number("min", range);
+    p.max = keys.maybe_number("max", range);
+    if (p.min && p.max && !(*p.min < *p.max))
+        keys.refuse("min", fmt::format("is not below max = {}", *p.max));
+    if (!p.min && !p.max)
+        return;
+    for (const double nominal : rule.nominal) {
+        const double sd = p.distribution == DistributionKind::lognormal ? p.sigma_ln
+                          : p.cov > 0                                   ? p.cov * nominal
+                                                                        : p.sd;
+        const auto standard = [&](double value) {
+            return (p.distribution == DistributionKind::lognormal ? std::log(value / nominal) : value - nominal) / sd;
+        };
+        const double low = p.min ? standard(*p.min) : -HUGE_VAL;
+        const double high = p.max ? standard(*p.max) : HUGE_VAL;
+        if (!(normal_between(low, high) >= least_kept))
+            keys.refuse(p.min ? "min" : "max", "leaves less than one draw in a million",
+                        fmt::format("The nominal value is {}: put min and max around it.", nominal));
+    }
+}
+
+void read_normal(const KeyReader& keys, const Rule& rule, Perturbation& p)
+{
+    const std::string sd = sd_key(p.quantity);
+    if (rule.relative && keys.has(sd) && keys.has("cov"))
+        keys.refuse("cov", "and " + sd + " exclude each other", "Give one of the two.");
+    if (rule.relative && keys.has("cov"))
+        p.cov = keys.number("cov", cov_range);
+    else if (keys.has(sd) || !rule.relative)
+        p.sd = keys.number(sd, rule.sd);
+    else
+        keys.missing(sd, "Give it, or cov, the standard deviation as a part of the nominal value.");
+    read_ends(keys, rule, p);
+
+    if (p.quantity == Quantity::drum_offset || p.quantity == Quantity::tilt || p.quantity == Quantity::phase)
+        return; // may have either sign
+    for (const double nominal : rule.nominal) {
+        const double lowest = p.cov > 0 ? nominal * (1 - farthest_sd * p.cov) : nominal - farthest_sd * p.sd;
+        if (!p.min && !rule.value.contains(lowest))
+            keys.missing("min",
+                         fmt::format("The nominal value is {}, and draws can leave {}: say where the distribution "
+                                     "is cut, for example min = {:.3g}.",
+                                     nominal, rule.value.text(), nominal / 2));
+    }
+}
+
+void read_uniform(const KeyReader& keys, const Rule& rule, Perturbation& p)
+{
+    if (p.quantity == Quantity::phase && !keys.has("from") && !keys.has("to")) {
+        p.from = 0;
+        p.to = 2 * std::numbers::pi;
+        return;
+    }
+    Range range = rule.value;
+    if (p.distribution == DistributionKind::log_uniform && range.low == 0)
+        range.open = true;
+    p.from = keys.number("from", range);
+    p.to = keys.number("to", range);
+    if (!(p.from < p.to))
+        keys.refuse("from", fmt::format("is not below to = {}", p.to));
+}
+
+Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& study)
+{
+    const Rule rule = rule_for(quantity, study);
+    const std::string sd = sd_key(quantity);
+    keys.allow_only({"distribution", sd, "cov", "sigma_ln", "from", "to", "min", "max", "per"});
+
+    std::vector<Name<DistributionKind>> distributions;
+    for (const auto& name : distribution_names)
+        if (rule.relative || name.value == DistributionKind::normal || name.value == DistributionKind::uniform)
+            distributions.push_back(name);
+
+    Perturbation p;
+    p.quantity = quantity;
+    p.distribution = keys.choice("distribution", distributions);
+    p.per = keys.choice_or("per", rule.allowed, rule.allowed.front().value);
+
+    const auto why = fmt::format("distribution = \"{}\"", word_for(distribution_names, p.distribution));
+    const bool about_nominal =
+        p.distribution == DistributionKind::normal || p.distribution == DistributionKind::lognormal;
+    const double least_nominal = *std::min_element(rule.nominal.begin(), rule.nominal.end());
+    if (about_nominal && rule.relative && !(least_nominal > 0))
+        keys.refuse("distribution", "needs a nominal value above 0",
+                    "Give the nominal value in [contact], or use uniform or log_uniform.");
+    switch (p.distribution) {
+    case DistributionKind::normal:
+        if (rule.relative)
+            keys.refuse_unused({"distribution", sd, "cov", "min", "max", "per"}, why);
+        else
+            keys.refuse_unused({"distribution", sd, "min", "max", "per"}, why);
+        read_normal(keys, rule, p);
+        break;
+    case DistributionKind::lognormal:
+        keys.refuse_unused({"distribution", "sigma_ln", "min", "max", "per"}, why);
+        p.sigma_ln = keys.number("sigma_ln", sigma_ln_range);
+        read_ends(keys, rule, p);
+        break;
+    case DistributionKind::uniform:
+    case DistributionKind::log_uniform:
+        keys.refuse_unused({"distribution", "from", "to", "per"}, why);
+        read_uniform(keys, rule, p);
+        break;
+    }
+    return p;
+}
+
+} // namespace
+
+std::vector<Perturbation> read_perturbations(const KeyReader& section, const Study& study)
+{
+    std::vector<std::string> known;
+    for (int i = 0; i < quantity_count; ++i)
+        known.emplace_back(to_string(static_cast<Quantity>(i)));
+    section.allow_only(known);
+
+    std::vector<Perturbation> all;
+    for (int i = 0; i < quantity_count; ++i) {
+        const auto quantity = static_cast<Quantity>(i);
+        if (!section.has(to_string(quantity)))
+            continue;
+        const KeyReader keys = section.table(to_string(quantity));
+        if (quantity == Quantity::phase && study.excitation.kind != ExcitationKind::harmonic)
+            section.refuse("phase",
+                           fmt::format("is not used by excitation.kind = \"{}\"",
+                                       word_for(excitation_kind_names, study.excitation.kind)),
+                           "Remove it: only a harmonic excitation has a phase.");
+        if (quantity == Quantity::damping_ratio &&
+            (study.contact.normal_damping_n_s_m || study.contact.tangential_damping_n_s_m))
+            section.refuse("damping_ratio", "is not used where [contact] gives a damping coefficient",
+                           "Give contact.normal_damping_ratio and contact.tangential_damping_ratio instead.");
+        all.push_back(read_one(keys, quantity, study));
+    }
+    return all;
+}
+
+} // namespace stylobate

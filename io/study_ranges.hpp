@@ -1,0 +1,35 @@
+#pragma once
+/// What the numbers of a study file may be: wide enough for any structure of stone, narrow enough for a slip of units.
+
+#include "io/key_reader.hpp"
+
+#include <numbers>
+
+namespace stylobate {
+
+inline constexpr double degree = std::numbers::pi / 180;
+
+inline const Range length_range{0, 10, true, "Lengths are in metres.", 1e-3};
+inline const Range mass_range{0, 3e7, true, "Masses are in kilograms.", 1e-3};
+inline const Range density_range{0, 30000, true, "Densities are in kg/m3; marble has about 2700.", 0};
+inline const Range gravity_range{0, 100, true, "Gravity is in m/s2; on Earth 9.81.", 0};
+inline const Range normal_stiffness_range{0, 1e15, true,
+                                          "K_N is the force per overlap area for the whole depth, in N/m2.", 0};
+inline const Range tangential_stiffness_range{0, 1e16, true, "K_T is in N/m.", 0};
+inline const Range damping_ratio_range{0, 2, false, "Ratios are parts of the critical damping: 10 % is 0.1.", 0.01};
+inline const Range damping_range{0, 1e12, false, "Damping coefficients are in N s/m.", 0};
+inline const Range friction_range{0, 10, true, "Stone on stone has about 0.4 to 0.8.", 0.01};
+inline const Range frequency_range{0.001, 1000, false, "Frequencies are in Hz.", 0};
+inline const Range acceleration_range{0, 10000, true, "Accelerations are in m/s2.", 0.01};
+inline const Range cycles_range{0, 10000, true, "", 0};
+inline const Range duration_range{0, 10000, true, "Times are in seconds.", 0};
+inline const Range tail_range{0, 10000, false, "Times are in seconds.", 0};
+inline const Range time_scale_range{0.001, 1000, false, "2 makes the record twice as long.", 0};
+inline const Range phase_range{-100, 100, false, "Angles are in radians.", degree};
+inline const Range tilt_range{-0.5, 0.5, false, "Angles are in radians.", degree};
+inline const Range initial_tilt_range{-1.5, 1.5, false, "Angles are in radians.", degree};
+inline const Range cov_range{0, 5, true, "A coefficient of variation is a part of the nominal value: 10 % is 0.1.",
+                             0.01};
+inline const Range sigma_ln_range{0, 3, true, "", 0};
+
+} // namespace stylobate

@@ -1,0 +1,12 @@
+#include "kernels/instantiate.hpp"
+
+namespace stylobate {
+
+namespace {
+struct Here : Baseline {};
+} // namespace
+
+// For processors without a fused multiply-add: the C library's, slow, with the same bits.
+extern const KernelTable portable_kernels = kernel_table<double, Here>(Isa::scalar);
+
+} // namespace stylobate

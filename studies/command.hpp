@@ -1,0 +1,37 @@
+#pragma once
+/// The verbs of the command line and the options that they share.
+
+#include "kernels/isa.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Exit statuses of the command line.
+enum Exit : int { exit_done = 0, exit_failed = 1, exit_bad_input = 2, exit_invalid = 3, exit_interrupted = 130 };
+
+struct CommonOptions {
+    std::vector<std::string> set; ///< KEY=VALUE, any key of the study file
+    int threads = 0;              ///< 0: as many as the process may use
+    std::string simd = "auto";
+    bool quiet = false;
+    bool json = false;
+
+    /// @throws InputError if the instruction set is unknown, or if this machine lacks it
+    Isa isa() const;
+    int thread_count() const;
+};
+
+/// Each verb returns an exit status; bad input is thrown as `InputError`.
+int run_command(const CommonOptions& options, const std::string& study, std::string results);
+int replay_command(const CommonOptions& options, const std::string& results, long long realization,
+                   const std::string& trajectory);
+int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
+                   const std::string& component);
+int export_command(const CommonOptions& options, const std::string& results, const std::string& format,
+                   const std::string& picture, const std::string& output, long long realization,
+                   const std::vector<double>& frequencies);
+int info_command(const CommonOptions& options);
+
+} // namespace stylobate

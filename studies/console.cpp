@@ -1,0 +1,95 @@
+#include "studies/console.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <unistd.h>
+
+namespace stylobate {
+
+namespace {
+
+std::atomic<bool> interrupted = false;
+
+extern "C" void on_signal(int signal)
+{
+    interrupted = true;
+    std::signal(signal, SIG_DFL); // the second one ends the process: results that are written stay good
+}
+
+} // namespace
+
+Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1)
+{
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+}
+
+Console::~Console()
+{
+    clear_line();
+}
+
+void Console::clear_line()
+{
+    if (line_open_)
+        std::fputs("\r\033[K", stderr);
+    line_open_ = false;
+}
+
+void Console::progress(const Progress& progress)
+{
+    if (quiet_)
+        return;
+    const auto now = std::chrono::steady_clock::now();
+    if (terminal_) {
+        fmt::print(stderr, "\r\033[K{}", progress_line(progress));
+        std::fflush(stderr);
+        line_open_ = true;
+    } else if (now - last_line_ >= std::chrono::seconds(10)) {
+        if (last_line_ != std::chrono::steady_clock::time_point{}) // not at the very start
+            fmt::print(stderr, "{}\n", progress_line(progress));
+        last_line_ = now;
+    }
+}
+
+void Console::warn(const std::string& text)
+{
+    clear_line();
+    fmt::print(stderr, "warning: {}\n", text);
+}
+
+bool Console::stop_requested()
+{
+    return interrupted;
+}
+
+std::string duration_text(double seconds)
+{
+    const long s = std::lround(seconds);
+    if (s < 60)
+        return fmt::format("{} s", s);
+    if (s < 3600)
+        return fmt::format("{} min {} s", s / 60, s % 60);
+    return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+std::string progress_line(const Progress& p)
+{
+    std::string line = fmt::format("{} of {} realizations, {:.0f}/s", p.done, p.total, p.rate);
+    if (p.rate > 0 && p.done < p.total)
+        line += fmt::format(", {} left", duration_text(static_cast<double>(p.total - p.done) / p.rate));
+    const std::uint64_t valid = p.done - p.invalid;
+    if (valid > 0) {
+        const double n = static_cast<double>(valid), share = static_cast<double>(p.collapsed) / n;
+        line += fmt::format(", {:.1f} +- {:.1f} % collapsed", 100 * share, 100 * std::sqrt(share * (1 - share) / n));
+    }
+    if (p.invalid > 0)
+        line += fmt::format(", {} invalid", p.invalid);
+    return line;
+}
+
+} // namespace stylobate

@@ -1,0 +1,39 @@
+#pragma once
+/// What the user sees while a study runs, and how the user stops it.
+
+#include "ensemble/observer.hpp"
+
+#include <chrono>
+#include <string>
+
+namespace stylobate {
+
+/// Progress on standard error: one line that is rewritten on a terminal, a plain line every ten seconds otherwise.
+class Console : public Observer {
+public:
+    explicit Console(bool quiet);
+    ~Console() override;
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+
+    void progress(const Progress& progress) override;
+    void warn(const std::string& text) override;
+    /// True after an interrupt (Ctrl-C) or a request to terminate. A second one ends the process at once.
+    bool stop_requested() override;
+
+private:
+    void clear_line();
+
+    const bool quiet_;
+    const bool terminal_;
+    bool line_open_ = false;
+    std::chrono::steady_clock::time_point last_line_{};
+};
+
+/// The line itself: done, rate, time left, the share that collapsed with its standard error, and what is invalid.
+std::string progress_line(const Progress& progress);
+
+/// "41 s", "3 min 20 s", "2 h 5 min".
+std::string duration_text(double seconds);
+
+} // namespace stylobate

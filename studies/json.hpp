@@ -1,0 +1,62 @@
+#pragma once
+/// Machine-readable summaries on standard output.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <string>
+#include <string_view>
+
+namespace stylobate {
+
+/// One JSON object or list, written member by member in order.
+class Json {
+public:
+    static Json object() { return Json('{', '}'); }
+    static Json list() { return Json('[', ']'); }
+
+    Json& member(std::string_view key, const Json& value) { return raw(key, value.text()); }
+    Json& member(std::string_view key, std::string_view value) { return raw(key, quote(value)); }
+    Json& member(std::string_view key, const char* value) { return raw(key, quote(value)); }
+    Json& member(std::string_view key, bool value) { return raw(key, value ? "true" : "false"); }
+    Json& member(std::string_view key, std::integral auto value) { return raw(key, fmt::format("{}", value)); }
+    /// Shortest decimals that read back to the same double; null where it is not finite, as JSON has no word for that.
+    Json& member(std::string_view key, double value)
+    {
+        return raw(key, std::isfinite(value) ? fmt::format("{}", value) : "null");
+    }
+    Json& item(const Json& value) { return add(value.text()); }
+    Json& item(std::string_view value) { return add(quote(value)); }
+
+    std::string text() const { return open_ + body_ + close_; }
+
+private:
+    Json(char open, char close) : open_(1, open), close_(1, close) {}
+
+    static std::string quote(std::string_view text)
+    {
+        std::string quoted = "\"";
+        for (const char c : text) {
+            if (c == '"' || c == '\\')
+                quoted += {'\\', c};
+            else if (static_cast<unsigned char>(c) < 0x20)
+                quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+            else
+                quoted += c;
+        }
+        return quoted + '"';
+    }
+    Json& raw(std::string_view key, std::string_view value) { return add(quote(key) + ": " + std::string(value)); }
+    Json& add(std::string_view text)
+    {
+        if (!body_.empty())
+            body_ += ", ";
+        body_ += text;
+        return *this;
+    }
+
+    std::string open_, close_, body_;
+};
+
+} // namespace stylobate

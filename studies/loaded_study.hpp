@@ -1,0 +1,44 @@
+#pragma once
+/// A study with all that running it needs: its record, its sampler, and the header of its results.
+
+#include "ensemble/motion.hpp"
+#include "ensemble/sampler.hpp"
+#include "ensemble/study.hpp"
+#include "io/result_store.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+class LoadedStudy {
+public:
+    /// From a study file and the settings of the command line.
+    /// @throws InputError for whatever is wrong with the study or its record
+    static LoadedStudy from_file(const std::string& file, const std::vector<std::string>& settings);
+
+    /// From the study inside a results file. `settings` may only say where the record lies now.
+    /// @throws InputError as above, and if the record is not the one that the results were made with
+    static LoadedStudy from_results(const ResultHeader& header, const std::string& file,
+                                    const std::vector<std::string>& settings);
+
+    const Study& study() const { return *study_; }
+    const Motion* record() const { return motion_ ? &*motion_ : nullptr; }
+    const Sampler& sampler() const { return *sampler_; }
+
+    /// What a results file of this study begins with. Its text of the study ends with a comment that identifies the
+    /// record by its samples, so that another record under the same name is another study.
+    ResultHeader result_header() const;
+
+private:
+    explicit LoadedStudy(Study study);
+
+    std::unique_ptr<Study> study_;
+    std::optional<Motion> motion_;
+    std::unique_ptr<Sampler> sampler_;
+    std::string text_;
+};
+
+} // namespace stylobate

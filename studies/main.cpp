@@ -1,0 +1,102 @@
+/// The command line.
+
+#include "ensemble/input_error.hpp"
+#include "studies/command.hpp"
+#include "studies/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+using namespace stylobate;
+
+namespace {
+
+void add_common(CLI::App& verb, CommonOptions& options)
+{
+    verb.add_option("--set", options.set, "KEY=VALUE: any key of the study file; may be given several times")
+        ->type_name("KEY=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
+    verb.add_option("--threads", options.threads, "threads to use (default: all that the process may use)")
+        ->check(CLI::Range(1, 4096));
+    verb.add_option("--simd", options.simd, "instruction set")
+        ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512", "neon"}))
+        ->capture_default_str();
+    verb.add_option("--backend", "where to compute")->check(CLI::IsMember({"cpu"}))->default_str("cpu");
+    verb.add_flag("--quiet", options.quiet, "no progress, no words: only results and errors");
+    verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep.");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", code_version());
+    app.get_formatter()->column_width(34);
+    CommonOptions options;
+    int status = exit_done;
+
+    std::string study, results;
+    auto* run = app.add_subcommand("run", "run a study; continues an unfinished result of the same study");
+    run->add_option("STUDY", study, "study file (TOML)")->required();
+    run->add_option("-o,--output", results, "results file (default: the study's name with .h5)");
+    add_common(*run, options);
+    run->callback([&] { status = run_command(options, study, results); });
+
+    std::string trajectory;
+    long long realization = -1;
+    auto* replay = app.add_subcommand("replay", "run one realization of a result again, with its trajectory");
+    replay->add_option("RESULTS", results, "results file (HDF5)")->required();
+    replay->add_option("--realization", realization, "its index")->required();
+    replay->add_option("-o,--output", trajectory, "results file for the trajectory (default: none is kept)");
+    add_common(*replay, options);
+    replay->callback([&] { status = replay_command(options, results, realization, trajectory); });
+
+    std::vector<std::string> files;
+    std::string unit, component;
+    auto* record = app.add_subcommand("record", "read ground motions: format, PGA, duration, frequencies, ...");
+    record->add_option("FILE", files, "records of any known format")->required();
+    record->add_option("--unit", unit,
+                       "unit of the acceleration where the file does not say it: m/s2, cm/s2, mm/s2, g");
+    record->add_option("--component", component, "one component: its name, or its column counted from 1");
+    add_common(*record, options);
+    record->callback([&] { status = record_command(options, files, unit, component); });
+
+    std::string format, picture, output;
+    std::vector<double> frequencies;
+    auto* exporting = app.add_subcommand("export", "write a result in other formats");
+    exporting->add_option("RESULTS", results, "results file (HDF5)")->required();
+    exporting->add_option("--to", format, "csv or png")->required()->check(CLI::IsMember({"csv", "png"}));
+    exporting
+        ->add_option("--picture", picture, "png: surface, slice or strip (default: surface, or strip if there is none)")
+        ->check(CLI::IsMember({"surface", "slice", "strip"}));
+    exporting->add_option("--realization", realization, "strip: which one (default: 0)");
+    exporting->add_option("--frequency", frequencies, "slice: frequencies in Hz (default: three over the axis)")
+        ->delimiter(',');
+    exporting->add_option("-o,--output", output, "the picture, or the folder of the CSV files");
+    add_common(*exporting, options);
+    exporting->callback(
+        [&] { status = export_command(options, results, format, picture, output, realization, frequencies); });
+
+    auto* info = app.add_subcommand("info", "version, instruction sets, threads");
+    add_common(*info, options);
+    info->callback([&] { status = info_command(options); });
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_done : exit_bad_input;
+    } catch (const InputError& error) {
+        fmt::print(stderr, "stylobate: {}\n", error.what());
+        return exit_bad_input;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "stylobate: {}\n", error.what());
+        return exit_failed;
+    }
+    return status;
+}

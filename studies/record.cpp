@@ -1,0 +1,88 @@
+/// `stylobate record`: what a ground motion is.
+
+#include "io/record.hpp"
+#include "io/ground_motion.hpp"
+#include "studies/command.hpp"
+#include "studies/json.hpp"
+
+#include <fmt/format.h>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double spectrum_periods_s[] = {0.1, 0.2, 0.3, 0.5, 1, 2, 3};
+
+Json describe(const Record& r, const IntensityMeasures& im, const std::vector<double>& spectrum)
+{
+    Json sa = Json::list();
+    for (std::size_t i = 0; i < spectrum.size(); ++i)
+        sa.item(Json::object().member("period_s", spectrum_periods_s[i]).member("sa_m_s2", spectrum[i]));
+    return Json::object()
+        .member("file", r.file)
+        .member("format", r.format)
+        .member("component", r.component)
+        .member("title", r.title)
+        .member("unit", r.unit)
+        .member("samples", r.acceleration_m_s2.size())
+        .member("dt_s", r.dt_s)
+        .member("duration_s", r.dt_s * static_cast<double>(r.acceleration_m_s2.size() - 1))
+        .member("pga_m_s2", im.pga_m_s2)
+        .member("pgv_m_s", im.pgv_m_s)
+        .member("pgd_m", im.pgd_m)
+        .member("arias_m_s", im.arias_m_s)
+        .member("d5_95_s", im.d5_95_s)
+        .member("predominant_frequency_hz", im.predominant_frequency_hz)
+        .member("mean_frequency_hz", im.mean_frequency_hz)
+        .member("sa", sa);
+}
+
+void print(const Record& r, const IntensityMeasures& im, const std::vector<double>& spectrum)
+{
+    fmt::print("{}\n", r.file);
+    fmt::print("  format       {}{}{}\n", r.format, r.component.empty() ? "" : ", ", r.component);
+    if (!r.title.empty())
+        fmt::print("  title        {}\n", r.title);
+    fmt::print("  samples      {} at {} s, {:.2f} s in all, in {}\n", r.acceleration_m_s2.size(), r.dt_s,
+               r.dt_s * static_cast<double>(r.acceleration_m_s2.size() - 1), r.unit);
+    fmt::print("  PGA          {:.4f} m/s2 ({:.4f} g)\n", im.pga_m_s2, im.pga_m_s2 / 9.80665);
+    fmt::print("  PGV, PGD     {:.4f} m/s, {:.4f} m (after the baseline correction)\n", im.pgv_m_s, im.pgd_m);
+    fmt::print("  Arias        {:.4f} m/s, 5 to 95 % in {:.2f} s\n", im.arias_m_s, im.d5_95_s);
+    fmt::print("  frequency    {:.3f} Hz predominant, {:.3f} Hz mean\n", im.predominant_frequency_hz,
+               im.mean_frequency_hz);
+    fmt::print("  Sa(T), 5 %  ");
+    for (std::size_t i = 0; i < spectrum.size(); ++i)
+        fmt::print(" {} s: {:.3f}{}", spectrum_periods_s[i], spectrum[i], i + 1 < spectrum.size() ? "," : " m/s2\n");
+}
+
+} // namespace
+
+int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
+                   const std::string& component)
+{
+    // all are read before any is printed: one bad file, one message and nothing else
+    std::vector<Record> records;
+    for (const std::string& file : files) {
+        if (component.empty()) {
+            for (Record& record : read_records(file, unit))
+                records.push_back(std::move(record));
+        } else {
+            records.push_back(read_record(file, component, unit));
+        }
+    }
+    const std::vector<double> periods(std::begin(spectrum_periods_s), std::end(spectrum_periods_s));
+    Json list = Json::list();
+    for (const Record& record : records) {
+        const IntensityMeasures im = intensity_measures(record);
+        const std::vector<double> spectrum = spectral_acceleration(record, periods);
+        if (options.json)
+            list.item(describe(record, im, spectrum));
+        else
+            print(record, im, spectrum);
+    }
+    if (options.json)
+        fmt::print("{}\n", list.text());
+    return exit_done;
+}
+
+} // namespace stylobate

@@ -1,0 +1,157 @@
+/// `stylobate run`: from a study file to a results file.
+
+#include "ensemble/executor.hpp"
+#include "ensemble/input_error.hpp"
+#include "io/result_store.hpp"
+#include "studies/command.hpp"
+#include "studies/console.hpp"
+#include "studies/json.hpp"
+#include "studies/loaded_study.hpp"
+#include "studies/surface.hpp"
+#include "studies/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace stylobate {
+
+namespace {
+
+/// Where results go unless the user says: beside nothing, in the working folder, under the study's name.
+std::string default_results(const std::string& study)
+{
+    return std::filesystem::path(study).stem().string() + ".h5";
+}
+
+/// A fixed step that is above the bound of any realization is refused before anything is written.
+void check_steps(const LoadedStudy& loaded)
+{
+    if (!loaded.study().run.step_s)
+        return;
+    for (std::uint64_t index = 0; index < loaded.study().total(); ++index)
+        loaded.sampler().realization(index);
+}
+
+/// The cells' counts of what an earlier part of the run has done. (Only while the file is not being written.)
+void count_done(const std::string& results, SurfaceCounts& counts)
+{
+    const ResultReader reader(results);
+    for (const ResultRow& row : reader.rows())
+        counts.add(row);
+}
+
+Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Observer& observer)
+{
+    // trajectories are written with the end of the file: an unfinished one is run again as a whole
+    Progress progress;
+    progress.total = loaded.study().total();
+    for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
+        const FollowedRealization f = follow(loaded, index, isa);
+        if (!writer.has(index))
+            writer.add(result_row(loaded.study(), f.realization, f.outcome));
+        writer.add(f.trajectory);
+        ++progress.done;
+        progress.collapsed += f.outcome.state == State::collapsed;
+        progress.invalid += f.outcome.state == State::invalid;
+        observer.progress(progress);
+    }
+    return progress;
+}
+
+Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, SurfaceCounts& counts,
+                     Observer& observer)
+{
+    RunPlan plan;
+    plan.total = loaded.study().total();
+    plan.done = [&](std::uint64_t index) { return writer.has(index); };
+    plan.sink = [&](const Realization& realization, const Outcome& outcome) {
+        const ResultRow row = result_row(loaded.study(), realization, outcome);
+        writer.add(row);
+        counts.add(row);
+    };
+    const std::vector<std::uint64_t> states = writer.rows_by_state();
+    plan.before.done = writer.rows();
+    plan.before.collapsed = states[static_cast<std::size_t>(State::collapsed)];
+    plan.before.invalid = states[static_cast<std::size_t>(State::invalid)];
+    return run_ensemble(loaded.study(), loaded.sampler(), loaded.record(), options, plan, observer);
+}
+
+void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
+            const RunOptions& run, bool complete)
+{
+    const std::string kind = loaded.study().surface ? "surface" : "single";
+    if (options.json) {
+        Json json = Json::object();
+        json.member("kind", kind)
+            .member("results", results)
+            .member("complete", complete)
+            .member("realizations", p.done)
+            .member("total", p.total)
+            .member("collapsed", p.collapsed)
+            .member("invalid", p.invalid)
+            .member("seconds", p.seconds)
+            .member("realizations_per_second", p.rate)
+            .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
+            .member("occupancy", p.occupancy)
+            .member("simd", to_string(run.isa))
+            .member("threads", run.threads);
+        fmt::print("{}\n", json.text());
+    } else if (!options.quiet) {
+        fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
+                   p.invalid);
+        if (p.seconds > 0)
+            fmt::print("; {} with {} threads of {}, {:.0f} realizations/s", duration_text(p.seconds), run.threads,
+                       to_string(run.isa), p.rate);
+        fmt::print("\n");
+        if (!complete)
+            fmt::print("Interrupted. The same command continues where this one stopped.\n");
+    }
+}
+
+} // namespace
+
+int run_command(const CommonOptions& options, const std::string& study, std::string results)
+{
+    if (results.empty())
+        results = default_results(study);
+    const RunOptions run{options.isa(), options.thread_count()};
+    const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
+    check_steps(loaded);
+    const ResultHeader header = loaded.result_header();
+    SurfaceCounts counts(header.frequency_hz, header.pga_m_s2);
+    const bool found = std::filesystem::exists(results);
+    if (found && loaded.study().surface)
+        count_done(results, counts);
+    const std::unique_ptr<ResultWriter> writer =
+        found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
+    Progress progress;
+    {
+        Console console(options.quiet);
+        progress = loaded.study().surface ? run_surface(loaded, run, *writer, counts, console)
+                                          : run_single(loaded, run.isa, *writer, console);
+    }
+    const bool complete = progress.done == progress.total;
+    if (!complete) {
+        writer->flush();
+    } else if (loaded.study().surface) {
+        const SurfaceTable table = counts.table();
+        writer->finish(&table);
+    } else {
+        writer->finish(nullptr);
+    }
+    report(options, loaded, results, progress, run, complete);
+    if (!complete)
+        return exit_interrupted;
+    const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);
+    if (invalid > loaded.study().run.max_invalid_fraction) {
+        fmt::print(stderr,
+                   "stylobate: {} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
+                   "`stylobate replay {} --realization I` runs one again; a smaller run.step_fraction may help.\n",
+                   progress.invalid, progress.total, loaded.study().run.max_invalid_fraction, results);
+        return exit_invalid;
+    }
+    return exit_done;
+}
+
+} // namespace stylobate

@@ -1,0 +1,27 @@
+#pragma once
+/// One realization, followed through time.
+
+#include "ensemble/outcome.hpp"
+#include "ensemble/realization.hpp"
+#include "io/result_store.hpp"
+#include "kernels/isa.hpp"
+#include "studies/loaded_study.hpp"
+
+#include <cstdint>
+
+namespace stylobate {
+
+struct FollowedRealization {
+    Realization realization;
+    Outcome outcome; ///< the same bits as in the ensemble
+    Trajectory trajectory;
+};
+
+/// Runs one realization to its end. Its trajectory is sampled at `output.trajectory_rate_hz`, from 0 on, linear between
+/// the two steps about each sample.
+FollowedRealization follow(const LoadedStudy& study, std::uint64_t index, Isa isa);
+
+/// The row of a results file.
+ResultRow result_row(const Study& study, const Realization& realization, const Outcome& outcome);
+
+} // namespace stylobate

@@ -1,0 +1,105 @@
+#pragma once
+/// What the tests of exports and pictures share: a folder, a surface, a trajectory.
+
+#include "ensemble/input_error.hpp"
+#include "io/result_store.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <unistd.h>
+
+namespace stylobate {
+
+inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+/// A fresh folder for each test, removed afterwards.
+class ExportFolder : public ::testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "stylobate-test-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::size_t entries() const
+    {
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+    }
+
+    std::filesystem::path folder;
+};
+inline std::string read_file(const std::filesystem::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Message of the InputError that `action` must throw.
+template <class Action>
+std::string message_of(Action action)
+{
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no InputError";
+    return {};
+}
+
+/// Probability rising with PGA along a curve that rises with the frequency.
+inline SurfaceTable some_surface(std::size_t nf = 16, std::size_t np = 12)
+{
+    SurfaceTable surface;
+    surface.interval = "wilson 0.95";
+    for (std::size_t i = 0; i < nf; ++i)
+        surface.frequency_hz.push_back(0.5 * std::pow(20.0, static_cast<double>(i) / static_cast<double>(nf - 1)));
+    for (std::size_t j = 0; j < np; ++j)
+        surface.pga_m_s2.push_back(1.0 + 11.0 * static_cast<double>(j) / static_cast<double>(np - 1));
+    for (const double f : surface.frequency_hz)
+        for (const double a : surface.pga_m_s2) {
+            const double p = std::round(256 / (1 + std::exp(-1.5 * (a - 2 - f)))) / 256;
+            surface.trials.push_back(256);
+            surface.collapses.push_back(static_cast<std::uint64_t>(256 * p));
+            surface.probability.push_back(p);
+            surface.lower.push_back(std::max(0.0, p - 0.06));
+            surface.upper.push_back(std::min(1.0, p + 0.06));
+        }
+    return surface;
+}
+
+/// Drums of B x H, the lowest one fixed if there are several; the others lean over more and more.
+inline Trajectory some_trajectory(std::size_t blocks, double width, double height, std::size_t samples = 401)
+{
+    Trajectory t;
+    t.index = 77;
+    t.half_width_m.assign(blocks, width / 2);
+    t.half_height_m.assign(blocks, height / 2);
+    for (std::size_t s = 0; s < samples; ++s) {
+        const double time = 0.01 * static_cast<double>(s);
+        t.time_s.push_back(time);
+        t.base_x_m.push_back(0.3 * width * std::sin(6 * time));
+        for (std::size_t i = 0; i < blocks; ++i) {
+            const double y = (static_cast<double>(i) + 0.5) * height;
+            const bool fixed = blocks > 1 && i == 0;
+            const double theta = fixed ? 0.0 : 0.02 * time * time * std::sin(5 * time);
+            t.x_m.push_back(-y * std::sin(theta));
+            t.y_m.push_back(y * std::cos(theta));
+            t.theta_rad.push_back(theta);
+        }
+    }
+    return t;
+}
+
+} // namespace stylobate

@@ -1,0 +1,251 @@
+#pragma once
+/// The structures of the oracle tests as hand-built realizations, and two ways to run them.
+///
+/// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.  BLOCK_A: 1 x 4 m.
+/// Nothing here goes through a study file, the sampler or the choice of the step.
+
+#include "ensemble/lanes.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace stylobate::model
+{
+
+inline constexpr double pi = std::numbers::pi;
+inline constexpr double gravity = 9.81; // m/s2
+
+/// One free block, sizes in full [m], mass [kg], and its offset from the axis [m].
+struct Stone {
+    double width = 0, height = 0, mass = 0, offset = 0;
+};
+
+/// A bed: K_T = K_N B; the dashpots are C = 2 xi sqrt(k m), of the lowest stone.
+struct Bed {
+    double K_n = 1e8;       ///< [N/m2]
+    double xi = 0;          ///< damping ratio of both dashpots
+    double mu = 0.68;       ///< friction
+    bool per_chord = false; ///< dashpots in proportion to the contact length (their values hold at the full width)
+};
+
+inline const Stone spec_drum{0.048, 0.029, 0.1355};
+inline const Stone mono_stone{0.048, 0.174, 0.813};
+inline const Stone block_a{1, 4, 4 * 2500.0}; // 2500 kg/m3, 1 m deep
+
+/// sqrt(K_N B / m) [rad/s].
+inline double bed_rate(const Bed& bed, const Stone& stone)
+{
+    return std::sqrt(bed.K_n * stone.width / stone.mass);
+}
+
+/// A stack on a fixed block.
+/// @param base_width of the fixed block [m]; 0: that of the lowest stone (flush, as in the specimen)
+inline Realization stack(const std::vector<Stone>& stones, const Bed& bed, double step_s, double base_width = 0)
+{
+    Realization r;
+    const Stone& first = stones.front();
+    const double base_height = first.height;
+    r.blocks.push_back({0.5 * (base_width > 0 ? base_width : first.width), 0.5 * base_height, 1, 1, 0,
+                        -0.5 * base_height, true});
+    const double k = bed.K_n * first.width;
+    const double C = 2 * bed.xi * std::sqrt(k * first.mass);
+    double top = 0;
+    for (const Stone& s : stones) {
+        const double inertia = s.mass * (s.width * s.width + s.height * s.height) / 12;
+        const int upper = static_cast<int>(r.blocks.size());
+        r.blocks.push_back({0.5 * s.width, 0.5 * s.height, s.mass, inertia, s.offset, top + 0.5 * s.height, false});
+        r.joints.push_back({upper - 1, upper, bed.K_n, k, C, C, bed.per_chord ? first.width : 0, bed.mu});
+        top += s.height;
+    }
+    r.drums = static_cast<int>(r.blocks.size());
+    r.step_s = step_s;
+    return r;
+}
+
+/// Six drums, each narrower than the one below by 2 `taper` of the width. A taper far above the displacements of a test
+/// and far below its tolerance keeps the sides of neighbours from crossing each other: where they do, the contact
+/// direction jumps by overlap / width.
+inline Realization spec(const Bed& bed, double step_s, double taper = 0)
+{
+    std::vector<Stone> stones(6, spec_drum);
+    for (std::size_t i = 0; i < stones.size(); ++i)
+        stones[i].width *= 1 - 2 * taper * static_cast<double>(i);
+    return stack(stones, bed, step_s, taper > 0 ? 2 * spec_drum.width : 0);
+}
+
+inline Realization single(const Stone& stone, const Bed& bed, double step_s, double base_width = 0)
+{
+    return stack({stone}, bed, step_s, base_width);
+}
+
+/// p = sqrt(3 g / (4 R)) of a rigid block [rad/s], and its slenderness angle [rad].
+inline double rocking_rate(const Stone& s)
+{
+    return std::sqrt(0.75 * gravity / (0.5 * std::hypot(s.width, s.height)));
+}
+inline double slenderness(const Stone& s)
+{
+    return std::atan(s.width / s.height);
+}
+
+inline Study still(double duration_s)
+{
+    Study study;
+    study.excitation.kind = ExcitationKind::none;
+    study.excitation.duration_s = duration_s;
+    return study;
+}
+
+inline Study pulse(ExcitationKind kind)
+{
+    Study study;
+    study.excitation.kind = kind;
+    return study;
+}
+
+inline Study harmonic(double cycles, double ramp_cycles)
+{
+    Study study;
+    study.excitation.kind = ExcitationKind::harmonic;
+    study.excitation.cycles = cycles;
+    study.excitation.ramp_cycles = ramp_cycles;
+    return study;
+}
+
+/// Runs each realization to its end, a register at a time, on the widest instruction set; outcomes in their order.
+inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realization>& realizations)
+{
+    LaneSet set(study, nullptr, kernels(best_isa()), realizations.front());
+    const auto lanes = static_cast<std::size_t>(set.lanes());
+    std::vector<Outcome> outcomes;
+    for (std::size_t begin = 0; begin < realizations.size(); begin += lanes) {
+        const std::size_t count = std::min(lanes, realizations.size() - begin);
+        for (std::size_t i = 0; i < count; ++i)
+            set.load(static_cast<int>(i), realizations[begin + i]);
+        const auto running = [&] {
+            for (std::size_t i = 0; i < count; ++i)
+                if (!set.outcome(static_cast<int>(i)))
+                    return true;
+            return false;
+        };
+        while (running())
+            set.advance();
+        for (std::size_t i = 0; i < count; ++i) {
+            outcomes.push_back(*set.outcome(static_cast<int>(i)));
+            set.clear(static_cast<int>(i));
+        }
+    }
+    return outcomes;
+}
+
+inline Outcome run_one(const Study& study, const Realization& realization)
+{
+    return run_all(study, {realization}).front();
+}
+
+/// Least amplitude that overturns, between one that does not and one that does, to `tolerance`: each pass tries a
+/// register full of amplitudes between the two.
+/// @throws std::runtime_error when the ends do not bracket it
+inline double least_overturning(const Study& study, const std::function<Realization(double)>& at, double low,
+                                double high, double tolerance)
+{
+    const auto falls = [](const Outcome& o) { return o.state == State::collapsed; };
+    const auto ends = run_all(study, {at(low), at(high)});
+    if (falls(ends[0]) || !falls(ends[1]))
+        throw std::runtime_error("the ends do not bracket the overturning amplitude");
+    const int count = kernels(best_isa()).lanes;
+    while (high - low > tolerance) {
+        const double step = (high - low) / (count + 1);
+        std::vector<Realization> tries;
+        for (int i = 1; i <= count; ++i)
+            tries.push_back(at(low + step * i));
+        const auto outcomes = run_all(study, tries);
+        int first = 0;
+        while (first < count && !falls(outcomes[static_cast<std::size_t>(first)]))
+            ++first;
+        low += step * first;
+        if (first < count)
+            high = low + step;
+    }
+    return 0.5 * (low + high);
+}
+
+/// One realization in a bundle of its own, on the scalar kernel, with every field open: for starts that are not a
+/// static rest, and for a look at the forces.
+class BareColumn
+{
+public:
+    explicit BareColumn(const Realization& r) : realization_(r)
+    {
+        for (const Joint& joint : r.joints)
+            joints_.push_back({joint.lower, joint.upper});
+        topology_.blocks = static_cast<int>(r.blocks.size());
+        topology_.fixed = 1;
+        topology_.top = topology_.blocks - 1;
+        topology_.joints = static_cast<int>(joints_.size());
+        topology_.joint = joints_.data();
+        const std::size_t bytes = (bundle_registers(topology_) * sizeof(double) + 63) / 64 * 64;
+        memory_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
+        std::fill(memory_.get(), memory_.get() + bytes / sizeof(double), 0.0);
+        bundle_ = bind_bundle(topology_, 1, memory_.get());
+
+        const double dt = r.step_s, dt2 = dt * dt;
+        for (int i = 0; i < topology_.blocks; ++i) {
+            const Block& block = r.blocks[static_cast<std::size_t>(i)];
+            at(OfBlock::half_width, i) = block.half_width_m;
+            at(OfBlock::half_height, i) = block.half_height_m;
+            at(OfBlock::mass, i) = block.mass_kg;
+            at(OfBlock::inertia, i) = block.inertia_kg_m2;
+            at(OfBlock::dt2_per_mass, i) = block.fixed ? 0 : dt2 / block.mass_kg;
+            at(OfBlock::dt2_per_inertia, i) = block.fixed ? 0 : dt2 / block.inertia_kg_m2;
+        }
+        for (int j = 0; j < topology_.joints; ++j) {
+            const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+            const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+            const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+            at(OfJoint::reference_x, j) = upper.x_m - lower.x_m;
+            at(OfJoint::height, j) = lower.half_height_m + upper.half_height_m;
+            at(OfJoint::depth_limit, j) = 0.1 * std::min(lower.half_height_m, upper.half_height_m);
+            at(OfJoint::K_n, j) = joint.normal_stiffness_n_m2;
+            at(OfJoint::K_t, j) = joint.tangential_stiffness_n_m;
+            at(OfJoint::per_K_t, j) = 1 / joint.tangential_stiffness_n_m;
+            at(OfJoint::mu, j) = joint.friction;
+            const bool chord = joint.damping_chord_m > 0;
+            const double per = 1 / (chord ? dt * joint.damping_chord_m : dt);
+            at(chord ? OfJoint::C_n_chord : OfJoint::C_n_per_dt, j) = joint.normal_damping_n_s_m * per;
+            at(chord ? OfJoint::C_t_chord : OfJoint::C_t_per_dt, j) = joint.tangential_damping_n_s_m * per;
+        }
+        bundle_.at(OfRealization::gravity_dy, 0) = -dt2 * r.gravity_m_s2;
+    }
+
+    double& at(OfBlock::Field field, int block) { return bundle_.at(field, block, 0); }
+    double& at(OfJoint::Field field, int joint) { return bundle_.at(field, joint, 0); }
+    double& at(OfRealization::Field field) { return bundle_.at(field, 0); }
+    int blocks() const { return topology_.blocks; }
+    int joints() const { return topology_.joints; }
+    const Realization& realization() const { return realization_; }
+
+    /// One step in which the base's displacement has this second difference [m].
+    void step(double base_second_difference = 0)
+    {
+        bundle_.base_table[0] = base_second_difference;
+        kernels(Isa::scalar).run(topology_, bundle_, 0, 1);
+    }
+
+private:
+    struct Free {
+        void operator()(double* p) const { std::free(p); }
+    };
+    Realization realization_;
+    std::vector<TopologyJoint> joints_;
+    Topology topology_;
+    std::unique_ptr<double[], Free> memory_;
+    Bundle bundle_;
+};
+
+} // namespace stylobate::model

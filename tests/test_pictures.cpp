@@ -1,0 +1,474 @@
+/// Pictures decoded and their colours counted; what gnuplot is told; what is said when there is no picture.
+
+#include "export_cases.hpp"
+#include "io/gnuplot.hpp"
+#include "io/plot_axis.hpp"
+#include "io/plot_slice.hpp"
+#include "io/plot_strip.hpp"
+#include "io/plot_surface.hpp"
+
+#include <array>
+#include <map>
+#include <set>
+#include <vector>
+#include <zlib.h>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Pictures = ExportFolder;
+
+/// Sets a variable of the environment for the length of a scope.
+class Environment {
+public:
+    Environment(const char* name, const std::string& value) : name_(name)
+    {
+        if (const char* old = std::getenv(name))
+            old_ = old;
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~Environment()
+    {
+        if (old_.empty())
+            ::unsetenv(name_);
+        else
+            ::setenv(name_, old_.c_str(), 1);
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+private:
+    const char* name_;
+    std::string old_;
+};
+
+struct Pixels {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::size_t colours = 0;
+    std::map<std::uint32_t, std::size_t> count; ///< of each 0xRRGGBB
+    std::vector<std::uint32_t> colour;          ///< 0xRRGGBB (height x width), from the top
+};
+
+/// Decodes a PNG with 8 bits per channel, RGB or RGBA, not interlaced.
+Pixels decode(const fs::path& file)
+{
+    const std::string bytes = read_file(file);
+    Pixels pixels;
+    if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) {
+        ADD_FAILURE() << file << " is no PNG";
+        return pixels;
+    }
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+        return value;
+    };
+    std::string packed;
+    std::size_t channels = 0;
+    for (std::size_t at = 8; at + 12 <= bytes.size(); at += 12 + number(at)) {
+        const std::string kind = bytes.substr(at + 4, 4);
+        if (kind == "IHDR") {
+            pixels.width = number(at + 8);
+            pixels.height = number(at + 12);
+            EXPECT_EQ(bytes[at + 16], 8);
+            channels = bytes[at + 17] == 2 ? 3 : 4;
+            EXPECT_EQ(bytes[at + 20], 0);
+        } else if (kind == "IDAT") {
+            packed += bytes.substr(at + 8, number(at));
+        }
+    }
+    const std::size_t stride = pixels.width * channels;
+    std::vector<unsigned char> raw((stride + 1) * pixels.height);
+    uLongf length = raw.size();
+    EXPECT_EQ(uncompress(raw.data(), &length, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
+    EXPECT_EQ(length, raw.size());
+    std::vector<unsigned char> above(stride, 0);
+    std::vector<unsigned char> row(stride, 0);
+    for (std::size_t y = 0; y < pixels.height; ++y) {
+        const unsigned char* line = raw.data() + y * (stride + 1);
+        for (std::size_t k = 0; k < stride; ++k) {
+            const int a = k < channels ? 0 : row[k - channels];
+            const int b = above[k];
+            const int c = k < channels ? 0 : above[k - channels];
+            const int p = a + b - c;
+            const int paeth = std::abs(p - a) <= std::abs(p - b) && std::abs(p - a) <= std::abs(p - c) ? a
+                              : std::abs(p - b) <= std::abs(p - c)                                     ? b
+                                                                                                       : c;
+            const std::array<int, 5> predicted{0, a, b, (a + b) / 2, paeth};
+            row[k] = static_cast<unsigned char>(line[k + 1] + predicted.at(line[0]));
+        }
+        for (std::size_t k = 0; k < stride; k += channels)
+            pixels.colour.push_back(static_cast<std::uint32_t>(row[k] << 16 | row[k + 1] << 8 | row[k + 2]));
+        above = row;
+    }
+    for (const std::uint32_t colour : pixels.colour)
+        ++pixels.count[colour];
+    pixels.colours = pixels.count.size();
+    return pixels;
+}
+
+bool similar(std::uint32_t a, std::uint32_t b, int tolerance)
+{
+    for (const int shift : {0, 8, 16})
+        if (std::abs(static_cast<int>(a >> shift & 255U) - static_cast<int>(b >> shift & 255U)) > tolerance)
+            return false;
+    return true;
+}
+
+/// Share of the picture in colours within `tolerance` of one.
+double share(const Pixels& pixels, std::uint32_t colour, int tolerance)
+{
+    std::size_t sum = 0;
+    for (const auto& [found, count] : pixels.count)
+        sum += similar(found, colour, tolerance) ? count : 0;
+    return static_cast<double>(sum) / (static_cast<double>(pixels.width) * static_cast<double>(pixels.height));
+}
+
+/// Where one colour is in a picture, in pixels.
+struct Extent {
+    double left = 1e9;
+    double right = 0;
+    double top = 1e9;
+    double bottom = 0;
+    double lowest_x = 0; ///< where it reaches lowest
+    double area = 0;
+};
+
+Extent extent(const Pixels& pixels, std::uint32_t colour)
+{
+    Extent e;
+    for (std::size_t k = 0; k < pixels.colour.size(); ++k) {
+        if (!similar(pixels.colour[k], colour, 3))
+            continue;
+        const auto x = static_cast<double>(k % pixels.width);
+        const auto y = static_cast<double>(k / pixels.width);
+        e.left = std::min(e.left, x);
+        e.right = std::max(e.right, x + 1);
+        e.top = std::min(e.top, y);
+        if (y + 1 > e.bottom)
+            e.lowest_x = x;
+        e.bottom = std::max(e.bottom, y + 1);
+        e.area += 1;
+    }
+    return e;
+}
+
+/// Skips the pictures' tests where there is no gnuplot.
+#define NEEDS_GNUPLOT()                                                                                                \
+    try {                                                                                                              \
+        find_gnuplot();                                                                                                \
+    } catch (const InputError& missing) {                                                                              \
+        GTEST_SKIP() << missing.what();                                                                                \
+    }                                                                                                                  \
+    static_assert(true)
+
+TEST(PlotAxis, ScaleAndCells)
+{
+    const PlotAxis log = make_plot_axis({1, 10, 100}, "frequency_hz");
+    EXPECT_TRUE(log.log);
+    EXPECT_NEAR(log.edges[0], std::pow(10, -0.5), 1e-12);
+    EXPECT_NEAR(log.edges[1], std::pow(10, 0.5), 1e-12);
+    EXPECT_NEAR(log.edges[3], std::pow(10, 2.5), 1e-10);
+    const PlotAxis linear = make_plot_axis({1, 2, 3}, "pga_m_s2");
+    EXPECT_FALSE(linear.log);
+    EXPECT_EQ(linear.edges, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+    EXPECT_EQ(make_plot_axis({1, 12}, "pga_m_s2").edges.front(), 0);
+    const PlotAxis lone = make_plot_axis({4}, "pga_m_s2");
+    EXPECT_LT(lone.edges[0], 4);
+    EXPECT_GT(lone.edges[1], 4);
+    EXPECT_THROW(make_plot_axis({}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_plot_axis({1, 1}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_plot_axis({1, nan_value}, "pga_m_s2"), InputError);
+}
+
+TEST(Texts, Words)
+{
+    EXPECT_EQ(describe_interval("wilson 0.95"), "95 % Wilson interval");
+    EXPECT_EQ(describe_interval("jeffreys 0.999"), "99.9 % Jeffreys interval");
+    EXPECT_EQ(describe_interval("something else"), "something else");
+    EXPECT_EQ(describe_interval(""), "");
+    SurfaceTable surface = some_surface(3, 2);
+    EXPECT_EQ(describe_realizations(surface), "1536 realizations, 256 in each of 3 × 2 cells");
+    surface.trials[1] = 250;
+    EXPECT_EQ(describe_realizations(surface), "1530 realizations, 250 to 256 in each of 3 × 2 cells");
+    EXPECT_EQ(gnuplot_text("it's \"5 %\" a_b"), "'it''s \"5 %\" a_b'");
+    EXPECT_EQ(gnuplot_text("a\nb\\n`date`"), "'a b\\n`date`'");
+    EXPECT_EQ(gnuplot_text("m/s² \xff \xc3"), "'m/s² ? ?'");
+}
+
+TEST(Slice, NearestRowsOnTheAxisScale)
+{
+    SurfaceTable surface = some_surface();
+    surface.frequency_hz = {1, 2, 4, 8, 16};
+    // 2.9 is nearer to 4 on the logarithmic axis (midpoint 2.828), 2.8 to 2; two that meet in one row are one.
+    EXPECT_EQ(slice_rows(surface, {2.9}), std::vector<std::size_t>{2});
+    EXPECT_EQ(slice_rows(surface, {2.8}), std::vector<std::size_t>{1});
+    EXPECT_EQ(slice_rows(surface, {100, 0.1, 15}), (std::vector<std::size_t>{0, 4}));
+    EXPECT_EQ(slice_rows(surface, {}), (std::vector<std::size_t>{0, 2, 4}));
+    for (const double bad : {0.0, -1.0, nan_value})
+        EXPECT_THROW(slice_rows(surface, {bad}), InputError);
+    EXPECT_THROW(slice_rows(surface, std::vector<double>(7, 1.0)), InputError);
+}
+
+TEST(Strip, SnapshotsAreAscendingAndCatchTheMotion)
+{
+    // At rest but for one swing, 2.00 to 2.50 s.
+    Trajectory t = some_trajectory(2, 0.5, 1, 1001);
+    for (std::size_t s = 0; s < 1001; ++s) {
+        const double u = (static_cast<double>(s) - 200) / 50;
+        t.theta_rad[2 * s + 1] = u > 0 && u < 1 ? 0.2 * std::sin(std::acos(-1.0) * u) : 0;
+        t.x_m[2 * s + 1] = 0;
+        t.y_m[2 * s + 1] = 1.5;
+    }
+    const auto chosen = snapshot_samples(t, 8);
+    ASSERT_EQ(chosen.size(), 8U);
+    EXPECT_EQ(chosen.front(), 0U);
+    EXPECT_EQ(chosen.back(), 1000U);
+    EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), 8U);
+    EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+    EXPECT_NE(std::find(chosen.begin(), chosen.end(), 225U), chosen.end()) << "the peak of the swing is missed";
+
+    for (const std::size_t samples : {1U, 2U, 7U, 8U, 9U, 10U}) {
+        const auto few = snapshot_samples(some_trajectory(3, 1, 1, samples), 8);
+        EXPECT_EQ(few.size(), std::min<std::size_t>(samples, 8));
+        EXPECT_EQ(std::set<std::size_t>(few.begin(), few.end()).size(), few.size());
+        EXPECT_LT(few.back(), samples);
+    }
+    EXPECT_THROW(snapshot_samples(t, 1), InputError);
+    EXPECT_THROW(snapshot_samples(t, 17), InputError);
+    t.theta_rad[2 * 300] = nan_value; // what comes after it is not drawn
+    EXPECT_EQ(snapshot_samples(t, 8).back(), 299U);
+    t.x_m[0] = nan_value;
+    EXPECT_THROW(snapshot_samples(t, 8), InputError);
+    EXPECT_THROW(snapshot_samples(Trajectory{}, 8), InputError);
+}
+
+TEST_F(Pictures, SurfaceShowsItsProbabilities)
+{
+    NEEDS_GNUPLOT();
+    const fs::path file = folder / "a surface's \"picture\" 100%.png";
+    plot_surface(some_surface(), "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
+    const Pixels pixels = decode(file);
+    EXPECT_GE(pixels.width, 1600U);
+    EXPECT_GE(pixels.height, 1200U);
+    EXPECT_GT(pixels.colours, 100U);
+    EXPECT_EQ(entries(), 1U) << "something else was left in the folder";
+
+    // Half of the cells sure to collapse, half sure to stand: either end of the colour map over half of the frame.
+    SurfaceTable halves = some_surface();
+    for (std::size_t cell = 0; cell < halves.probability.size(); ++cell)
+        halves.probability[cell] = cell % 12 < 6 ? 0 : 1;
+    plot_surface(halves, "halves", folder / "halves.png");
+    const Pixels two = decode(folder / "halves.png");
+    const double frame = 0.76 * 0.75;
+    EXPECT_NEAR(share(two, 0x440154, 8), frame / 2, 0.03);
+    EXPECT_NEAR(share(two, 0xfde725, 8), frame / 2, 0.03);
+    EXPECT_LT(share(two, 0xb8b8b8, 1), 0.001);
+
+    // One of three rows: a third of the frame, whatever lies in the others.
+    SurfaceTable rows = some_surface(3, 5);
+    rows.frequency_hz = {1, 2, 3};
+    for (std::size_t cell = 0; cell < rows.probability.size(); ++cell)
+        rows.probability[cell] = cell < 5 ? 1 : 0;
+    plot_surface(rows, "rows", folder / "rows.png");
+    EXPECT_NEAR(share(decode(folder / "rows.png"), 0xfde725, 8), frame / 3, 0.02);
+
+    // Without a trial: grey.
+    for (std::size_t cell = 0; cell < 96; ++cell)
+        halves.probability[cell] = nan_value;
+    plot_surface(halves, "", folder / "grey.png");
+    EXPECT_NEAR(share(decode(folder / "grey.png"), 0xb8b8b8, 1), frame / 2, 0.03);
+}
+
+TEST_F(Pictures, SmallAndOddSurfaces)
+{
+    NEEDS_GNUPLOT();
+    SurfaceTable one = some_surface(2, 2);
+    one.frequency_hz.resize(1);
+    one.pga_m_s2.resize(1);
+    one.trials = {0};
+    one.collapses = {0};
+    one.probability = one.lower = one.upper = {nan_value};
+    plot_surface(one, "nothing", folder / "nothing.png");
+    EXPECT_GT(decode(folder / "nothing.png").colours, 10U);
+    plot_slice(one, {}, "nothing", folder / "slice.png");
+    EXPECT_GT(decode(folder / "slice.png").colours, 10U);
+    one.trials = {4};
+    one.probability = {0.5};
+    one.lower = {0.1};
+    one.upper = {0.9};
+    plot_surface(one, "one cell", folder / "one.png");
+    EXPECT_GT(share(decode(folder / "one.png"), 0x21918c, 8), 0.5);
+}
+
+TEST_F(Pictures, SliceShowsEachCurve)
+{
+    NEEDS_GNUPLOT();
+    plot_slice(some_surface(), {1, 2, 5}, "100 % \"slices\"", folder / "s.png");
+    const Pixels pixels = decode(folder / "s.png");
+    EXPECT_GE(pixels.width, 1600U);
+    EXPECT_GE(pixels.height, 1200U);
+    for (const std::uint32_t colour : {0x0072b2U, 0xd55e00U, 0x009e73U})
+        EXPECT_GT(share(pixels, colour, 2), 0.0005) << std::hex << colour;
+    EXPECT_LT(share(pixels, 0xcc79a7, 2), 1e-5) << "a fourth curve";
+
+    // A band from 0.25 to 0.75 over the eleven twelfths of the axis between the outer cells' centres.
+    SurfaceTable flat = some_surface();
+    flat.probability.assign(flat.probability.size(), 0.5);
+    flat.lower.assign(flat.lower.size(), 0.25);
+    flat.upper.assign(flat.upper.size(), 0.75);
+    plot_slice(flat, {1}, "", folder / "flat.png");
+    const double frame = 0.87 * 0.725;
+    EXPECT_NEAR(share(decode(folder / "flat.png"), 0xcce3f0, 4), frame * 11 / 12 * 0.5 / 1.03, 0.02);
+}
+
+TEST_F(Pictures, StripDrawsDrumsToScale)
+{
+    NEEDS_GNUPLOT();
+    // At rest the drums' area on the picture follows from the scale: 8 snapshots, each B x 7 H, one of 7 drums fixed.
+    for (const double size : {1.0, 40.0}) {
+        Trajectory t = some_trajectory(7, 0.048 * size, 0.029 * size);
+        for (std::size_t k = 0; k < t.x_m.size(); ++k) {
+            t.theta_rad[k] = 0;
+            t.x_m[k] = k % 7 == 0 ? 0 : 1e-9 * static_cast<double>(k);
+            t.y_m[k] = (static_cast<double>(k % 7) + 0.5) * 0.029 * size;
+        }
+        plot_strip(t, "strip's 100 % \"title\"", folder / "strip.png");
+        const Pixels pixels = decode(folder / "strip.png");
+        EXPECT_GE(pixels.width, 1600U);
+        EXPECT_GE(pixels.height, 1200U);
+        const Extent free_drums = extent(pixels, 0xead9b5);
+        const double height = free_drums.bottom - free_drums.top;
+        EXPECT_GT(height, 350);
+        EXPECT_NEAR(free_drums.area / (8 * height * height), 0.048 / (6 * 0.029), 0.02);
+        EXPECT_NEAR(free_drums.area / extent(pixels, 0xa89a7d).area, 6, 0.3);
+        EXPECT_GT(share(pixels, 0x6f6f6f, 3), 0.005) << "the base";
+        EXPECT_GT(share(pixels, 0x0072b2, 3), 0.0003) << "displacement of the top";
+        EXPECT_GT(share(pixels, 0xd55e00, 3), 0.0003) << "displacement of the base";
+    }
+}
+
+TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
+{
+    NEEDS_GNUPLOT();
+    // Two samples, two snapshots of one drum in the air.
+    const double width = 2;
+    const double height = 1;
+    const double angle = 0.4;
+    Trajectory t = some_trajectory(1, width, height, 2);
+    t.theta_rad = {angle, angle};
+    t.x_m = {0, 1e-9};
+    t.y_m = {1, 1};
+    plot_strip(t, "", folder / "turned.png");
+    const Extent drums = extent(decode(folder / "turned.png"), 0xead9b5);
+    const double scale = (drums.bottom - drums.top) / (width * std::sin(angle) + height * std::cos(angle));
+    EXPECT_NEAR(drums.area / (scale * scale), 2 * width * height, 0.08);
+    // The lower left corner is the lowest one: left of the middle of the drum that it belongs to.
+    const double drum = scale * (width * std::cos(angle) + height * std::sin(angle));
+    const double from_left =
+        std::min(std::abs(drums.lowest_x - drums.left), std::abs(drums.lowest_x - drums.right + drum));
+    EXPECT_NEAR(from_left, scale * height * std::sin(angle), 0.03 * drum);
+}
+
+TEST_F(Pictures, StripOfAnyColumn)
+{
+    NEEDS_GNUPLOT();
+    for (const std::size_t blocks : {1U, 2U, 48U}) {
+        plot_strip(some_trajectory(blocks, 1.2, 0.8), "column", folder / "c.png", 5);
+        EXPECT_GT(decode(folder / "c.png").colours, 50U);
+    }
+    plot_strip(some_trajectory(3, 1, 1, 1), "one sample", folder / "c.png");
+    // A recorded ground far wider than the column does not change its scale.
+    Trajectory ground = some_trajectory(1, 0.1, 0.3);
+    const double without = [&] {
+        plot_strip(ground, "", folder / "c.png");
+        return share(decode(folder / "c.png"), 0xead9b5, 3);
+    }();
+    Trajectory with = ground;
+    with.half_width_m = {0.05, 50};
+    with.half_height_m = {0.15, 0.5};
+    for (auto* values : {&with.x_m, &with.y_m, &with.theta_rad}) {
+        std::vector<double> both;
+        for (const double v : *values) {
+            both.push_back(v);
+            both.push_back(values == &with.y_m ? -0.5 : 0.0);
+        }
+        *values = both;
+    }
+    plot_strip(with, "", folder / "c.png");
+    EXPECT_NEAR(share(decode(folder / "c.png"), 0xead9b5, 3), without, 1e-3 * without);
+}
+
+TEST_F(Pictures, BadInputLeavesNoFile)
+{
+    SurfaceTable damaged = some_surface();
+    damaged.trials.pop_back();
+    message_of([&] { plot_surface(damaged, "", folder / "a.png"); });
+    message_of([&] { plot_slice(damaged, {1}, "", folder / "a.png"); });
+    message_of([&] { plot_surface(SurfaceTable{}, "", folder / "a.png"); });
+    message_of([&] { plot_slice(SurfaceTable{}, {1}, "", folder / "a.png"); });
+    Trajectory flat = some_trajectory(2, 1, 1);
+    flat.half_height_m[1] = 0;
+    message_of([&] { plot_strip(flat, "", folder / "a.png"); });
+    EXPECT_EQ(entries(), 0U);
+    NEEDS_GNUPLOT();
+    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "", folder / "missing" / "a.png"); }).find("missing"),
+              std::string::npos);
+    message_of([&] { plot_surface(some_surface(), "", folder); });
+    EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(Pictures, GnuplotMissingOrFailing)
+{
+    const fs::path picture = folder / "a.png";
+    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "", picture); }); };
+    {
+        const Environment path("PATH", folder.string());
+        const Environment unnamed("STYLOBATE_GNUPLOT", "");
+        EXPECT_NE(draw().find("apt install gnuplot-nox"), std::string::npos);
+        EXPECT_EQ(entries(), 0U);
+    }
+    {
+        const Environment named("STYLOBATE_GNUPLOT", (folder / "nowhere").string());
+        EXPECT_NE(draw().find("nowhere"), std::string::npos);
+        EXPECT_EQ(entries(), 0U);
+    }
+    const fs::path fake = folder / "fake gnuplot";
+    const auto write_fake = [&](const std::string& script) {
+        std::ofstream(fake) << script;
+        fs::permissions(fake, fs::perms::owner_all);
+    };
+    const Environment named("STYLOBATE_GNUPLOT", fake.string());
+    write_fake("#!/bin/sh\necho 'no such option' >&2\nexit 3\n");
+    std::string said = draw();
+    EXPECT_NE(said.find("no such option"), std::string::npos) << said;
+    EXPECT_NE(said.find("exit status 3"), std::string::npos) << said;
+    write_fake("#!/bin/sh\nexit 0\n"); // claims success, draws nothing
+    EXPECT_NE(draw().find("it said nothing"), std::string::npos);
+    write_fake("#!/bin/sh\nkill -9 $$\n");
+    EXPECT_NE(draw().find("exit status 137"), std::string::npos);
+    write_fake("#!/nowhere/interpreter\n");
+    EXPECT_NE(draw().find("cannot start"), std::string::npos);
+    EXPECT_EQ(entries(), 1U) << "something is left in the folder";
+}
+
+TEST_F(Pictures, NoFontsIsAnError)
+{
+    NEEDS_GNUPLOT();
+    if (std::system("command -v fc-list > /dev/null") != 0)
+        GTEST_SKIP() << "fc-list is not installed: fonts cannot be looked for";
+    std::ofstream(folder / "fonts.conf") << "<?xml version=\"1.0\"?><fontconfig><dir>" << (folder / "none").string()
+                                         << "</dir><cachedir>" << (folder / "cache").string()
+                                         << "</cachedir></fontconfig>\n";
+    const Environment fonts("FONTCONFIG_FILE", (folder / "fonts.conf").string());
+    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "", folder / "a.png"); }).find("fonts-dejavu-core"),
+              std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+} // namespace
+} // namespace stylobate

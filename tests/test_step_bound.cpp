@@ -1,0 +1,368 @@
+/// The safe step and the linear vibrations, against published digits and against a stack assembled another way.
+
+#include "ensemble/step_bound.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace stylobate;
+
+namespace {
+
+struct Column {
+    int free_blocks = 6;
+    double width = 0.048, height = 0.029, mass = 0.1355;
+    double normal_stiffness = 1e8;
+    double ratio = 1; ///< K_T / (K_N B)
+    double xi = 0;
+    bool chord = false;
+};
+
+/// A fixed block and equal free ones on it.
+Realization make(const Column& column)
+{
+    Realization r;
+    const double k_n = column.normal_stiffness * column.width;
+    for (int i = 0; i <= column.free_blocks; ++i) {
+        Block block;
+        block.half_width_m = column.width / 2;
+        block.half_height_m = column.height / 2;
+        block.mass_kg = column.mass;
+        block.inertia_kg_m2 = column.mass * (column.width * column.width + column.height * column.height) / 12;
+        block.y_m = (i + 0.5) * column.height;
+        block.fixed = i == 0;
+        r.blocks.push_back(block);
+        if (i == 0)
+            continue;
+        Joint joint;
+        joint.lower = i - 1;
+        joint.upper = i;
+        joint.normal_stiffness_n_m2 = column.normal_stiffness;
+        joint.tangential_stiffness_n_m = column.ratio * k_n;
+        joint.normal_damping_n_s_m = 2 * column.xi * std::sqrt(k_n * column.mass);
+        joint.tangential_damping_n_s_m = 2 * column.xi * std::sqrt(column.ratio * k_n * column.mass);
+        joint.damping_chord_m = column.chord ? column.width : 0;
+        r.joints.push_back(joint);
+    }
+    r.drums = column.free_blocks + 1;
+    return r;
+}
+
+const Column spec{};
+const Column mono{.free_blocks = 1, .height = 0.174, .mass = 0.813};
+
+LinearResponse response(const Column& column, double gravity = 9.81)
+{
+    const Realization r = make(column);
+    return linear_response(r.blocks, r.joints, gravity);
+}
+
+StepBound bound(const Column& column)
+{
+    const Realization r = make(column);
+    return step_bound(r.blocks, r.joints);
+}
+
+Column with(Column column, double normal_stiffness, double xi = 0)
+{
+    column.normal_stiffness = normal_stiffness;
+    column.xi = xi;
+    return column;
+}
+
+/// Part of a contact that is pressed, from -1 to 1 over the face.
+struct Part {
+    double from = -1, to = 1;
+};
+
+struct Matrices {
+    Eigen::MatrixXd M, K, C;
+};
+
+/// The stack without gravity as a bed of discrete springs at Gauss points (exact for a linear gap), with the dashpots
+/// at the middle of each contact.
+Matrices springs(const Realization& r, const std::vector<Part>& parts)
+{
+    const auto n = static_cast<Eigen::Index>(3 * (r.blocks.size() - 1));
+    Matrices m{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+    for (std::size_t b = 1; b < r.blocks.size(); ++b) {
+        const auto at = static_cast<Eigen::Index>(3 * (b - 1));
+        m.M(at, at) = m.M(at + 1, at + 1) = r.blocks[b].mass_kg;
+        m.M(at + 2, at + 2) = r.blocks[b].inertia_kg_m2;
+    }
+    for (std::size_t j = 0; j < r.joints.size(); ++j) {
+        const Joint& joint = r.joints[j];
+        const double b = r.blocks[1].half_width_m;
+        const double h = r.blocks[1].half_height_m;
+        // displacement (direction x or y) of the upper face less that of the lower face at the abscissa x
+        const auto relative = [&](bool vertical, double x) {
+            Eigen::VectorXd v = Eigen::VectorXd::Zero(n);
+            const auto up = static_cast<Eigen::Index>(3 * (joint.upper - 1));
+            v(up + (vertical ? 1 : 0)) = 1;
+            v(up + 2) = vertical ? x : h;
+            if (joint.lower > 0) {
+                const auto low = static_cast<Eigen::Index>(3 * (joint.lower - 1));
+                v(low + (vertical ? 1 : 0)) = -1;
+                v(low + 2) = vertical ? -x : h;
+            }
+            return v;
+        };
+        const double middle = b * (parts[j].from + parts[j].to) / 2;
+        const double half = b * (parts[j].to - parts[j].from) / 2;
+        for (const double side : {-1.0, 1.0}) {
+            const Eigen::VectorXd gap = relative(true, middle + side * half / std::sqrt(3.0));
+            m.K += joint.normal_stiffness_n_m2 * half * gap * gap.transpose();
+        }
+        const Eigen::VectorXd slide = relative(false, middle);
+        const Eigen::VectorXd open = relative(true, middle);
+        const double share = joint.damping_chord_m > 0 ? 2 * half / joint.damping_chord_m : 1;
+        m.K += joint.tangential_stiffness_n_m * slide * slide.transpose();
+        m.C += share * (joint.normal_damping_n_s_m * open * open.transpose() +
+                        joint.tangential_damping_n_s_m * slide * slide.transpose());
+    }
+    return m;
+}
+
+/// Largest growth per step of (u[n], u[n-1]) under the central difference with the backward dashpot.
+double spectral_radius(const Matrices& m, double dt)
+{
+    const Eigen::Index n = m.M.rows();
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd inverse = m.M.inverse();
+    Eigen::MatrixXd map = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    map.topLeftCorner(n, n) = 2 * one - dt * dt * inverse * m.K - dt * inverse * m.C;
+    map.topRightCorner(n, n) = dt * inverse * m.C - one;
+    map.bottomLeftCorner(n, n) = one;
+    return Eigen::EigenSolver<Eigen::MatrixXd>(map, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+/// True while 4 M - 2 dt C - dt2 K is positive definite.
+bool stable(const Matrices& m, double dt)
+{
+    const Eigen::MatrixXd left = 4 * m.M - 2 * dt * m.C - dt * dt * m.K;
+    return Eigen::LLT<Eigen::MatrixXd>(left).info() == Eigen::Success;
+}
+
+} // namespace
+
+TEST(LinearResponse, LowestFrequencyOfTheSpecimens)
+{
+    EXPECT_NEAR(response(spec).frequency_hz[0], 36.925220, 5e-7);
+    EXPECT_NEAR(response(mono).frequency_hz[0], 52.459709, 5e-7);
+    EXPECT_NEAR(response(with(spec, 1e7)).frequency_hz[0], 11.600457, 5e-7);
+    EXPECT_NEAR(response(with(spec, 1e9)).frequency_hz[0], 116.843819, 5e-7);
+    EXPECT_NEAR(response(with(spec, 7.46820e6)).frequency_hz[0], 10, 1e-4);
+    EXPECT_NEAR(response(with(spec, 2.94390e7)).frequency_hz[0], 20, 1e-4);
+    EXPECT_NEAR(response(with(spec, 6.60571e7)).frequency_hz[0], 30, 1e-4);
+}
+
+TEST(LinearResponse, BucklesUnderItsWeightAtTheKnownStiffness)
+{
+    EXPECT_EQ(response(with(spec, 148349 * 0.9999)).frequency_hz[0], 0);
+    EXPECT_GT(response(with(spec, 148349 * 1.0001)).frequency_hz[0], 0);
+    EXPECT_EQ(response(with(mono, 75289.83 * 0.9999)).frequency_hz[0], 0);
+    EXPECT_GT(response(with(mono, 75289.83 * 1.0001)).frequency_hz[0], 0);
+}
+
+TEST(LinearResponse, AxialModesOfTheChain)
+{
+    // axial motion is not coupled to the rest: each of these is among the frequencies
+    const auto nearest = [](const std::vector<double>& all, double f) {
+        double best = 1e300;
+        for (const double g : all)
+            best = std::min(best, std::abs(g - f));
+        return best;
+    };
+    const std::vector<double> all = response(spec).frequency_hz;
+    ASSERT_EQ(all.size(), 18U);
+    for (int i = 1; i <= 6; ++i) {
+        const double w1 = std::sqrt(1e8 * 0.048 / 0.1355);
+        EXPECT_LT(nearest(all, w1 / M_PI * std::sin((2 * i - 1) * M_PI / 26)), 1e-6) << i;
+    }
+    EXPECT_LT(nearest(all, 228.360153), 1e-6);
+    EXPECT_LT(nearest(all, 1839.476756), 1e-6);
+    Column one = spec;
+    one.free_blocks = 1;
+    EXPECT_LT(nearest(response(one).frequency_hz, 947.264153), 1e-6);
+}
+
+TEST(LinearResponse, CriticalSteps)
+{
+    EXPECT_NEAR(response(spec).undamped_step_s, 1.601232e-4, 5e-11);
+    EXPECT_NEAR(response(spec).step_s, response(spec).undamped_step_s, 1e-15);
+    Column one = spec;
+    one.free_blocks = 1;
+    EXPECT_NEAR(response(one).undamped_step_s, 2.264420e-4, 5e-11);
+    // with dashpots, without the weight's 3e-6
+    EXPECT_NEAR(response(with(spec, 1e8, 0.1), 0).step_s, 1.349618e-4, 5e-11);
+    EXPECT_NEAR(response(with(spec, 1e8, 0.3), 0).step_s, 0.952181e-4, 5e-11);
+    EXPECT_NEAR(response(with(spec, 1e8, 0.5), 0).step_s, 0.700472e-4, 5e-11);
+    EXPECT_NEAR(response(with(spec, 1e8, 0.1)).step_s, 1.349618e-4, 1e-9);
+}
+
+TEST(LinearResponse, CriticalStepIsWhereTheOneStepMapBeginsToGrow)
+{
+    for (const double xi : {0.0, 0.05, 0.1, 0.3, 0.5, 1.0}) {
+        for (const double ratio : {0.2, 1.0, 4.0}) {
+            Column column = with(spec, 1e8, xi);
+            column.ratio = ratio;
+            const Matrices m = springs(make(column), std::vector<Part>(6));
+            const double dt = response(column, 0).step_s;
+            EXPECT_LT(spectral_radius(m, 0.999 * dt), 1 + 1e-6) << xi << ' ' << ratio;
+            EXPECT_GT(spectral_radius(m, 1.001 * dt), 1 + 1e-3) << xi << ' ' << ratio;
+        }
+    }
+}
+
+TEST(StepBound, SpecimenDigits)
+{
+    EXPECT_NEAR(bound(spec).dt_s, 1.356191e-4, 5e-11);
+    EXPECT_EQ(bound(spec).governed_by, StepLimit::stiffness);
+    EXPECT_TRUE(std::isinf(bound(spec).edge_s));
+    EXPECT_NEAR(bound(with(spec, 1e8, 0.1)).dt_s, 1.061170e-4, 5e-11);
+    EXPECT_NEAR(bound(with(spec, 1e8, 0.1)).stiffness_s, 1.356191e-4, 5e-11);
+    EXPECT_EQ(bound(with(spec, 1e8, 0.1)).governed_by, StepLimit::dashpot);
+    // axial motion alone would say 1.730437e-4, which is not safe
+    EXPECT_LT(bound(spec).dt_s, 1.730437e-4);
+}
+
+TEST(StepBound, ClosedFormOfInnerBlocks)
+{
+    for (const double ratio : {0.1, 0.5, 1.0, 5.0}) {
+        for (const double slenderness : {0.2, 1.0, 3.0}) {
+            Column column = spec;
+            column.ratio = ratio;
+            column.height = slenderness * column.width;
+            const double k_n = column.normal_stiffness * column.width;
+            const double k_t = ratio * k_n;
+            const double B2 = column.width * column.width;
+            const double H2 = column.height * column.height;
+            const double w2 = std::max({4 * k_n / column.mass, 4 * k_t / column.mass,
+                                        (12 * k_t * H2 + 4 * k_n * B2) / (column.mass * (B2 + H2))});
+            // the lowest and inner blocks have two joints, the top one a single joint, which is never stiffer
+            EXPECT_NEAR(bound(column).dt_s, 2 / std::sqrt(w2), 1e-12 * bound(column).dt_s) << ratio << slenderness;
+        }
+    }
+}
+
+TEST(StepBound, IsSafeOverTheScan)
+{
+    for (const int n : {1, 2, 3, 6, 12, 20}) {
+        for (const double slenderness : {0.2, 0.6, 1.0, 2.0, 8.0}) {
+            for (const double ratio : {0.1, 0.5, 1.0, 5.0}) {
+                for (const double xi : {0.0, 0.1, 0.3, 0.5}) {
+                    Column column = with(spec, 1e8, xi);
+                    column.free_blocks = n;
+                    column.height = slenderness * column.width;
+                    column.ratio = ratio;
+                    column.chord = true; // the full contact alone
+                    const double exact = response(column, 0).step_s;
+                    EXPECT_LE(bound(column).dt_s, exact * (1 + 1e-9))
+                        << n << ' ' << slenderness << ' ' << ratio << ' ' << xi;
+                    if (xi == 0) {
+                        EXPECT_GE(bound(column).dt_s, 0.5 * exact) << n << ' ' << slenderness << ' ' << ratio;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(StepBound, IsSafeForPartialContacts)
+{
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int trial = 0; trial < 4000; ++trial) {
+        Column column = spec;
+        column.free_blocks = 1 + trial % 7;
+        column.height = column.width * std::exp(std::log(0.2) + uniform(random) * std::log(40.0));
+        column.ratio = std::exp(std::log(0.1) + uniform(random) * std::log(50.0));
+        column.xi = trial % 3 == 0 ? 0 : 0.5 * uniform(random);
+        column.chord = trial % 2 == 1;
+        std::vector<Part> parts;
+        for (int j = 0; j < column.free_blocks; ++j) {
+            const double length = 2 * std::pow(uniform(random), 3);
+            switch (static_cast<int>(3 * uniform(random))) {
+            case 0:
+                parts.push_back({-1, -1 + length});
+                break;
+            case 1:
+                parts.push_back({1 - length, 1});
+                break;
+            default:
+                parts.push_back({});
+            }
+        }
+        const double dt = bound(column).dt_s;
+        EXPECT_TRUE(stable(springs(make(column), parts), dt * (1 - 1e-9)))
+            << "blocks " << column.free_blocks << " H/B " << column.height / column.width << " r " << column.ratio
+            << " xi " << column.xi << " chord " << column.chord;
+    }
+}
+
+TEST(StepBound, DashpotAtAnEdge)
+{
+    // K_T too small to matter and no C_T: one block at its corner against a fixed one, dt C_N (1/m + b2/I) = 1
+    Column column = with(mono, 1e8, 1.0);
+    Realization r = make(column);
+    r.joints[0].tangential_damping_n_s_m = 0;
+    const StepBound got = step_bound(r.blocks, r.joints);
+    const double rate = r.joints[0].normal_damping_n_s_m * (1 / 0.813 + 0.024 * 0.024 / r.blocks[1].inertia_kg_m2);
+    EXPECT_NEAR(got.edge_s * rate, 1, 1e-12);
+
+    // two equal blocks: their rotations' cross terms cancel, so that the normal direction stands alone
+    const Realization stack = make(with(spec, 1e8, 0.5));
+    const double both =
+        stack.joints[0].normal_damping_n_s_m * 2 * (1 / 0.1355 + 0.024 * 0.024 / stack.blocks[1].inertia_kg_m2);
+    EXPECT_NEAR(step_bound(stack.blocks, stack.joints).edge_s * both, 1, 1e-12);
+    EXPECT_EQ(step_bound(stack.blocks, stack.joints).governed_by, StepLimit::edge_dashpot);
+
+    // in proportion to the chord it vanishes at the edge
+    column = with(spec, 1e8, 0.5);
+    column.chord = true;
+    EXPECT_TRUE(std::isinf(bound(column).edge_s));
+    EXPECT_EQ(bound(column).governed_by, StepLimit::dashpot);
+}
+
+TEST(StepBound, CoefficientsGivenAsSuch)
+{
+    // C_N alone, far from the ratio's: full contact, so z = C_N w / (2 k_n)
+    Realization r = make(spec);
+    for (Joint& joint : r.joints) {
+        joint.normal_damping_n_s_m = 300;
+        joint.damping_chord_m = 0.048;
+    }
+    const StepBound got = step_bound(r.blocks, r.joints);
+    const double w = 2 / 1.356191e-4;
+    const double z = 300 * w / (2 * 1e8 * 0.048);
+    EXPECT_NEAR(got.dt_s, 2 / w * (std::sqrt(1 + z * z) - z), 1e-10);
+    EXPECT_LE(got.dt_s, linear_response(r.blocks, r.joints, 0).step_s);
+}
+
+TEST(StepBound, StiffestJointGovernsWhereverItIs)
+{
+    for (std::size_t j = 0; j < 6; ++j) {
+        Realization r = make(spec);
+        r.joints[j].normal_stiffness_n_m2 = 1e10;
+        const StepBound got = step_bound(r.blocks, r.joints);
+        EXPECT_LE(got.dt_s, linear_response(r.blocks, r.joints, 0).step_s * (1 + 1e-9));
+        EXPECT_LT(got.dt_s, 0.3 * bound(spec).dt_s);
+        EXPECT_TRUE(got.block == static_cast<int>(j) || got.block == static_cast<int>(j) + 1) << got.block;
+    }
+}
+
+TEST(StepBound, OffsetBlocks)
+{
+    // a contact off the centres couples translation and rotation; the bound must still hold
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> uniform(-0.012, 0.012);
+    for (int trial = 0; trial < 100; ++trial) {
+        Realization r = make(with(spec, 1e8, 0.1));
+        for (Block& block : r.blocks)
+            block.x_m = uniform(random);
+        EXPECT_LE(step_bound(r.blocks, r.joints).dt_s, linear_response(r.blocks, r.joints, 0).step_s);
+    }
+}

@@ -1,0 +1,182 @@
+/// The canonical text of a study: it reads back to itself, and is equal for equal studies only.
+
+#include "io/study_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+const std::string structure = R"(
+[structure]
+blocks = 7
+fixed_blocks = 1
+drum_width_m = 0.048
+drum_height_m = 0.029
+depth_m = 0.048
+drum_mass_kg = 0.1355
+[contact]
+normal_stiffness_n_m2 = 1e8
+friction = 0.68
+)";
+
+const std::string surface = R"(
+[study]
+kind = "surface"
+realizations = 8
+[excitation]
+kind = "harmonic"
+cycles = 8
+[surface]
+frequency_hz = { from = 0.5, to = 8, count = 5, spacing = "log" }
+pga_m_s2 = { from = 1, to = 9, count = 3 }
+)";
+
+const std::string perturbed = R"(
+[perturbation]
+phase = { distribution = "uniform" }
+tilt = { distribution = "normal", sd_rad = 0.001, min = -0.003, max = 0.003 }
+density = { distribution = "lognormal", sigma_ln = 0.1, per = "structure" }
+drum_width = { distribution = "normal", sd_m = 0.0002 }
+damping_ratio = { distribution = "log_uniform", from = 0.05, to = 0.5 }
+tangential_stiffness = { distribution = "normal", sd_n_m = 1e5 }
+)";
+
+Study read(const std::string& text, const std::vector<std::string>& settings = {})
+{
+    return parse_study(text, "temple.toml", settings);
+}
+
+Study single(const std::string& excitation, const std::vector<std::string>& settings = {})
+{
+    return read("[study]\nkind = \"single\"\n" + structure + "[excitation]\n" + excitation, settings);
+}
+
+/// Studies that together use every key.
+std::vector<Study> all_sorts()
+{
+    const std::string still = "kind = \"none\"\nduration_s = 2";
+    std::vector<Study> studies = {read(surface + structure), read(surface + structure + perturbed), single(still)};
+    for (const std::string excitation :
+         {"kind = \"harmonic\"\nfrequency_hz = 0.1\npga_m_s2 = 0.3\nphase_rad = -0.0\nend = \"abrupt\"",
+          "kind = \"full_sine\"\nfrequency_hz = 0.7\npga_m_s2 = 3.3\ntail_s = 1.5",
+          "kind = \"record\"\nfile = 'C:\\quakes\\\"a\".at2'\nunit = \"g\"\ncomponent = \"NS\"\ntime_scale = 1.1"})
+        studies.push_back(single(excitation));
+    studies.push_back(single(still, {"contact.normal_damping_n_s_m=0.1", "contact.tangential_damping_n_s_m=0",
+                                     "run.step_s=1e-7", "contact.damping_per=chord"}));
+    studies.push_back(single(still, {"run.allow_step_above_bound=true", "run.step_fraction=1.001"}));
+    return studies;
+}
+
+TEST(StudyText, ReadsBackToItself)
+{
+    for (const auto& study : all_sorts()) {
+        ASSERT_FALSE(study.text.empty());
+        EXPECT_EQ(parse_study(study.text, "again.toml").text, study.text);
+        EXPECT_EQ(study_text(study), study.text);
+    }
+}
+
+TEST(StudyText, DoesNotDependOnHowTheStudyIsWritten)
+{
+    const std::string other = R"(
+contact.friction = 0.680            # sections in another order, one without a header
+contact.normal_stiffness_n_m2 = 100_000_000.0
+[surface.pga_m_s2]
+count = 3
+to = 9.0
+from = 1.0
+[surface.frequency_hz]
+spacing = 'log'
+count = 5
+from = 0.5
+to = 8
+[structure]
+depth_m = 48e-3
+drum_mass_kg = 0.1355
+drum_height_m = 0.029
+drum_width_m = 0.048
+gravity_m_s2 = 9.81
+fixed_blocks = 1
+blocks = 0x7
+[excitation]
+kind = "harmonic"
+phase_rad = -0.0
+start = "smooth"
+cycles = 8.0
+[study]
+realizations = 8.0
+seed = 1
+kind = "surface"
+)";
+    EXPECT_EQ(read(other).text, read(surface + structure).text);
+}
+
+TEST(StudyText, DiffersWhereverAStudyDoes)
+{
+    const auto sorts = all_sorts();
+    for (std::size_t i = 0; i < sorts.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_NE(sorts[i].text, sorts[j].text) << i << ' ' << j;
+
+    const auto base = sorts[1];
+    const auto up = [](double& x) { x = std::nextafter(x, 1e300); }; // by one bit
+    const std::vector<std::function<void(Study&)>> changes = {
+        [](Study& s) { s.seed += 1; },
+        [](Study& s) { s.realizations += 1; },
+        [](Study& s) { s.structure.blocks += 1; },
+        [](Study& s) { s.structure.fixed_blocks = 0; },
+        [&](Study& s) { up(s.structure.drum_width_m); },
+        [&](Study& s) { up(s.structure.drum_height_m); },
+        [&](Study& s) { up(s.structure.depth_m); },
+        [&](Study& s) { up(s.structure.drum_mass_kg); },
+        [&](Study& s) { up(s.structure.gravity_m_s2); },
+        [&](Study& s) { up(s.contact.normal_stiffness_n_m2); },
+        [&](Study& s) { up(s.contact.tangential_stiffness_n_m); },
+        [&](Study& s) { up(s.contact.normal_damping_ratio); },
+        [&](Study& s) { up(s.contact.tangential_damping_ratio); },
+        [](Study& s) { s.contact.normal_damping_n_s_m = 0.1; },
+        [](Study& s) { s.contact.tangential_damping_n_s_m = 0.1; },
+        [](Study& s) { s.contact.damping_per = DampingPer::chord; },
+        [&](Study& s) { up(s.contact.friction); },
+        [](Study& s) { s.excitation.start = HarmonicEdge::abrupt; },
+        [](Study& s) { s.excitation.end = HarmonicEdge::abrupt; },
+        [&](Study& s) { up(s.excitation.ramp_cycles); },
+        [&](Study& s) { up(s.excitation.cycles); },
+        [&](Study& s) { up(s.excitation.phase_rad); },
+        [](Study& s) { s.excitation.tail_s = 1; },
+        [&](Study& s) { up(s.surface->frequency_hz.from); },
+        [&](Study& s) { up(s.surface->pga_m_s2.to); },
+        [](Study& s) { s.surface->pga_m_s2.count += 1; },
+        [](Study& s) { s.surface->pga_m_s2.spacing = Spacing::log; },
+        [](Study& s) { s.perturbations.pop_back(); },
+        [&](Study& s) { up(s.perturbations[0].sd); },
+        [&](Study& s) { up(s.perturbations[1].from); },
+        [&](Study& s) { up(s.perturbations[1].to); },
+        [](Study& s) { s.perturbations[0].min = 1; },
+        [](Study& s) { s.perturbations[0].max = 1e9; },
+        [](Study& s) { s.perturbations[0].per = Per::joint; },
+        [&](Study& s) { up(s.initial.tilt_rad); },
+        [&](Study& s) { up(s.output.trajectory_rate_hz); },
+        [&](Study& s) { up(s.outcome.collapse_height_fraction); },
+        [&](Study& s) { up(s.outcome.rocking_threshold_rad); },
+        [&](Study& s) { up(s.outcome.sliding_threshold); },
+        [&](Study& s) { up(s.run.step_fraction); },
+        [](Study& s) { s.run.step_s = 1e-5; },
+        [](Study& s) { s.run.allow_step_above_bound = true; },
+        [&](Study& s) { up(s.run.max_invalid_fraction); },
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        auto changed = base;
+        changes[i](changed);
+        EXPECT_NE(study_text(changed), base.text) << "change " << i;
+    }
+}
+
+} // namespace
+} // namespace stylobate
