@@ -91,9 +91,8 @@ void BaseMotion::fill(double first_step, double* table, int lanes) const
         const double i = std::floor(position);
         const double a0 = sample(i), a1 = sample(i + 1);
         double difference = dt2 * std::fma(position - i, a1 - a0, a0);
-        const double knot = position - i < 0.5 ? i : i + 1;
-        const double reach = ratio - std::fabs(position - knot);
-        if (reach > 0) {
+        for (double knot = std::ceil(position - ratio); knot < position + ratio; ++knot) {
+            const double reach = ratio - std::fabs(position - knot);
             const double bend = sample(knot + 1) - 2 * sample(knot) + sample(knot - 1);
             difference += dt2 * bend * reach * reach * reach / (6 * ratio * ratio);
         }

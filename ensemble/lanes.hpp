@@ -61,6 +61,8 @@ private:
         std::uint64_t quiet_since = 0;
         std::uint64_t fall_steps = 0; ///< needed in a row
         std::uint64_t falling_since = 0;
+        double quiet_top_m = 0; ///< sum over the looks since then
+        int quiet_looks = 0;
         bool quiet = false, falling = false;
         int falling_block = -1;
         double base_top_m = 0;

@@ -58,7 +58,7 @@ Overlap<double> overlap_of(const Block& lower, const Pose& l, const Block& upper
     const double by = u.y - upper.half_height_m * std::cos(u.theta) - l.y;
     const double x = bx * std::cos(l.theta) + by * std::sin(l.theta);
     const double y = -bx * std::sin(l.theta) + by * std::cos(l.theta) - lower.half_height_m;
-    return general_overlap<double>({x, y, sine, cosine},
+    return general_overlap<double>({x, -y, sine, cosine},
                                    {lower.half_width_m, lower.half_height_m, upper.half_width_m, upper.half_height_m});
 }
 

@@ -4,28 +4,58 @@
 #include "ensemble/motion.hpp"
 #include "io/record.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace stylobate {
+
+/// A record with fewer samples drives nothing.
+inline constexpr std::size_t fewest_samples = 10;
 
 struct IntensityMeasures {
     double pga_m_s2 = 0;
     double pgv_m_s = 0;
     double pgd_m = 0;
-    double arias_m_s = 0;
-    double d5_95_s = 0;
+    double arias_m_s = 0;                ///< pi / (2 g) times the integral of a2, g = 9.80665 m/s2
+    double d5_95_s = 0;                  ///< from 5 to 95 % of it
     double predominant_frequency_hz = 0; ///< peak of the Fourier amplitude smoothed with a Konno-Ohmachi window, b = 40
-    double mean_frequency_hz = 0;        ///< inverse of the mean period of Rathje et al.
+    double mean_frequency_hz = 0;        ///< inverse of the mean period of Rathje et al. (2004), 0.25 to 20 Hz
 };
 
 /// Drives a structure with the record: corrects the baseline where asked, integrates consistently.
-/// @throws InputError if the record is too short or all zero
+///
+/// The correction, on the samples a_i of a record of duration T:
+///   1. the mean is removed, so that the taper draws the ends to the zero line;
+///   2. both ends are tapered by w = 10 x3 - 15 x4 + 6 x5 over 2 % of T, at most 0.5 s and at least two samples:
+///      the acceleration starts and ends at zero;
+///   3. w q(t) is subtracted, q a polynomial of degree 3. Two of its four coefficients go into bringing velocity and
+///      displacement to zero at the end; the other two make the mean square of the velocity least. That takes out the
+///      trend of the velocity (a parabola and its like, from an instrument's drifting zero) with as little change to
+///      the acceleration as it needs. The PGA moves by less than 0.2 % where the record's zero line is right; where it
+///      is off (a mean of some per cent of the PGA), it moves by about as much as the line was off.
+/// There is no filter: what a record has of long-period noise above the order of the polynomial stays. A permanent
+/// displacement of the ground is taken out with the drift, which it cannot be told from.
+///
+/// Velocity and displacement follow exactly from an acceleration that is linear between its samples.
+/// The predominant frequency is that of the record as it stands, with or without the correction.
+///
+/// @throws InputError if the record is too short or all zero (constant, where the baseline is corrected)
 Motion make_motion(const Record& record, bool correct_baseline);
 
 /// Acceleration measures of the record as it stands; velocity and displacement after the baseline correction.
+/// @throws InputError as `make_motion`
 IntensityMeasures intensity_measures(const Record& record);
 
-/// 5 % pseudo-acceleration spectrum at the given periods [m/s2].
+/// Peak of the Fourier amplitude, smoothed with a Konno-Ohmachi window (b = 40), of the samples less their mean.
+/// Looked for from two cycles in the record up to the Nyquist frequency, in steps of 0.25 %.
+/// @return 0 if the samples are all equal
+/// @pre dt_s > 0
+double predominant_frequency(const std::vector<double>& acceleration_m_s2, double dt_s);
+
+/// Pseudo-acceleration spectrum at the given periods [m/s2]: w2 times the largest displacement of the oscillator that
+/// starts at rest, by the exact solution for an acceleration that is linear between samples, looked at 50 times a
+/// period at least, until half a period after the record. Period 0: the PGA.
+/// @pre periods >= 0, damping ratio in [0, 1)
 std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,
                                           double damping_ratio = 0.05);
 

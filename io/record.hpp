@@ -20,14 +20,26 @@ struct Record {
     std::vector<double> acceleration_m_s2;
 };
 
+/// A record with a PGA outside these is refused: its unit is wrong [m/s2].
+inline constexpr double smallest_pga_m_s2 = 1e-4;
+inline constexpr double largest_pga_m_s2 = 50;
+
 /// Reads every component of a file; the format is recognised from its content.
-/// @param unit of the acceleration: "g", "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file must say it
+///
+/// peer-at2: any header lines, one of them with NPTS and DT, then exactly NPTS values. columns: time [s] and one
+/// component or more, see io/record_columns.cpp.
+///
+/// @param unit of the acceleration: "g" (9.80665 m/s2), "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file must
+///        say it
 /// @throws InputError if it cannot be read, is truncated, contradicts its own header, is of no known format,
-///         says no unit and none is given, or says another unit than the one given
+///         says no unit and none is given, or says another unit than the one given, or if a PGA is outside
+///         [smallest_pga_m_s2, largest_pga_m_s2]
 std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit);
 
-/// The one component that is asked for: by name or by column number ("2"); empty = the only one there is.
-/// @throws InputError as above, and if there is no such component or none was named among several
+/// The one component that is asked for: by name ("360", "column 2") or by column number ("2"); empty = the only one
+/// there is. Upper and lower case are one.
+/// @throws InputError as above (the PGA of this component only), and if there is no such component or none was named
+///         among several
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit);
 
 } // namespace stylobate

@@ -74,7 +74,11 @@ STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const P
         for (int piece = 0; piece < 3; ++piece) {
             const Real u0 = cut[piece], u1 = cut[piece + 1];
             const Real xa = fma(u0, dx, x0), xb = fma(u1, dx, x0);
-            const Real ya = clamp(fma(u0, dy, y0), low, zero), yb = clamp(fma(u1, dy, y0), low, zero);
+            // the outer pieces lie on the box to the bit: what rounding leaves of y there, times a long run, would
+            // drown a corner that only grazes
+            const Real flat = select(fma(half * (u0 + u1), dy, y0) > half * low, zero, low);
+            const Real ya = piece == 1 ? clamp(fma(u0, dy, y0), low, zero) : flat;
+            const Real yb = piece == 1 ? clamp(fma(u1, dy, y0), low, zero) : flat;
             const Real run = xb - xa;
             // integrals of -y, -x y and y^2/2 along the piece, for y linear in x
             o.area = o.area - run * half * (ya + yb);

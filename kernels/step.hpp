@@ -223,10 +223,10 @@ private:
             const Real fy = fma(f.normal, s.normal_y, f.tangential * s.normal_x);
             put(OfBlock::force_x, upper, get(OfBlock::force_x, upper) + fx);
             put(OfBlock::force_y, upper, get(OfBlock::force_y, upper) + fy);
-            put(OfBlock::moment, upper, fnma(s.upper_arm_y, fx, fma(s.upper_arm_x, fy, get(OfBlock::moment, upper))));
+            put(OfBlock::moment, upper, get(OfBlock::moment, upper) + fms(s.upper_arm_x, fy, s.upper_arm_y * fx));
             put(OfBlock::force_x, lower, get(OfBlock::force_x, lower) - fx);
             put(OfBlock::force_y, lower, get(OfBlock::force_y, lower) - fy);
-            put(OfBlock::moment, lower, fma(s.lower_arm_y, fx, fnma(s.lower_arm_x, fy, get(OfBlock::moment, lower))));
+            put(OfBlock::moment, lower, get(OfBlock::moment, lower) - fms(s.lower_arm_x, fy, s.lower_arm_y * fx));
 
             // energy: the work of this step is its displacement times the mean of the forces at its two ends
             const Real dashpot = fnma(law.K_n, s.area, f.normal);

@@ -3,7 +3,7 @@
 ///
 /// On |r| <= pi/4:  sin r = r + r^3 S(r^2),  1 - cos r = r^2/2 + r^4 V(r^2),  S and V of degree 5, interpolating at the
 /// Chebyshev nodes of [0, (pi/4)^2] (relative error of the polynomials 2.0e-17 and 2.6e-18, computed in exact
-/// arithmetic; rounding brings it to less than 1 ULP for the sine and 1.5 ULP for the versine, which the tests
+/// arithmetic; rounding brings it to less than 1 ULP for the sine and 2 ULP for the versine, which the tests
 /// measure). Larger angles are reduced by multiples of pi/2 in three parts (Cody and Waite), good for |x| up to 1e5.
 
 #include "kernels/real.hpp"

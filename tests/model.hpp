@@ -6,6 +6,7 @@
 
 #include "ensemble/lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -14,8 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace stylobate::model
-{
+namespace stylobate::model {
 
 inline constexpr double pi = std::numbers::pi;
 inline constexpr double gravity = 9.81; // m/s2
@@ -50,8 +50,8 @@ inline Realization stack(const std::vector<Stone>& stones, const Bed& bed, doubl
     Realization r;
     const Stone& first = stones.front();
     const double base_height = first.height;
-    r.blocks.push_back({0.5 * (base_width > 0 ? base_width : first.width), 0.5 * base_height, 1, 1, 0,
-                        -0.5 * base_height, true});
+    r.blocks.push_back(
+        {0.5 * (base_width > 0 ? base_width : first.width), 0.5 * base_height, 1, 1, 0, -0.5 * base_height, true});
     const double k = bed.K_n * first.width;
     const double C = 2 * bed.xi * std::sqrt(k * first.mass);
     double top = 0;
@@ -177,8 +177,7 @@ inline double least_overturning(const Study& study, const std::function<Realizat
 
 /// One realization in a bundle of its own, on the scalar kernel, with every field open: for starts that are not a
 /// static rest, and for a look at the forces.
-class BareColumn
-{
+class BareColumn {
 public:
     explicit BareColumn(const Realization& r) : realization_(r)
     {

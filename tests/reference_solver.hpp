@@ -12,8 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace stylobate::reference
-{
+namespace stylobate::reference {
 
 using Number = long double;
 using Vector = Eigen::Matrix<Number, 2, 1>;
@@ -30,9 +29,9 @@ struct Corner {
 };
 
 struct Area {
-    Number area = 0;                   ///< [m2]
-    Vector centroid = Vector::Zero();  ///< [m]
-    Vector chord = Vector::Zero();     ///< between the crossings of the outlines [m]
+    Number area = 0;                  ///< [m2]
+    Vector centroid = Vector::Zero(); ///< [m]
+    Vector chord = Vector::Zero();    ///< between the crossings of the outlines [m]
     Vector normal() const { return Vector(chord.y(), -chord.x()) / chord.norm(); }
 };
 
@@ -96,8 +95,7 @@ struct JointForce {
     Number tangential = 0; ///< F_T, against the sliding of the upper block [N]
 };
 
-class Solver
-{
+class Solver {
 public:
     /// @param start one state per block, at rest; the base has not moved yet
     Solver(const Realization& r, const std::vector<State>& start)
@@ -126,7 +124,7 @@ public:
                 next.at.x() = r_.blocks[i].x_m + next_base;
             } else {
                 const Vector a = acceleration(i) - Vector(inertial, 0);
-                next.at = 2 * now_[i].at - before_[i].at + dt2 * a;                                // Eqs. 4 and 5
+                next.at = 2 * now_[i].at - before_[i].at + dt2 * a; // Eqs. 4 and 5
                 next.angle = 2 * now_[i].angle - before_[i].angle + dt2 * moment_[i] / r_.blocks[i].inertia_kg_m2; // 6
             }
             before_[i] = now_[i];
@@ -185,8 +183,7 @@ private:
             // Eqs. 2 and 3
             const Number limit = joint.friction * F_n, sliding = v.dot(tangent);
             spring_[j] = std::clamp(spring_[j] + joint.tangential_stiffness_n_m * sliding * dt, -limit, limit);
-            const Number F_t =
-                std::clamp(spring_[j] + share * joint.tangential_damping_n_s_m * sliding, -limit, limit);
+            const Number F_t = std::clamp(spring_[j] + share * joint.tangential_damping_n_s_m * sliding, -limit, limit);
             joint_force_[j] = {F_n, F_t};
             const Vector F = F_n * normal - F_t * tangent;
             force_[upper] += F;

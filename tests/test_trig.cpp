@@ -4,18 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
-namespace stylobate
-{
-namespace
-{
+namespace stylobate {
+namespace {
 
 static_assert(std::numeric_limits<long double>::digits >= 64, "the oracle needs extended precision");
 

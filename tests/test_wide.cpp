@@ -11,17 +11,19 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
-namespace stylobate
-{
-namespace
-{
+namespace stylobate {
+
+#if defined(__x86_64__)
+extern const KernelTable portable_kernels; // taken for `scalar` on processors without a fused multiply-add
+#endif
+
+namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -29,8 +31,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Memory as the kernels want it.
 struct Aligned {
     explicit Aligned(std::size_t doubles)
-        : count(doubles),
-          data(static_cast<double*>(std::aligned_alloc(64, (doubles * sizeof(double) + 63) / 64 * 64)))
+        : count(doubles), data(static_cast<double*>(std::aligned_alloc(64, (doubles * sizeof(double) + 63) / 64 * 64)))
     {
         std::fill_n(data.get(), count, 0.0);
     }
@@ -68,8 +69,7 @@ struct Column {
 /// How a random column is placed.
 enum class Pose { aligned, standing, rocking, heap };
 
-class StateMaker
-{
+class StateMaker {
 public:
     explicit StateMaker(std::uint64_t seed) : engine_(seed) {}
 
@@ -249,6 +249,22 @@ TEST(Wide, EachLaneHasTheBitsOfTheScalarKernel)
     EXPECT_GT(closed, 1000);
 }
 
+#if defined(__x86_64__)
+TEST(Wide, ScalarHasTheSameBitsWithoutTheInstruction)
+{
+    StateMaker maker(7);
+    for (int blocks : {1, 6, 9}) {
+        const Column column(blocks);
+        for (int round = 0; round < 8; ++round) {
+            const State start = maker.make(column, any_pose(maker));
+            ASSERT_EQ(first_difference(together(column, portable_kernels, {start}, 0, chunk_steps)[0],
+                                       alone(column, start, 0, chunk_steps)),
+                      -1);
+        }
+    }
+}
+#endif
+
 TEST(Wide, TheStepMovesTheBlocks)
 {
     // so that the comparisons here cannot pass because nothing happens
@@ -340,7 +356,8 @@ TEST(Wide, OrderOfTheJointsDoesNotMoveTheBlocks)
             State back = got;
             copy_joints(bind_bundle(shuffled.topology, 1, got.data()), bind_bundle(upward.topology, 1, back.data()),
                         true);
-            const Bundle a = bind_bundle(upward.topology, 1, want.data()), c = bind_bundle(upward.topology, 1, back.data());
+            const Bundle a = bind_bundle(upward.topology, 1, want.data()),
+                         c = bind_bundle(upward.topology, 1, back.data());
             for (auto field : {OfRealization::slip, OfRealization::path, OfRealization::friction_energy,
                                OfRealization::dashpot_energy, OfRealization::shear_energy}) {
                 const double scale = std::fabs(a.at(field, 0)) + 1e-12;
@@ -401,7 +418,8 @@ TEST(Wide, BaseMotionHasTheSameBitsInEveryLane)
                     drives.push_back(random_drive(maker, formula));
                     // before, in, around the end of, and after the motion
                     const double steps = drives.back().values[2] / drives.back().values[0];
-                    const double where[] = {0.0, std::floor(maker.uniform(0, steps)), std::floor(steps) - 30, steps * 3};
+                    const double where[] = {0.0, std::floor(maker.uniform(0, steps)), std::floor(steps) - 30,
+                                            steps * 3};
                     first.push_back(std::floor(where[maker.word() % 4]));
                     if (round % 4 == 3 && lane > 0)
                         drives.back() = Drive{{nan_value, infinite, nan_value, 1e308, nan_value, 0, 0, nan_value}};

@@ -1,0 +1,289 @@
+/// Intensity measures of a record: peaks, Arias intensity, Fourier amplitude, response spectrum.
+
+#include "io/ground_motion.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double standard_gravity = 9.80665;
+constexpr double pi = std::numbers::pi;
+
+double peak(const std::vector<double>& values)
+{
+    double largest = 0;
+    for (const double value : values)
+        largest = std::max(largest, std::fabs(value));
+    return largest;
+}
+
+/// Discrete Fourier transform in place, decimation in time.
+/// @pre the size is a power of two
+void transform(std::vector<std::complex<double>>& z)
+{
+    const std::size_t n = z.size();
+    for (std::size_t i = 1, j = 0; i < n; ++i) { // into the order of reversed bits
+        std::size_t bit = n / 2;
+        for (; j & bit; bit /= 2)
+            j ^= bit;
+        j ^= bit;
+        if (i < j)
+            std::swap(z[i], z[j]);
+    }
+    std::vector<std::complex<double>> turn(n / 2);
+    for (std::size_t k = 0; k < n / 2; ++k)
+        turn[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(n));
+    for (std::size_t half = 1; half < n; half *= 2)
+        for (std::size_t start = 0; start < n; start += 2 * half)
+            for (std::size_t k = 0; k < half; ++k) {
+                const std::complex<double> w = turn[k * (n / (2 * half))], odd = z[start + half + k];
+                const std::complex<double> t(w.real() * odd.real() - w.imag() * odd.imag(),
+                                             w.real() * odd.imag() + w.imag() * odd.real());
+                z[start + half + k] = z[start + k] - t;
+                z[start + k] += t;
+            }
+}
+
+struct Spectrum {
+    std::vector<double> amplitude; ///< at k df, from 0 to the Nyquist frequency
+    double df_hz = 0;
+};
+
+std::vector<std::complex<double>> without_mean(const std::vector<double>& a, std::size_t size)
+{
+    const double mean = std::accumulate(a.begin(), a.end(), 0.0) / static_cast<double>(a.size());
+    std::vector<std::complex<double>> z(size);
+    std::transform(a.begin(), a.end(), z.begin(), [mean](double x) { return x - mean; });
+    return z;
+}
+
+std::size_t power_of_two_from(std::size_t n)
+{
+    std::size_t size = 2;
+    while (size < n)
+        size *= 2;
+    return size;
+}
+
+Spectrum amplitudes(const std::vector<std::complex<double>>& transformed, std::size_t n, double dt_s)
+{
+    Spectrum spectrum;
+    spectrum.df_hz = 1 / (static_cast<double>(n) * dt_s);
+    for (std::size_t k = 0; k <= n / 2; ++k)
+        spectrum.amplitude.push_back(dt_s * std::abs(transformed[k]));
+    return spectrum;
+}
+
+/// Of the samples less their mean, followed by zeros to at least four times their number: the peak of the smoothed
+/// amplitude then no longer depends on the spacing of the frequencies.
+Spectrum padded_spectrum(const std::vector<double>& a, double dt_s)
+{
+    const std::size_t n = power_of_two_from(4 * a.size());
+    auto z = without_mean(a, n);
+    transform(z);
+    return amplitudes(z, n, dt_s);
+}
+
+/// Of the samples less their mean at the record's own frequencies k / (n dt), on which the mean period is defined.
+/// Bluestein: j k = (j2 + k2 - (k - j)2) / 2 makes the transform of any length a convolution.
+Spectrum own_spectrum(const std::vector<double>& a, double dt_s)
+{
+    const std::size_t n = a.size(), size = power_of_two_from(2 * n);
+    const auto chirp = [n](std::size_t j) { // exp(i pi j2 / n), with j2 reduced first
+        return std::polar(1.0, pi * static_cast<double>(j * j % (2 * n)) / static_cast<double>(n));
+    };
+    auto z = without_mean(a, size);
+    std::vector<std::complex<double>> kernel(size);
+    for (std::size_t j = 0; j < n; ++j) {
+        kernel[j] = chirp(j);
+        if (j > 0)
+            kernel[size - j] = kernel[j];
+        z[j] *= std::conj(kernel[j]);
+    }
+    transform(z);
+    transform(kernel);
+    for (std::size_t k = 0; k < size; ++k)
+        z[k] = std::conj(z[k] * kernel[k]); // the inverse transform is the conjugate of the conjugate's transform
+    transform(z);
+    for (std::complex<double>& value : z) // what is left out, a chirp of modulus one, does not change amplitudes
+        value /= static_cast<double>(size);
+    return amplitudes(z, n, dt_s);
+}
+
+/// Konno and Ohmachi (1998): W = [sin(x) / x]^4, x = b log10(f / fc); to the first zero of W on either side, which
+/// holds all but 0.2 % of it.
+class Smoothed {
+public:
+    explicit Smoothed(const Spectrum& spectrum) : spectrum_(spectrum), log_(spectrum.amplitude.size())
+    {
+        for (std::size_t k = 1; k < log_.size(); ++k)
+            log_[k] = std::log10(static_cast<double>(k));
+    }
+
+    double operator()(double centre_hz) const
+    {
+        const double centre = centre_hz / spectrum_.df_hz, log_centre = std::log10(centre);
+        const auto first = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(centre / reach_)));
+        const auto last = std::min(log_.size() - 1, static_cast<std::size_t>(centre * reach_));
+        double sum = 0, weights = 0;
+        for (std::size_t k = first; k <= last; ++k) {
+            const double x = b * (log_[k] - log_centre);
+            const double sinc = std::fabs(x) < 1e-6 ? 1 : std::sin(x) / x;
+            const double weight = sinc * sinc * sinc * sinc;
+            sum += weight * spectrum_.amplitude[k];
+            weights += weight;
+        }
+        return weights > 0 ? sum / weights : 0;
+    }
+
+private:
+    static constexpr double b = 40;
+    const Spectrum& spectrum_;
+    std::vector<double> log_;
+    double reach_ = std::pow(10, pi / b);
+};
+
+/// Rathje et al. (2004): the mean of the periods, weighted by the squares of the amplitudes, 0.25 to 20 Hz.
+double mean_frequency(const Spectrum& spectrum)
+{
+    double squares = 0, periods = 0;
+    for (std::size_t k = 1; k < spectrum.amplitude.size(); ++k) {
+        const double f = static_cast<double>(k) * spectrum.df_hz;
+        if (f < 0.25 || f > 20)
+            continue;
+        const double square = spectrum.amplitude[k] * spectrum.amplitude[k];
+        squares += square;
+        periods += square / f;
+    }
+    return periods > 0 ? squares / periods : 0;
+}
+
+/// The running integral of a2 by the trapezium rule, which is exact for what the samples can carry (an acceleration
+/// linear between them would lose up to a third of it near the Nyquist frequency).
+struct Husid {
+    double total = 0;
+    double d5_95_s = 0;
+};
+
+Husid husid(const std::vector<double>& a, double d)
+{
+    std::vector<double> sum(a.size());
+    for (std::size_t i = 0; i + 1 < a.size(); ++i)
+        sum[i + 1] = sum[i] + d * (a[i] * a[i] + a[i + 1] * a[i + 1]) / 2;
+    const auto time_of = [&](double level) {
+        const auto above = std::upper_bound(sum.begin(), sum.end(), level);
+        if (above == sum.begin() || above == sum.end())
+            return 0.0;
+        const auto i = static_cast<double>(above - sum.begin() - 1);
+        return d * (i + (level - *(above - 1)) / (*above - *(above - 1)));
+    };
+    return {sum.back(), time_of(0.95 * sum.back()) - time_of(0.05 * sum.back())};
+}
+
+/// The oscillator u'' + 2 z w u' + w2 u = -a(t), exactly over steps in which a is linear.
+class Oscillator {
+public:
+    Oscillator(double omega, double damping_ratio, double step_s)
+        : w_(omega), z_(damping_ratio), w_d_(omega * std::sqrt(1 - damping_ratio * damping_ratio)), h_(step_s),
+          cosine_(std::exp(-z_ * w_ * h_) * std::cos(w_d_ * h_)), sine_(std::exp(-z_ * w_ * h_) * std::sin(w_d_ * h_))
+    {
+    }
+
+    /// The step from a0 to a1. u = exp(-z w t) (A cos w_d t + B sin w_d t) + particular solution.
+    void advance(double a0, double a1)
+    {
+        const double slope = (a1 - a0) / h_, w2 = w_ * w_;
+        const double lag = 2 * z_ * slope / (w2 * w_); // particular: -(a0 + slope t) / w2 + lag
+        const double A = u_ + a0 / w2 - lag;
+        const double B = (v_ + z_ * w_ * A + slope / w2) / w_d_;
+        const double swing = cosine_ * A + sine_ * B;
+        u_ = swing - a1 / w2 + lag;
+        v_ = w_d_ * (cosine_ * B - sine_ * A) - z_ * w_ * swing - slope / w2;
+    }
+
+    double displacement() const { return u_; }
+
+private:
+    double w_, z_, w_d_, h_;
+    double cosine_, sine_;
+    double u_ = 0, v_ = 0;
+};
+
+double spectral_acceleration(const std::vector<double>& a, double dt_s, double period_s, double damping_ratio)
+{
+    if (period_s == 0)
+        return peak(a);
+    constexpr double looks_per_period = 50;
+    const double parts = std::max(1.0, std::ceil(dt_s * looks_per_period / period_s));
+    const double omega = 2 * pi / period_s;
+    Oscillator oscillator(omega, damping_ratio, dt_s / parts);
+    double largest = 0;
+    const auto follow = [&](double a0, double a1) {
+        for (double j = 0; j < parts; ++j) {
+            const double slope = (a1 - a0) / parts;
+            oscillator.advance(a0 + slope * j, a0 + slope * (j + 1));
+            largest = std::max(largest, std::fabs(oscillator.displacement()));
+        }
+    };
+    for (std::size_t i = 0; i + 1 < a.size(); ++i)
+        follow(a[i], a[i + 1]);
+    for (double t = 0; t < period_s / 2; t += dt_s)
+        follow(0, 0);
+    return omega * omega * largest;
+}
+
+} // namespace
+
+double predominant_frequency(const std::vector<double>& acceleration_m_s2, double dt_s)
+{
+    constexpr double step = 1.0025;
+    if (acceleration_m_s2.size() < 2)
+        return 0;
+    const Spectrum spectrum = padded_spectrum(acceleration_m_s2, dt_s);
+    const Smoothed amplitude(spectrum);
+    const double nyquist = 0.5 / dt_s;
+    double largest = 0, frequency = 0;
+    for (double f = 2 / (dt_s * static_cast<double>(acceleration_m_s2.size() - 1)); f <= nyquist; f *= step)
+        if (const double here = amplitude(f); here > largest) {
+            largest = here;
+            frequency = f;
+        }
+    return frequency;
+}
+
+IntensityMeasures intensity_measures(const Record& record)
+{
+    const Motion motion = make_motion(record, true);
+    const std::vector<double>& a = record.acceleration_m_s2;
+    const Husid arias = husid(a, record.dt_s);
+    IntensityMeasures im;
+    im.pga_m_s2 = peak(a);
+    im.pgv_m_s = peak(motion.velocity_m_s);
+    im.pgd_m = peak(motion.displacement_m);
+    im.arias_m_s = pi / (2 * standard_gravity) * arias.total;
+    im.d5_95_s = arias.d5_95_s;
+    im.predominant_frequency_hz = motion.predominant_frequency_hz;
+    im.mean_frequency_hz = mean_frequency(own_spectrum(a, record.dt_s));
+    return im;
+}
+
+std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,
+                                          double damping_ratio)
+{
+    assert(damping_ratio >= 0 && damping_ratio < 1);
+    std::vector<double> spectrum;
+    for (const double period : periods_s) {
+        assert(period >= 0);
+        spectrum.push_back(spectral_acceleration(record.acceleration_m_s2, record.dt_s, period, damping_ratio));
+    }
+    return spectrum;
+}
+
+} // namespace stylobate

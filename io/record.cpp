@@ -1,0 +1,350 @@
+#include "io/record.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/record_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <system_error>
+
+namespace stylobate {
+
+namespace {
+
+/// Asked in this order; the columns, which any table of numbers is, come last.
+constexpr const RecordParser* parsers[] = {&at2_parser, &columns_parser};
+
+constexpr const char* unit_choices = "\"m/s2\", \"cm/s2\" (or \"gal\"), \"mm/s2\" or \"g\"";
+constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record
+
+std::string content_of(const std::filesystem::path& path)
+{
+    const std::string file = path.string();
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status))
+        throw InputError(file, 0, "there is no such file. Give the path of a ground-motion record.");
+    if (!std::filesystem::is_regular_file(status))
+        throw InputError(file, 0, "is not a file. Give the path of a ground-motion record.");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (!error && size > largest_file)
+        throw InputError(file, 0,
+                         fmt::format("has {} bytes, more than the {} that a record may have. Give the path of a "
+                                     "ground-motion record.",
+                                     size, largest_file));
+    std::ifstream in(path, std::ios::binary);
+    std::string content(error ? 0 : static_cast<std::size_t>(size), '\0');
+    if (!in || error || !in.read(content.data(), static_cast<std::streamsize>(content.size())))
+        throw InputError(file, 0, "cannot be read. Check its permissions.");
+    return content;
+}
+
+/// @param content without it the lines are gone
+RecordText lines_of(const std::string& file, std::string_view content)
+{
+    RecordText text{file, {}, true};
+    if (content.starts_with("\xEF\xBB\xBF")) // UTF-8 mark
+        content.remove_prefix(3);
+    while (content.ends_with('\x1a')) // end of file of old systems
+        content.remove_suffix(1);
+    while (!content.empty()) {
+        const std::size_t end = content.find_first_of("\r\n");
+        const std::string_view line = content.substr(0, end);
+        text.lines.push_back(line);
+        for (const char c : line)
+            if (const auto byte = static_cast<unsigned char>(c);
+                (byte < 0x20 && c != '\t' && c != '\f') || byte == 0x7f)
+                text.refuse(text.lines.size() - 1,
+                            fmt::format("byte 0x{:02x} in what should be text: the file is binary or damaged.", byte));
+        text.ended = end != std::string_view::npos;
+        if (!text.ended)
+            break;
+        // CR CR LF is one end of line, CR alone too; without a LF after them, each of several CR ends a line
+        std::size_t next = content.find_first_not_of('\r', end);
+        if (next != std::string_view::npos && content[next] == '\n')
+            ++next;
+        else
+            next = end + 1;
+        content.remove_prefix(next);
+    }
+    const bool blank = std::all_of(text.lines.begin(), text.lines.end(),
+                                   [](std::string_view line) { return trimmed(line).empty(); });
+    if (blank)
+        text.refuse("is empty.");
+    return text;
+}
+
+std::vector<Record> parse_file(const std::filesystem::path& path, const std::string& unit)
+{
+    const std::string file = path.string();
+    const std::string given = canonical_unit(unit);
+    if (!unit.empty() && given.empty())
+        throw InputError(file, 0, fmt::format("unit = \"{}\" is not known. It may be {}.", unit, unit_choices));
+    const std::string content = content_of(path);
+    const RecordText text = lines_of(file, content);
+    std::string formats;
+    for (const RecordParser* parser : parsers) {
+        if (parser->recognise(text))
+            return parser->parse(text, given);
+        formats += fmt::format("{}{}", formats.empty() ? "" : ", ", parser->format);
+    }
+    text.refuse(fmt::format("is of no known format ({}). Give a PEER .AT2 file, or a table with the time in s in its "
+                            "first column, the acceleration in the others, and at most one line of names above.",
+                            formats));
+}
+
+double pga_of(const Record& record)
+{
+    double pga = 0;
+    for (const double a : record.acceleration_m_s2)
+        pga = std::max(pga, std::fabs(a));
+    return pga;
+}
+
+void check_pga(const Record& record)
+{
+    const double pga = pga_of(record);
+    if (pga >= smallest_pga_m_s2 && pga <= largest_pga_m_s2)
+        return;
+    std::string hint;
+    for (const char* other : {"m/s2", "cm/s2", "mm/s2", "g"}) {
+        const double in_other = pga / unit_m_s2(record.unit) * unit_m_s2(other);
+        if (other != record.unit && in_other >= 0.01 && in_other <= 20)
+            hint += fmt::format("{} in {} it would be {:.4g} m/s2", hint.empty() ? "" : ",", other, in_other);
+    }
+    throw InputError(record.file, 0,
+                     fmt::format("{}: the PGA is {:.6g} m/s2 (unit {}), outside [{}, {}] m/s2. {}", record.component,
+                                 pga, record.unit, smallest_pga_m_s2, largest_pga_m_s2,
+                                 hint.empty() ? "Check the unit and the file." : "Is the unit right?" + hint + "."));
+}
+
+/// The number N of "N" and of "column N".
+std::optional<int> column_number(std::string_view name)
+{
+    if (name.starts_with("column "))
+        name.remove_prefix(7);
+    int column = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), column);
+    if (error != std::errc() || end != name.data() + name.size())
+        return {};
+    return column;
+}
+
+/// @throws InputError if it is not among them
+std::size_t place_of(const std::vector<Record>& records, const std::string& component)
+{
+    std::string names;
+    for (const Record& record : records)
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", record.component);
+    if (component.empty()) {
+        if (records.size() == 1)
+            return 0;
+        throw InputError(records.front().file, 0,
+                         fmt::format("has {} components and none was named. Give one as the component: {}.",
+                                     records.size(), names));
+    }
+    const std::string wanted = lower_case(trimmed(component));
+    for (std::size_t i = 0; i < records.size(); ++i)
+        if (lower_case(records[i].component) == wanted)
+            return i;
+    // the first column of a table is the time, unless it is the only one
+    if (const std::optional<int> column = column_number(wanted); column && records.front().format == "columns") {
+        const int first = records.front().component == "column 1" ? 1 : 2;
+        if (*column >= first && static_cast<std::size_t>(*column - first) < records.size())
+            return static_cast<std::size_t>(*column - first);
+    }
+    throw InputError(records.front().file, 0,
+                     fmt::format("component = \"{}\" is not in it. It has: {}.", component, names));
+}
+
+} // namespace
+
+void RecordText::refuse(std::size_t i, const std::string& what) const
+{
+    throw InputError(file, static_cast<long>(i) + 1, what);
+}
+
+void RecordText::refuse(const std::string& what) const
+{
+    throw InputError(file, 0, what);
+}
+
+double unit_m_s2(std::string_view unit)
+{
+    if (unit == "g")
+        return 9.80665;
+    if (unit == "m/s2")
+        return 1;
+    if (unit == "cm/s2")
+        return 0.01;
+    assert(unit == "mm/s2" && "the unit has its canonical name");
+    return 0.001;
+}
+
+std::string canonical_unit(std::string_view spelling)
+{
+    std::string word = lower_case(trimmed(spelling));
+    if (word == "g" || word == "g's")
+        return "g";
+    if (word == "gal" || word == "gals")
+        return "cm/s2";
+    for (const char* length : {"m", "cm", "mm"})
+        for (const char* per : {"/s2", "/s^2", "/s**2", "/s/s", "/sec2", "/sec^2", "/sec**2", "/sec/sec"})
+            if (word == std::string(length) + per)
+                return std::string(length) + "/s2";
+    return {};
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    const std::size_t first = text.find_first_not_of(" \t\f");
+    if (first == std::string_view::npos)
+        return {};
+    return text.substr(first, text.find_last_not_of(" \t\f") - first + 1);
+}
+
+std::string lower_case(std::string_view text)
+{
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+}
+
+std::vector<std::string_view> parts_of(std::string_view line, bool commas)
+{
+    constexpr std::string_view blanks = " \t\f";
+    const std::string_view separators = commas ? " \t\f,;" : blanks;
+    std::vector<std::string_view> parts;
+    bool separated = true; // by a comma, or by the start of the line
+    for (line = trimmed(line); !line.empty();) {
+        const std::size_t end = std::min(line.find_first_of(separators), line.size());
+        if (end > 0) {
+            parts.push_back(line.substr(0, end));
+            separated = false;
+        } else if (blanks.find(line.front()) == std::string_view::npos) {
+            if (separated)
+                parts.emplace_back();
+            separated = true;
+        }
+        line.remove_prefix(std::max<std::size_t>(end, 1));
+    }
+    if (separated) // a comma at the end of the line, or a blank line
+        parts.emplace_back();
+    return parts;
+}
+
+namespace {
+
+std::from_chars_result convert(std::string_view token, double& value)
+{
+    if (token.size() > 1 && token.front() == '+' && token[1] != '-')
+        token.remove_prefix(1);
+    const auto result = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (result.ec == std::errc() && result.ptr != token.data() + token.size())
+        return {result.ptr, std::errc::invalid_argument};
+    return result;
+}
+
+} // namespace
+
+bool is_number(std::string_view token)
+{
+    double value = 0;
+    return convert(token, value).ec == std::errc();
+}
+
+double number(const RecordText& text, std::size_t i, std::string_view token)
+{
+    double value = 0;
+    const std::errc error = convert(token, value).ec;
+    if (token.empty())
+        text.refuse(i, "a number is missing between two separators.");
+    if (error == std::errc::result_out_of_range)
+        text.refuse(i, fmt::format("\"{}\" is out of the range of numbers.", token.substr(0, 40)));
+    if (error != std::errc())
+        text.refuse(i, fmt::format("\"{}\" is not a number: the file is damaged, or has text where its values should "
+                                   "be.",
+                                   token.substr(0, 40)));
+    if (!std::isfinite(value))
+        text.refuse(i, fmt::format("\"{}\" is not finite. A record must have a value at each time.", token));
+    return value;
+}
+
+namespace {
+
+/// How a number is written: its decimals and its exponent's length tell a whole number from a cut one.
+struct Spelling {
+    std::size_t decimals = 0;
+    std::size_t exponent = 0; ///< characters from the E on
+    std::size_t column = 0;   ///< where it ends in its line
+};
+
+Spelling spelling_of(std::string_view line, std::string_view token)
+{
+    const std::size_t e = std::min(token.find_first_of("eE"), token.size());
+    const std::size_t point = std::min(token.find('.'), e);
+    return {e - point, token.size() - e, static_cast<std::size_t>(token.data() + token.size() - line.data())};
+}
+
+} // namespace
+
+void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t last, bool commas)
+{
+    if (text.ended || last + 1 != text.lines.size() || first >= last)
+        return;
+    const auto last_parts = parts_of(text.lines[last], commas);
+    const std::size_t place = last_parts.size() - 1;
+    const Spelling cut = spelling_of(text.lines[last], last_parts[place]);
+    std::optional<Spelling> above;
+    bool aligned = true, alike = true;
+    for (std::size_t i = first; i < last && (aligned || alike); ++i) {
+        const auto parts = parts_of(text.lines[i], commas);
+        if (parts.size() <= place)
+            continue;
+        const Spelling s = spelling_of(text.lines[i], parts[place]);
+        if (!above)
+            above = s;
+        aligned = aligned && s.column == above->column;
+        alike = alike && s.decimals == above->decimals && s.exponent == above->exponent;
+    }
+    if (!above)
+        return;
+    if ((aligned && cut.column != above->column) ||
+        (alike && (cut.decimals != above->decimals || cut.exponent != above->exponent)))
+        text.refuse(last, fmt::format("the file stops inside its last number, \"{}\", which is shorter than those "
+                                      "above it. Get the whole file.",
+                                      last_parts[place]));
+}
+
+void check_dt(const RecordText& text, std::size_t i, double dt_s)
+{
+    if (!(dt_s >= shortest_dt_s && dt_s <= longest_dt_s))
+        text.refuse(i, fmt::format("the sampling interval is {} s, outside [{}, {}] s. Times are in seconds.", dt_s,
+                                   shortest_dt_s, longest_dt_s));
+}
+
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit)
+{
+    std::vector<Record> records = parse_file(file, unit);
+    for (const Record& record : records)
+        check_pga(record);
+    return records;
+}
+
+Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit)
+{
+    std::vector<Record> records = parse_file(file, unit);
+    Record record = std::move(records[place_of(records, component)]);
+    check_pga(record);
+    return record;
+}
+
+} // namespace stylobate

@@ -1,0 +1,208 @@
+/// PEER .AT2: some header lines, the last of which gives NPTS and DT, then NPTS values, several to a line.
+///
+/// Spellings of that line that occur:
+///   NPTS=  5372, DT=   .0100 SEC,          as downloaded
+///   NPTS=   7500  DT=   .0200 SEC,
+///   NPTS=  2000, DT= .02000 SEC            old PEER
+///   NPTS=   5590  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000
+///   4000    .0050    NPTS, DT              first NGA set
+/// A header line says "IN UNITS OF G", or in words of its own "The units are (g)".
+
+#include "io/record_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t longest_header = 12; // lines in which NPTS is looked for
+
+bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// Where `word` (lower case) stands as a word of its own in a lower-case line; npos if nowhere.
+std::size_t find_word(std::string_view line, std::string_view word)
+{
+    for (std::size_t i = line.find(word); i != std::string_view::npos; i = line.find(word, i + 1)) {
+        const std::size_t end = i + word.size();
+        if ((i == 0 || !is_letter(line[i - 1])) && (end == line.size() || !is_letter(line[end])))
+            return i;
+    }
+    return std::string_view::npos;
+}
+
+/// The line with NPTS and DT; the number of lines looked at if there is none.
+std::size_t size_line(const RecordText& text)
+{
+    const std::size_t end = std::min(text.lines.size(), longest_header);
+    for (std::size_t i = 0; i < end; ++i) {
+        const std::string line = lower_case(trimmed(text.lines[i]));
+        const bool comment = line.starts_with('#') || line.starts_with('%'); // of plain columns
+        if (!comment && find_word(line, "npts") != std::string_view::npos)
+            return i;
+    }
+    return end;
+}
+
+bool recognise(const RecordText& text)
+{
+    const std::size_t end = std::min(text.lines.size(), longest_header);
+    if (size_line(text) < end)
+        return true;
+    return std::any_of(text.lines.begin(), text.lines.begin() + static_cast<std::ptrdiff_t>(end),
+                       [](std::string_view line) {
+                           const std::string lower = lower_case(line);
+                           return lower.find("strong motion database record") != std::string::npos ||
+                                  (lower.find("acceleration time") != std::string::npos &&
+                                   lower.find("in units of") != std::string::npos);
+                       });
+}
+
+/// What follows "key =" in a line, up to a blank or comma; empty if the line has none.
+std::string_view value_after(std::string_view line, std::string_view key)
+{
+    std::size_t i = find_word(line, key);
+    if (i == std::string_view::npos)
+        return {};
+    i = line.find_first_not_of(" \t", i + key.size());
+    if (i == std::string_view::npos || line[i] != '=')
+        return {};
+    i = line.find_first_not_of(" \t", i + 1);
+    if (i == std::string_view::npos)
+        return {};
+    return line.substr(i, line.find_first_of(" \t,;", i) - i);
+}
+
+struct Size {
+    std::uint64_t samples = 0;
+    double dt_s = 0;
+};
+
+Size read_size(const RecordText& text, std::size_t i)
+{
+    const std::string line = lower_case(text.lines[i]);
+    std::string_view samples = value_after(line, "npts"), dt = value_after(line, "dt");
+    const auto parts = parts_of(line, true);
+    if (samples.empty() && dt.empty() && parts.size() >= 3 && parts[2] == "npts") {
+        samples = parts[0];
+        dt = parts[1];
+    }
+    Size size;
+    const auto [end, error] = std::from_chars(samples.data(), samples.data() + samples.size(), size.samples);
+    if (error != std::errc() || end != samples.data() + samples.size() || size.samples < 2)
+        text.refuse(i, fmt::format("NPTS = {} must be a whole number of at least 2. The line should read like "
+                                   "\"NPTS=  5372, DT=   .0100 SEC\".",
+                                   samples.empty() ? "nothing" : samples));
+    if (dt.empty())
+        text.refuse(i, "DT is missing. The line should read like \"NPTS=  5372, DT=   .0100 SEC\".");
+    size.dt_s = number(text, i, dt);
+    check_dt(text, i, size.dt_s);
+    return size;
+}
+
+/// The unit as the header spells it ("g", "cm/s/s"), in lower case; empty if it says none.
+std::string stated_unit(std::string_view line)
+{
+    const std::string lower = lower_case(line);
+    for (const char* phrase : {"units of", "units are", "units:", "units ="}) {
+        const std::size_t at = lower.find(phrase);
+        if (at == std::string::npos)
+            continue;
+        const std::string_view rest = trimmed(std::string_view(lower).substr(at + std::string_view(phrase).size()));
+        const std::size_t first = std::min(rest.find_first_not_of("( "), rest.size());
+        std::string_view word = rest.substr(first, rest.find_first_of(" \t,;)", first) - first);
+        while (word.ends_with('.'))
+            word.remove_suffix(1);
+        return std::string(word);
+    }
+    return {};
+}
+
+std::string read_unit(const RecordText& text, std::size_t header_lines, const std::string& given)
+{
+    for (std::size_t i = 0; i < header_lines; ++i) {
+        const std::string spelling = stated_unit(text.lines[i]);
+        if (spelling.empty())
+            continue;
+        const std::string lower = lower_case(text.lines[i]);
+        for (const char* other : {"velocity", "displacement"})
+            if (find_word(lower, other) != std::string_view::npos)
+                text.refuse(i, fmt::format("the file holds a {}. Give the file with the acceleration (.AT2).", other));
+        const std::string unit = canonical_unit(spelling);
+        if (unit.empty())
+            text.refuse(i, fmt::format("the unit \"{}\" is not one of acceleration: g, m/s2, cm/s2, gal, mm/s2.",
+                                       spelling));
+        if (!given.empty() && given != unit)
+            text.refuse(i, fmt::format("the file says that its unit is {}, and the unit given is {}. Leave the unit "
+                                       "out, or correct it.",
+                                       unit, given));
+        return unit;
+    }
+    if (given.empty())
+        text.refuse("does not say the unit of its acceleration. Give it (excitation.unit, or --unit): \"m/s2\", "
+                    "\"cm/s2\", \"gal\", \"mm/s2\" or \"g\".");
+    return given;
+}
+
+/// The last part of the title, as in "Imperial Valley-02, 5/19/1940, El Centro Array #9, 180".
+std::string component_of(std::string_view title)
+{
+    const std::size_t comma = title.rfind(',');
+    if (comma == std::string_view::npos)
+        return "acceleration";
+    std::string_view name = title.substr(comma + 1);
+    name = trimmed(name.substr(0, name.find('(')));
+    const bool word = !name.empty() && name.size() <= 12 && name.find(' ') == std::string_view::npos;
+    return word ? std::string(name) : "acceleration";
+}
+
+std::vector<Record> parse(const RecordText& text, const std::string& given)
+{
+    const std::size_t header = size_line(text);
+    if (header >= std::min(text.lines.size(), longest_header))
+        text.refuse("looks like a PEER .AT2 file, but has no line like \"NPTS=  5372, DT=   .0100 SEC\" above its "
+                    "values.");
+    const Size size = read_size(text, header);
+    Record record;
+    record.file = text.file;
+    record.format = at2_parser.format;
+    record.unit = read_unit(text, header, given);
+    record.dt_s = size.dt_s;
+    if (header >= 2) { // the first line names the data base, the second the event and the station
+        record.title = trimmed(text.lines[1]);
+        record.component = component_of(record.title);
+    } else {
+        record.component = "acceleration";
+    }
+
+    const double factor = unit_m_s2(record.unit);
+    std::size_t last = header;
+    for (std::size_t i = header + 1; i < text.lines.size(); ++i) {
+        if (trimmed(text.lines[i]).empty())
+            continue;
+        for (const std::string_view token : parts_of(text.lines[i], false))
+            record.acceleration_m_s2.push_back(factor * number(text, i, token));
+        last = i;
+    }
+    if (record.acceleration_m_s2.size() != size.samples)
+        text.refuse(header, fmt::format("NPTS is {} and the file has {} values: it is {}. Get the whole file.",
+                                        size.samples, record.acceleration_m_s2.size(),
+                                        record.acceleration_m_s2.size() < size.samples ? "truncated or damaged"
+                                                                                       : "damaged"));
+    refuse_cut_number(text, header + 1, last, false);
+    return {record};
+}
+
+} // namespace
+
+const RecordParser at2_parser = {"peer-at2", recognise, parse};
+
+} // namespace stylobate

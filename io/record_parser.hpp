@@ -1,0 +1,74 @@
+#pragma once
+/// What a parser of ground-motion files is, and what all of them share. One parser, one file.
+
+#include "io/record.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stylobate {
+
+/// A text file, cut into lines. Lines end with LF, CR LF, CR CR LF or CR.
+struct RecordText {
+    std::string file;
+    std::vector<std::string_view> lines; ///< without their ends; views into a text that the reader keeps alive
+    bool ended = true;                   ///< the last line has a line end
+
+    /// "file:line: text" of line `i` of `lines`, which is line i + 1 for people.
+    [[noreturn]] void refuse(std::size_t i, const std::string& what) const;
+    /// "file: text"
+    [[noreturn]] void refuse(const std::string& what) const;
+};
+
+/// One entry of the table in record.cpp.
+struct RecordParser {
+    const char* format; ///< of `Record::format`
+    /// Whether the content is of this format, even if it is damaged further on.
+    bool (*recognise)(const RecordText& text);
+    /// Every component, in m/s2.
+    /// @param unit canonical name ("g", "m/s2", "cm/s2", "mm/s2"), or empty: the file must say it
+    /// @throws InputError
+    std::vector<Record> (*parse)(const RecordText& text, const std::string& unit);
+};
+
+extern const RecordParser at2_parser;
+extern const RecordParser columns_parser;
+
+/// A sampling interval outside these is taken for an error of unit or a damaged header [s].
+inline constexpr double shortest_dt_s = 1e-5;
+inline constexpr double longest_dt_s = 0.5;
+
+/// m/s2 in one unit of acceleration; g is the standard gravity 9.80665 m/s2.
+/// @pre canonical name
+double unit_m_s2(std::string_view unit);
+
+/// "g", "m/s2", "cm/s2" or "mm/s2" for any usual spelling ("gal", "cm/sec/sec", "M/S^2"); empty if it is none.
+std::string canonical_unit(std::string_view spelling);
+
+/// Without blanks at its ends.
+std::string_view trimmed(std::string_view text);
+std::string lower_case(std::string_view text);
+
+/// The parts of a line between blanks, tabs, commas and semicolons; two separators with nothing between them other
+/// than blanks leave an empty part. `commas` false: blanks and tabs only.
+std::vector<std::string_view> parts_of(std::string_view line, bool commas);
+
+/// Whether the whole of it is a decimal number or one of inf and nan.
+bool is_number(std::string_view token);
+
+/// @throws InputError, naming line `i`, if `token` is not a finite decimal number
+double number(const RecordText& text, std::size_t i, std::string_view token);
+
+/// Refuses a file that stops inside its last number. Such a number may still look like one (".123E-0"), but its end is
+/// not in line with the ends of those above it, or it has fewer digits where all others have equally many. Where the
+/// numbers above agree in neither, or the last line has its line end, nothing is refused.
+/// @param first, last first and last line of data
+/// @throws InputError
+void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t last, bool commas);
+
+/// @throws InputError, naming line `i`, if dt is outside [shortest_dt_s, longest_dt_s]
+void check_dt(const RecordText& text, std::size_t i, double dt_s);
+
+} // namespace stylobate
