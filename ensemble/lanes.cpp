@@ -187,7 +187,7 @@ void LaneSet::load(int lane, Realization realization)
 
     const bool shaken = study_.excitation.kind != ExcitationKind::none;
     place.shaking_end_s = place.motion.duration_s();
-    const double tail = shaken ? study_.excitation.tail_s.value_or(12 / place.scales.p_rad_s) : 0;
+    const double tail = shaken ? study_.excitation.tail_s.value_or(tail_after_shaking(r)) : 0;
     place.last_step = whole_chunks(place.shaking_end_s + tail, r.step_s);
     place.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
     place.fall_steps = whole_chunks(fall_time / place.scales.p_rad_s, r.step_s);
@@ -253,14 +253,18 @@ double LaneSet::audit(int lane, Outcome& o) const
 int LaneSet::fallen_block(int lane, bool& for_good) const
 {
     const Place& place = places_[static_cast<std::size_t>(lane)];
+    int first = -1;
+    for_good = false;
     for (int k = topology_.fixed; k < topology_.blocks; ++k) {
         const int block = order_[static_cast<std::size_t>(k)];
         const double rest = place.realization.blocks[static_cast<std::size_t>(block)].y_m - place.base_top_m;
-        for_good = rest + bundle_.at(OfBlock::y, k, lane) < study_.outcome.collapse_height_fraction * rest;
-        if (for_good || std::fabs(bundle_.at(OfBlock::theta, k, lane)) > place.scales.rotation_rad)
-            return block;
+        const bool low = rest + bundle_.at(OfBlock::y, k, lane) < study_.outcome.collapse_height_fraction * rest;
+        const bool turned = std::fabs(bundle_.at(OfBlock::theta, k, lane)) > place.scales.rotation_rad;
+        for_good = for_good || low;
+        if (first < 0 && (low || turned))
+            first = block;
     }
-    return -1;
+    return first;
 }
 
 void LaneSet::look(int lane)

@@ -70,12 +70,16 @@ private:
         double start_top_x_m = 0;
     };
 
+    /// Parameters and static rest of a realization into its lane.
     void store_state(int lane, const Realization& r);
     void first_increments(int lane);
     double spring_energy(int lane) const;
     /// Energy balance so far; also fills the energies of the outcome. Returns what it lacks, over its scale.
     double audit(int lane, Outcome& outcome) const;
+    /// After every chunk: not finite? fallen? energy out of balance? at rest, or out of time?
     void look(int lane);
+    /// The lowest block that is below its limit of height or turned beyond the limit of rotation, -1 if there is none.
+    /// `for_good` if any is too low: it cannot come back; one that has only turned may.
     int fallen_block(int lane, bool& for_good) const;
     void end(int lane, State state, InvalidReason reason);
 

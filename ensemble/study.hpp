@@ -140,7 +140,7 @@ struct OutcomeSpec {
 };
 
 struct RunSpec {
-    double step_fraction = 0.8;          ///< of the safe bound of each realization
+    double step_fraction = 0.9;          ///< of the safe bound of each realization (see README.md of this folder)
     std::optional<double> step_s;        ///< a fixed step instead
     bool allow_step_above_bound = false; ///< run such a step all the same
     double max_invalid_fraction = 0.001; ///< more invalid realizations than this: exit status 3

@@ -52,8 +52,9 @@ template <std::size_t N>
 std::array<double, N> solve(std::array<std::array<double, N + 1>, N> rows)
 {
     for (std::size_t k = 0; k < N; ++k) {
-        const auto pivot = std::max_element(rows.begin() + static_cast<std::ptrdiff_t>(k), rows.end(),
-                                            [k](const auto& a, const auto& b) { return std::fabs(a[k]) < std::fabs(b[k]); });
+        const auto pivot =
+            std::max_element(rows.begin() + static_cast<std::ptrdiff_t>(k), rows.end(),
+                             [k](const auto& a, const auto& b) { return std::fabs(a[k]) < std::fabs(b[k]); });
         std::swap(rows[k], *pivot);
         for (std::size_t i = k + 1; i < N; ++i) {
             const double factor = rows[i][k] / rows[k][k];
@@ -96,8 +97,7 @@ void remove_trend(std::vector<double>& a, const std::vector<double>& w, double d
         const double scale = 1 / (end * end * static_cast<double>(n));
         for (std::size_t j = 0; j < coefficients; ++j) {
             for (std::size_t k = 0; k < coefficients; ++k)
-                rows[j][k] =
-                    scale * std::inner_product(moved[j].v.begin(), moved[j].v.end(), moved[k].v.begin(), 0.0);
+                rows[j][k] = scale * std::inner_product(moved[j].v.begin(), moved[j].v.end(), moved[k].v.begin(), 0.0);
             rows[j].back() = scale * std::inner_product(moved[j].v.begin(), moved[j].v.end(), drift.v.begin(), 0.0);
             rows[coefficients][j] = rows[j][coefficients] = moved[j].v.back() / end;
             rows[coefficients + 1][j] = rows[j][coefficients + 1] = moved[j].u.back() / (end * end);

@@ -54,7 +54,7 @@ double predominant_frequency(const std::vector<double>& acceleration_m_s2, doubl
 
 /// Pseudo-acceleration spectrum at the given periods [m/s2]: w2 times the largest displacement of the oscillator that
 /// starts at rest, by the exact solution for an acceleration that is linear between samples, looked at 50 times a
-/// period at least, until half a period after the record. Period 0: the PGA.
+/// period and 4 times a sample at least, until half a period after the record. Period 0: the PGA.
 /// @pre periods >= 0, damping ratio in [0, 1)
 std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,
                                           double damping_ratio = 0.05);

@@ -196,7 +196,8 @@ public:
     {
     }
 
-    /// The step from a0 to a1. u = exp(-z w t) (A cos w_d t + B sin w_d t) + particular solution.
+    /// The step from a0 to a1; the largest |u| in it is kept. u = exp(-z w t) (A cos w_d t + B sin w_d t) + particular
+    /// solution.
     void advance(double a0, double a1)
     {
         const double slope = (a1 - a0) / h_, w2 = w_ * w_;
@@ -204,39 +205,41 @@ public:
         const double A = u_ + a0 / w2 - lag;
         const double B = (v_ + z_ * w_ * A + slope / w2) / w_d_;
         const double swing = cosine_ * A + sine_ * B;
+        const double before = u_, leaving = v_;
         u_ = swing - a1 / w2 + lag;
         v_ = w_d_ * (cosine_ * B - sine_ * A) - z_ * w_ * swing - slope / w2;
+        largest_ = std::max(largest_, std::fabs(u_));
+        if (leaving * v_ < 0) // it turns within the step, of which it is a small part of a swing: a parabola
+            largest_ = std::max(largest_, std::fabs(before + leaving * leaving / (leaving - v_) * h_ / 2));
     }
 
-    double displacement() const { return u_; }
+    double largest_displacement() const { return largest_; }
 
 private:
     double w_, z_, w_d_, h_;
     double cosine_, sine_;
-    double u_ = 0, v_ = 0;
+    double u_ = 0, v_ = 0, largest_ = 0;
 };
 
 double spectral_acceleration(const std::vector<double>& a, double dt_s, double period_s, double damping_ratio)
 {
     if (period_s == 0)
         return peak(a);
-    constexpr double looks_per_period = 50;
-    const double parts = std::max(1.0, std::ceil(dt_s * looks_per_period / period_s));
+    constexpr double looks_per_period = 50, looks_per_sample = 4;
+    const double parts = std::max(looks_per_sample, std::ceil(dt_s * looks_per_period / period_s));
     const double omega = 2 * pi / period_s;
     Oscillator oscillator(omega, damping_ratio, dt_s / parts);
-    double largest = 0;
     const auto follow = [&](double a0, double a1) {
         for (double j = 0; j < parts; ++j) {
             const double slope = (a1 - a0) / parts;
             oscillator.advance(a0 + slope * j, a0 + slope * (j + 1));
-            largest = std::max(largest, std::fabs(oscillator.displacement()));
         }
     };
     for (std::size_t i = 0; i + 1 < a.size(); ++i)
         follow(a[i], a[i + 1]);
     for (double t = 0; t < period_s / 2; t += dt_s)
         follow(0, 0);
-    return omega * omega * largest;
+    return omega * omega * oscillator.largest_displacement();
 }
 
 } // namespace

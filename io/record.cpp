@@ -73,8 +73,8 @@ RecordText lines_of(const std::string& file, std::string_view content)
             next = end + 1;
         content.remove_prefix(next);
     }
-    const bool blank = std::all_of(text.lines.begin(), text.lines.end(),
-                                   [](std::string_view line) { return trimmed(line).empty(); });
+    const bool blank =
+        std::all_of(text.lines.begin(), text.lines.end(), [](std::string_view line) { return trimmed(line).empty(); });
     if (blank)
         text.refuse("is empty.");
     return text;
@@ -145,9 +145,9 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
     if (component.empty()) {
         if (records.size() == 1)
             return 0;
-        throw InputError(records.front().file, 0,
-                         fmt::format("has {} components and none was named. Give one as the component: {}.",
-                                     records.size(), names));
+        throw InputError(
+            records.front().file, 0,
+            fmt::format("has {} components and none was named. Give one as the component: {}.", records.size(), names));
     }
     const std::string wanted = lower_case(trimmed(component));
     for (std::size_t i = 0; i < records.size(); ++i)

@@ -138,8 +138,8 @@ std::string read_unit(const RecordText& text, std::size_t header_lines, const st
                 text.refuse(i, fmt::format("the file holds a {}. Give the file with the acceleration (.AT2).", other));
         const std::string unit = canonical_unit(spelling);
         if (unit.empty())
-            text.refuse(i, fmt::format("the unit \"{}\" is not one of acceleration: g, m/s2, cm/s2, gal, mm/s2.",
-                                       spelling));
+            text.refuse(
+                i, fmt::format("the unit \"{}\" is not one of acceleration: g, m/s2, cm/s2, gal, mm/s2.", spelling));
         if (!given.empty() && given != unit)
             text.refuse(i, fmt::format("the file says that its unit is {}, and the unit given is {}. Leave the unit "
                                        "out, or correct it.",
@@ -193,10 +193,10 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         last = i;
     }
     if (record.acceleration_m_s2.size() != size.samples)
-        text.refuse(header, fmt::format("NPTS is {} and the file has {} values: it is {}. Get the whole file.",
-                                        size.samples, record.acceleration_m_s2.size(),
-                                        record.acceleration_m_s2.size() < size.samples ? "truncated or damaged"
-                                                                                       : "damaged"));
+        text.refuse(header,
+                    fmt::format("NPTS is {} and the file has {} values: it is {}. Get the whole file.", size.samples,
+                                record.acceleration_m_s2.size(),
+                                record.acceleration_m_s2.size() < size.samples ? "truncated or damaged" : "damaged"));
     refuse_cut_number(text, header + 1, last, false);
     return {record};
 }

@@ -112,10 +112,10 @@ double uniform_dt(const RecordText& text, const std::vector<double>& time_s, con
     const double dt = (time_s.back() - time_s.front()) / static_cast<double>(n - 1);
     for (std::size_t i = 0; i < n; ++i)
         if (std::fabs(time_s[i] - time_s.front() - static_cast<double>(i) * dt) > time_tolerance * dt)
-            text.refuse(line[i], fmt::format("the time {} s is off the uniform {:.9g} s by {:.3g} steps. {}", time_s[i],
-                                             time_s.front() + static_cast<double>(i) * dt,
-                                             std::fabs(time_s[i] - time_s.front() - static_cast<double>(i) * dt) / dt,
-                                             todo));
+            text.refuse(line[i],
+                        fmt::format("the time {} s is off the uniform {:.9g} s by {:.3g} steps. {}", time_s[i],
+                                    time_s.front() + static_cast<double>(i) * dt,
+                                    std::fabs(time_s[i] - time_s.front() - static_cast<double>(i) * dt) / dt, todo));
     check_dt(text, line.front(), dt);
     // what was meant before the times were rounded, 0.02 for 0.0199999999999: six digits, unless that moves the end
     const double meant = number(text, line.front(), fmt::format("{:.6g}", dt));
@@ -206,8 +206,8 @@ std::vector<Record> parse(const RecordText& text, const std::string& unit)
     } else {
         dt = uniform_dt(text, table.columns.front(), table.line);
         if (stated && std::fabs(*stated - dt) > 0.01 * dt)
-            text.refuse(top.first_row, fmt::format("the comment says dt = {} s and the first column {} s. Correct one.",
-                                                   *stated, dt));
+            text.refuse(top.first_row,
+                        fmt::format("the comment says dt = {} s and the first column {} s. Correct one.", *stated, dt));
     }
 
     const std::vector<std::string> names = names_of(text, top, columns);

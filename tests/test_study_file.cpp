@@ -131,7 +131,7 @@ TEST(StudyFile, ReadsEveryValueAndFillsInTheDefaults)
     EXPECT_EQ(study.initial.tilt_rad, 0);
     EXPECT_EQ(study.output.trajectory_rate_hz, 1000);
     EXPECT_EQ(study.outcome.collapse_height_fraction, 0.6);
-    EXPECT_EQ(study.run.step_fraction, 0.8);
+    EXPECT_EQ(study.run.step_fraction, 0.9);
     EXPECT_FALSE(study.run.step_s);
     EXPECT_FALSE(study.run.allow_step_above_bound);
     EXPECT_EQ(study.run.max_invalid_fraction, 0.001);
