@@ -17,6 +17,8 @@ namespace {
 // topple the weakest part of it, for as long as 2 / p. (A resting stack keeps a small rocking vibration that the
 // dashpots at the centroids hardly damp; its residual displacement is the mean over that time.)
 constexpr double rest_energy = 1e-2;
+// Nor may it slip faster than this part of its width in a time of 1 / p.
+constexpr double rest_slip = 1e-4;
 constexpr double rest_time = 2;
 // A block that has turned beyond its slenderness angle has fallen unless it comes back within 1 / p.
 constexpr double fall_time = 1;
@@ -302,7 +304,11 @@ void LaneSet::look(int lane)
 
     const double kinetic = 0.5 * bundle_.at(OfRealization::kinetic, lane) / (dt * dt);
     const double time = static_cast<double>(place.steps) * dt;
-    if (time >= place.shaking_end_s && block < 0 && std::fabs(kinetic) < rest_energy * place.scales.barrier_j) {
+    const double slip = bundle_.at(OfRealization::slip, lane) - place.slip_m;
+    place.slip_m += slip;
+    const bool slips = slip > rest_slip * place.scales.width_m * place.scales.p_rad_s * chunk_steps * dt;
+    if (time >= place.shaking_end_s && block < 0 && !slips &&
+        std::fabs(kinetic) < rest_energy * place.scales.barrier_j) {
         if (!place.quiet) {
             place.quiet_since = place.steps;
             place.quiet_top_m = 0;

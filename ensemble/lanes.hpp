@@ -61,6 +61,7 @@ private:
         std::uint64_t quiet_since = 0;
         std::uint64_t fall_steps = 0; ///< needed in a row
         std::uint64_t falling_since = 0;
+        double slip_m = 0;      ///< at the last look
         double quiet_top_m = 0; ///< sum over the looks since then
         int quiet_looks = 0;
         bool quiet = false, falling = false;

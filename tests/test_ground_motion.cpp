@@ -125,8 +125,10 @@ TEST(Baseline, LeavesAGoodRecordAlone)
 TEST(Baseline, TakesOutADriftThatWasPutIn)
 {
     const Motion good = make_motion(record_of(burst, 0.005, 6001), true);
-    // an offset, a slope and a bend of the zero line, up to 3 % of the PGA: metres of displacement at the end
-    const auto drifting = [](double t) { return burst(t) + 0.05 + 0.004 * t - 0.0003 * t * t; };
+    // an offset, a slope, a bend and a swing of the zero line: metres of displacement at the end
+    const auto drifting = [](double t) {
+        return burst(t) + 0.05 + 0.004 * t - 0.0003 * t * t + 4e-5 * t * (t - 15) * (t - 30);
+    };
     const Record record = record_of(drifting, 0.005, 6001);
     const Motion raw = make_motion(record, false), m = make_motion(record, true);
     EXPECT_GT(std::fabs(raw.displacement_m.back()), 5);
@@ -284,6 +286,16 @@ TEST(ResponseSpectrum, StiffAndSoftLimits)
     const double w = 2 * pi / 300;
     const double pgd = peak(make_motion(record, false).displacement_m);
     EXPECT_NEAR(spectral_acceleration(record, {300}, 0)[0] / (w * w), pgd, 0.03 * pgd);
+}
+
+TEST(ResponseSpectrum, FreeVibrationAfterAShockCounts)
+{
+    // half a sine of duration 0.2 s, no damping: the peak comes after it, (2 r / |1 - r2|) cos(pi / (2 r))
+    const Record record = record_of([](double t) { return std::sin(pi * t / 0.2); }, 0.002, 101);
+    for (const double period : {0.7, 1.5, 6.0}) {
+        const double r = period / 0.4, want = 2 * r / (r * r - 1) * std::cos(pi / (2 * r));
+        EXPECT_NEAR(spectral_acceleration(record, {period}, 0)[0], want, 3e-4 * want) << period;
+    }
 }
 
 /// Any record, samples far apart: fourth-order Runge-Kutta in a thousand parts of each interval.

@@ -360,6 +360,8 @@ std::vector<Slip> slide(const Study& study, const std::vector<double>& etas, dou
                     continue;
                 EXPECT_EQ(set.outcome(lane)->state, State::slid);
                 slips[i] = {set.outcome(lane)->total_sliding_m / slide_unit, -set.snapshot(lane).x_m[1] / slide_unit};
+                // the mean over the time of rest is where it is: it had come to rest before that time began
+                EXPECT_NEAR(-set.outcome(lane)->residual_top_displacement_m / slide_unit, slips[i].net, 2e-3);
                 set.clear(lane);
                 ++done;
             }

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that Stylobate is built from, run and tested with: the one list of them.
+# Does nothing where all are there already; needs no more rights than apt does.
+set -euo pipefail
+
+packages=(
+    g++ cmake ninja-build git                           # build; git gives the version
+    libxsimd-dev libtbb-dev libeigen3-dev               # registers, threads, linear algebra
+    libboost1.74-dev librandom123-dev                   # distributions, random numbers (headers only)
+    libhdf5-dev zlib1g-dev libtomlplusplus-dev          # result and study files
+    libcli11-dev libfmt-dev                             # command line, text
+    gnuplot-nox fonts-dejavu-core                       # pictures
+    libgtest-dev libbenchmark-dev                       # tests, benchmarks
+)
+
+missing=()
+for package in "${packages[@]}"; do
+    state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $state == installed ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+fail() {
+    echo "install_packages.sh: $1 Needed: ${missing[*]}" >&2
+    exit 1
+}
+
+command -v apt-get >/dev/null || fail "there is no apt-get; this is for Debian 12."
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+    command -v sudo >/dev/null || fail "not root, and there is no sudo."
+    as_root=(sudo)
+fi
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=120)
+
+echo "Installing ${missing[*]}"
+"${apt[@]}" update || echo "install_packages.sh: apt-get update failed; trying with the lists that are there" >&2
+"${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null || fail "apt-get install failed, see above."

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Builds everything and runs the tests.
+#
+#   scripts/test.sh [--long] [--debug | --asan | --tsan] [-- CTEST ARGUMENTS]
+#
+#   --long     also the tests labelled `long`
+#   --debug    with assertions; --asan, --tsan: with sanitizers
+# The last lines are CTest's summary, the exit status is CTest's.
+set -euo pipefail
+
+preset=release
+selection=(--label-exclude long)
+while [[ $# -gt 0 ]]; do
+    case $1 in
+    --long) selection=() ;;
+    --debug | --asan | --tsan) preset=${1#--} ;;
+    --)
+        shift
+        break
+        ;;
+    *)
+        echo "test.sh: '$1' is no option. Usage: scripts/test.sh [--long] [--debug | --asan | --tsan] [-- CTEST ARGUMENTS]" >&2
+        exit 2
+        ;;
+    esac
+    shift
+done
+
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+scripts/install_packages.sh
+cmake --preset "$preset" >/dev/null
+cmake --build "build/$preset" --parallel "$(nproc)"
+exec ctest --preset "$preset" --parallel "$(nproc)" "${selection[@]}" "$@"
