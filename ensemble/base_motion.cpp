@@ -105,14 +105,15 @@ double BaseMotion::displacement_m(double time_s) const
     if (time_s <= 0)
         return 0;
     if (record_ != nullptr) {
-        const std::size_t n = record_->acceleration_m_s2.size();
+        // the acceleration goes to 0 within one sample after the last one, as in `fill`; then the velocity stays
+        const std::vector<double>& a = record_->acceleration_m_s2;
         const double position = time_s / spacing_s_;
-        const std::size_t i = std::min(static_cast<std::size_t>(position), n - 1);
-        const double d = record_->dt_s, t = (position - static_cast<double>(i)) * d;
-        const double a0 = record_->acceleration_m_s2[i];
-        const double a1 = i + 1 < n ? record_->acceleration_m_s2[i + 1] : 0;
-        const double u = record_->displacement_m[i] + record_->velocity_m_s[i] * t +
-                         (i + 1 < n ? a0 * t * t / 2 + (a1 - a0) * t * t * t / (6 * d) : 0);
+        const std::size_t i = std::min(static_cast<std::size_t>(position), a.size() - 1);
+        const double d = record_->dt_s, t = (position - static_cast<double>(i)) * d, within = std::min(t, d);
+        const double a0 = a[i], jerk = ((i + 1 < a.size() ? a[i + 1] : 0) - a0) / d;
+        const double v = record_->velocity_m_s[i];
+        const double u = record_->displacement_m[i] + within * (v + within * (a0 / 2 + within * jerk / 6)) +
+                         (t - within) * (v + d * (a0 + d * jerk / 2));
         const double stretch = spacing_s_ / d;
         return u * scale_ * stretch * stretch;
     }

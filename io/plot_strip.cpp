@@ -184,7 +184,7 @@ std::vector<std::size_t> choose_samples(const Trajectory& t, std::size_t samples
 
 /// The rectangle of the strip in the picture, in parts of it.
 struct Frame {
-    double left = 0.085;
+    double left = 0.1;
     double right = 0.985;
     double bottom = 0.475;
     double top = 0.865;
@@ -243,6 +243,10 @@ std::string strip_script(const Trajectory& t, const Drums& drums, const std::vec
     };
     const double span = t.time_s[chosen.back()] - t.time_s[chosen.front()];
     const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
+    double narrowest = width;
+    for (std::size_t n = 0; n < chosen.size(); ++n)
+        narrowest = std::min(narrowest, right[n] - left[n] + 2 * overhang + gap);
+    const double label_font = std::min(21.0, 1.4 * narrowest * scale / (decimals + 5));
     double cursor = gap / 2;
     for (std::size_t n = 0; n < chosen.size(); ++n) {
         const double cell = right[n] - left[n] + 2 * overhang;
@@ -250,9 +254,9 @@ std::string strip_script(const Trajectory& t, const Drums& drums, const std::vec
         for (std::size_t d = 0; d < drums.drawn.size(); ++d)
             (drums.fixed[d] ? fixed_drums : free_drums) += rectangle(corners(t, chosen[n], drums.drawn[d]), shift);
         base += rectangle({{{cursor, -slab}, {cursor + cell, -slab}, {cursor + cell, 0}, {cursor, 0}}}, 0);
-        labels += fmt::format("set label '{:.{}f} s' at first {}, screen {} center font ',{:.1f}'\n",
-                              t.time_s[chosen[n]], decimals, (cursor + cell / 2) * unit.per_metre, frame.bottom - 0.022,
-                              std::min(21.0, 1.2 * pixels_x / count / (decimals + 5)));
+        labels +=
+            fmt::format("set label '{:.{}f} s' at first {}, screen {} center font ',{:.1f}'\n", t.time_s[chosen[n]],
+                        decimals, (cursor + cell / 2) * unit.per_metre, frame.bottom - 0.022, label_font);
         cursor += cell + gap;
     }
     std::string script = free_drums + "EOD\n" + fixed_drums + "EOD\n" + base + "EOD\n" + labels;
@@ -327,8 +331,7 @@ std::string panel_script(const Panel& panel, const Trajectory& t, const std::vec
 std::string subtitle(const Trajectory& t, const Drums& drums, std::size_t samples)
 {
     const auto fixed = std::count(drums.fixed.begin(), drums.fixed.end(), true);
-    std::string text =
-        fmt::format("realization {} · {} {}", t.index, drums.drawn.size(), drums.drawn.size() == 1 ? "drum" : "drums");
+    std::string text = fmt::format("{} {}", drums.drawn.size(), drums.drawn.size() == 1 ? "drum" : "drums");
     if (fixed > 0)
         text += fmt::format(", {} fixed (darker)", fixed);
     text += " · drawn to scale in the frame of the base";
@@ -362,7 +365,7 @@ void plot_strip(const Trajectory& trajectory, const std::string& title, const st
 
     std::string script = "set multiplot\nunset key\n" + gnuplot_heading(title, subtitle(trajectory, drums, samples)) +
                          strip_script(trajectory, drums, chosen, size);
-    script += panel_script({"$top", "top drum", "#0072b2", 0.275, 0.415, false}, trajectory, chosen, top_m);
+    script += panel_script({"$top", "top", "#0072b2", 0.275, 0.415, false}, trajectory, chosen, top_m);
     script += panel_script({"$ground", "base", "#d55e00", 0.095, 0.235, true}, trajectory, chosen, base_m);
     script += "unset multiplot\n";
     run_gnuplot(script, size, png);

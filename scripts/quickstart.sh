@@ -8,7 +8,11 @@
 set -euo pipefail
 
 stage="finding the project"
-trap 'status=$?; [[ $status -eq 0 || $status -eq 130 ]] || echo "quickstart.sh: $stage failed, see above." >&2' EXIT
+report() {
+    local status=$?
+    [[ $status -eq 0 || $status -eq 130 ]] || echo "quickstart.sh: $stage failed, see above." >&2
+}
+trap report EXIT
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 root=$PWD

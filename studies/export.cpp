@@ -59,7 +59,7 @@ std::string strip_title(const ResultReader& reader, const std::string& results, 
     if (reader.has(index)) {
         const ResultRow row = reader.row(index);
         if (row.frequency_hz > 0)
-            title += fmt::format(": {:.3g} Hz, {:.3g} m/s2", row.frequency_hz, row.pga_m_s2);
+            title += fmt::format(": {:.3g} Hz, {:.3g} m/s²", row.frequency_hz, row.pga_m_s2);
         title += fmt::format(", {}", to_string(row.outcome.state));
     }
     return title;
