@@ -140,4 +140,20 @@ ResultRow ResultLayout::decode(std::uint64_t index, std::span<const std::byte> c
     return row;
 }
 
+bool same_bits(const ResultRow& a, const ResultRow& b)
+{
+    const auto bytes = [](const ResultRow& row) {
+        std::vector<unsigned char> all;
+        const auto append = [&](const auto& value) {
+            const auto* first = reinterpret_cast<const unsigned char*>(&value);
+            all.insert(all.end(), first, first + sizeof value);
+        };
+        visit_fields(row, [&](const char*, const char*, const auto& value) { append(value); });
+        for (const double input : row.inputs)
+            append(input);
+        return all;
+    };
+    return bytes(a) == bytes(b);
+}
+
 } // namespace stylobate

@@ -35,6 +35,9 @@ struct ResultRow {
     Outcome outcome;
 };
 
+/// Whether all numbers of two rows have the same bits (NaN equals itself, 0 differs from -0).
+bool same_bits(const ResultRow& a, const ResultRow& b);
+
 /// /surface, each array (nf x np), frequency by frequency.
 struct SurfaceTable {
     std::vector<double> frequency_hz;

@@ -44,13 +44,12 @@ Trajectory trajectory_of(const CommonOptions& options, const ResultReader& reade
 
 SurfaceTable finished_surface(const ResultReader& reader, const std::string& results)
 {
-    const SurfaceTable surface = reader.surface();
-    if (surface.frequency_hz.empty())
+    if (reader.header().frequency_hz.empty())
         throw InputError(fmt::format("{}: a result of kind '{}' has no surface; use --picture strip", results,
                                      reader.header().kind));
     if (!reader.complete())
         throw InputError(fmt::format("{}: the run is not complete; run the same study again to continue it", results));
-    return surface;
+    return reader.surface();
 }
 
 std::string strip_title(const ResultReader& reader, const std::string& results, std::uint64_t index)
@@ -94,12 +93,21 @@ fs::path export_csv(const std::string& results, const std::string& output)
     return folder;
 }
 
+/// Results are never lost, not even to a slip in the name of the output.
+void check_output(const std::string& results, const std::string& output)
+{
+    std::error_code none;
+    if (!output.empty() && fs::equivalent(results, output, none))
+        throw InputError(fmt::format("-o {}: is the results file itself; choose another output", output));
+}
+
 } // namespace
 
 int export_command(const CommonOptions& options, const std::string& results, const std::string& format,
                    const std::string& picture, const std::string& output, long long realization,
                    const std::vector<double>& frequencies)
 {
+    check_output(results, output);
     const fs::path written = format == "csv" ? export_csv(results, output)
                                              : export_png(options, results, picture, output, realization, frequencies);
     if (options.json)

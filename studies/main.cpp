@@ -1,14 +1,18 @@
 /// The command line.
 
 #include "ensemble/input_error.hpp"
+#include "io/suggest.hpp"
 #include "studies/command.hpp"
 #include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <system_error>
 
 using namespace stylobate;
 
@@ -30,12 +34,40 @@ void add_common(CLI::App& verb, CommonOptions& options)
     verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
 }
 
+/// CLI11 would say of an unknown verb only that one is missing.
+/// @throws InputError if the first word is no verb, or if there is none
+void check_verb(const CLI::App& app, int argc, char** argv)
+{
+    const std::string word = argc > 1 ? argv[1] : "";
+    std::vector<std::string> verbs;
+    std::string list;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        verbs.push_back(verb->get_name());
+        list += (list.empty() ? "" : ", ") + verbs.back();
+    }
+    if (word.starts_with('-') || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
+        return;
+    const std::string meant = nearest_word(word, verbs);
+    throw InputError(fmt::format("{}; the verbs are {}.\n  {}",
+                                 word.empty() ? "no verb is given" : "'" + word + "' is no verb", list,
+                                 meant.empty() ? "stylobate --help says more." : "Did you mean " + meant + "?"));
+}
+
+/// One message in the manner of all others.
+std::string usage_message(const CLI::App* app, const CLI::Error& error)
+{
+    const auto verbs = app->get_subcommands();
+    return fmt::format("stylobate: {}\n  stylobate {}--help says more.\n", error.what(),
+                       verbs.empty() ? "" : verbs.front()->get_name() + " ");
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     CLI::App app("Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep.");
     app.require_subcommand(1);
+    app.failure_message(usage_message);
     app.set_version_flag("--version", code_version());
     app.get_formatter()->column_width(34);
     CommonOptions options;
@@ -75,7 +107,7 @@ int main(int argc, char** argv)
     exporting
         ->add_option("--picture", picture, "png: surface, slice or strip (default: surface, or strip if there is none)")
         ->check(CLI::IsMember({"surface", "slice", "strip"}));
-    exporting->add_option("--realization", realization, "strip: which one (default: 0)");
+    exporting->add_option("--realization", realization, "strip: which one (default: 0)")->check(CLI::Range(0LL, 999999999999LL));
     exporting->add_option("--frequency", frequencies, "slice: frequencies in Hz (default: three over the axis)")
         ->delimiter(',');
     exporting->add_option("-o,--output", output, "the picture, or the folder of the CSV files");
@@ -88,7 +120,10 @@ int main(int argc, char** argv)
     info->callback([&] { status = info_command(options); });
 
     try {
+        check_verb(app, argc, argv);
         app.parse(argc, argv);
+        if (std::fflush(stdout) != 0)
+            throw std::system_error(errno, std::generic_category(), "standard output cannot be written");
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_done : exit_bad_input;
     } catch (const InputError& error) {

@@ -10,34 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 namespace stylobate {
-
-namespace {
-
-/// Bit by bit, field by field (a struct's padding would not do).
-bool same_bits(const ResultRow& a, const ResultRow& b)
-{
-    const auto bits = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
-    const Outcome &p = a.outcome, &q = b.outcome;
-    bool same = a.index == b.index && a.cell == b.cell && bits(a.frequency_hz, b.frequency_hz) &&
-                bits(a.pga_m_s2, b.pga_m_s2) && a.inputs.size() == b.inputs.size() && p.state == q.state &&
-                p.invalid_reason == q.invalid_reason && p.first_collapse_block == q.first_collapse_block &&
-                p.steps == q.steps;
-    for (std::size_t i = 0; same && i < a.inputs.size(); ++i)
-        same = bits(a.inputs[i], b.inputs[i]);
-    for (double Outcome::*field :
-         {&Outcome::collapse_time_s, &Outcome::peak_top_displacement_m, &Outcome::residual_top_displacement_m,
-          &Outcome::total_sliding_m, &Outcome::total_rocking_rad, &Outcome::sliding_path_m,
-          &Outcome::max_relative_rotation_rad, &Outcome::energy_kinetic_j, &Outcome::energy_potential_j,
-          &Outcome::energy_spring_j, &Outcome::energy_friction_j, &Outcome::energy_damping_j,
-          &Outcome::energy_base_work_j, &Outcome::energy_residual, &Outcome::end_time_s, &Outcome::step_s})
-        same = same && bits(p.*field, q.*field);
-    return same;
-}
-
-} // namespace
 
 int replay_command(const CommonOptions& options, const std::string& results, long long realization,
                    const std::string& trajectory)
@@ -55,10 +28,10 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
     one.first = index;
     one.total = 1;
     one.code_version = code_version();
-    const std::unique_ptr<ResultWriter> writer = trajectory.empty() ? nullptr : ResultWriter::create(trajectory, one);
     const FollowedRealization f = follow(loaded, index, options.isa());
     const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
-    if (writer) {
+    if (!trajectory.empty()) { // made only now: an interrupted replay leaves no file
+        const std::unique_ptr<ResultWriter> writer = ResultWriter::create(trajectory, one);
         writer->add(row);
         writer->add(f.trajectory);
         writer->finish(nullptr);
@@ -84,7 +57,7 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
             .member("step_s", o.step_s)
             .member("in_results", known)
             .member("same_bits", same);
-        if (writer)
+        if (!trajectory.empty())
             json.member("trajectory", trajectory);
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
@@ -99,7 +72,7 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
         fmt::print("  {}\n", !known ? "not in the results yet"
                              : same ? "the same bits as in the results"
                                     : "NOT the bits of the results");
-        if (writer)
+        if (!trajectory.empty())
             fmt::print("  trajectory in {}\n", trajectory);
     }
     if (known && !same) {

@@ -37,7 +37,7 @@ void check_realizations(const LoadedStudy& loaded)
     });
 }
 
-/// The cells' counts of what an earlier part of the run has done. (Only while the file is not being written.)
+/// The cells' counts of what an earlier part of the run has done. (Only while no row is being added.)
 void count_done(const std::string& results, SurfaceCounts& counts)
 {
     const ResultReader reader(results);
@@ -125,13 +125,13 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const ResultHeader header = loaded.result_header();
     SurfaceCounts counts(header.frequency_hz, header.pga_m_s2);
     const bool found = std::filesystem::exists(results);
-    if (found && loaded.study().surface)
-        count_done(results, counts);
-    const std::unique_ptr<ResultWriter> writer =
-        found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
+    std::unique_ptr<ResultWriter> writer;
     Progress progress;
     {
-        Console console(options.quiet);
+        Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
+        writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
+        if (found && loaded.study().surface)
+            count_done(results, counts); // the file is ours now: no other run adds to it in between
         progress = loaded.study().surface ? run_surface(loaded, run, *writer, counts, console)
                                           : run_single(loaded, run.isa, *writer, console);
     }

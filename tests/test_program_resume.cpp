@@ -1,0 +1,259 @@
+/// A run that is killed or interrupted, again and again, and continued: the same results as without.
+
+#include "program.hpp"
+
+#include "io/result_store.hpp"
+#include "kernels/isa.hpp"
+
+#include <random>
+
+namespace stylobate {
+namespace {
+
+/// 16 cells of 480 realizations, 30 chunks: in half of the cells it collapses. Seconds with one thread of scalar code.
+const std::vector<std::string> many_realizations = {
+    "study.realizations=480",
+    "structure.blocks=4",
+    "contact.normal_stiffness_n_m2=4e6",
+    "contact.tangential_stiffness_n_m=2e5",
+    "excitation.cycles=4",
+    "surface.frequency_hz={from=4.0,to=8.0,count=4}",
+    "surface.pga_m_s2={from=4.0,to=25.0,count=4}",
+};
+constexpr std::uint64_t total = 16 * 480;
+
+struct Machine {
+    const char* threads;
+    std::string simd;
+};
+
+/// The machines that the parts of a run are spread over.
+std::vector<Machine> machines()
+{
+    std::vector<Machine> all = {{"2", "auto"}, {"1", "scalar"}};
+    for (const Isa isa : usable_isas())
+        all.push_back({isa == Isa::scalar ? "3" : "1", to_string(isa)});
+    return all;
+}
+
+/// The first and the last number of realizations done in the progress lines of a terminal; {0, 0} if there is none.
+std::pair<std::uint64_t, std::uint64_t> progress_of(const std::string& err)
+{
+    const std::string before = "\x1b[K", after = " of " + std::to_string(total) + " realizations";
+    const auto number = [&](std::size_t end) {
+        const std::size_t begin = err.rfind(before, end);
+        return begin == std::string::npos ? 0 : std::stoull(err.substr(begin + before.size(), end));
+    };
+    const std::size_t first = err.find(after), last = err.rfind(after);
+    if (first == std::string::npos)
+        return {};
+    return {number(first), number(last)};
+}
+
+class Resume : public Program {
+protected:
+    ProgramRun part(const std::string& results, const Machine& machine) const
+    {
+        return {.arguments = run_words(column_study, many_realizations,
+                                       {"-o", results, "--threads", machine.threads, "--simd", machine.simd}),
+                .terminal = true};
+    }
+
+    std::uint64_t rows_in(const std::string& results) const
+    {
+        return fs::exists(folder / results) ? ResultReader(folder / results).rows().size() : 0;
+    }
+
+    /// The uninterrupted run, and how long it took.
+    double run_at_once(const std::string& results) const
+    {
+        const Ended ended = run(part(results, {"2", "auto"}));
+        EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        const auto rows = ResultReader(folder / results).rows();
+        EXPECT_EQ(rows.size(), total);
+        const auto collapsed = std::count_if(rows.begin(), rows.end(), [](const ResultRow& row) {
+            return row.outcome.state == State::collapsed;
+        });
+        EXPECT_GT(collapsed, total / 10); // both kinds of endings are there
+        EXPECT_LT(collapsed, total * 9 / 10);
+        return ended.seconds;
+    }
+
+    void expect_same(const std::string& a, const std::string& b) const
+    {
+        for (const std::string& results : {a, b})
+            ASSERT_EQ(run({"export", results + ".h5", "--to", "csv"}).status, 0);
+        for (const char* file : {"realizations.csv", "surface.csv"}) {
+            const std::string left = read_bytes(folder / (a + "_csv") / file);
+            EXPECT_GT(left.size(), 500u);
+            EXPECT_TRUE(left == read_bytes(folder / (b + "_csv") / file)) << file;
+        }
+        // that is all of the content, and so the files are the same, too
+        EXPECT_TRUE(read_bytes(folder / (a + ".h5")) == read_bytes(folder / (b + ".h5")));
+    }
+
+    /// Starts the run `parts` times and sends `signals` in turn, each after a random share of the time that a whole run
+    /// takes, and then lets it run to its end.
+    void interrupt(const std::vector<int>& signals, int parts, unsigned seed)
+    {
+        const double seconds = run_at_once("whole.h5");
+        std::mt19937_64 random(seed);
+        const std::vector<Machine> all = machines();
+        int continued = 0;
+        for (int i = 0; i < parts; ++i) {
+            const std::uint64_t rows = rows_in("parts.h5");
+            if (rows == total)
+                break; // the machine is quicker now than it was
+            const auto before = contents();
+            ProgramRun program = part("parts.h5", all[static_cast<std::size_t>(i) % all.size()]);
+            program.signal = signals[static_cast<std::size_t>(i) % signals.size()];
+            program.after_s = 0.6 * seconds * (0.02 + static_cast<double>(random() % 1000) / 1000);
+            const Ended ended = run(program);
+            std::fprintf(stderr, "%s %s sig %d after %.3f of %.3f: status %d rows %lu -> %lu\n", all[i % all.size()].threads, all[i % all.size()].simd.c_str(), program.signal, program.after_s, seconds, ended.status, rows, rows_in("parts.h5"));
+            if (ended.status == 0)
+                break;
+            if (ended.status == 130) {
+                EXPECT_NE(ended.out.find("The same command continues"), std::string::npos) << ended.out;
+            } else { // killed, or interrupted before there was anything to keep
+                EXPECT_EQ(ended.signal, program.signal) << testing::PrintToString(ended);
+                EXPECT_TRUE(program.signal == SIGKILL || contents() == before) << testing::PrintToString(ended);
+            }
+            // what was done is kept, and counted on from
+            const std::uint64_t kept = rows_in("parts.h5");
+            EXPECT_GE(kept, rows);
+            const auto [first, last] = progress_of(ended.err);
+            if (last > 0) {
+                EXPECT_GE(first, rows) << ended.err;
+                EXPECT_GE(last, first) << ended.err;
+            }
+            if (ended.status == 130) {
+                EXPECT_GE(last, kept) << ended.err;
+                EXPECT_NE(ended.out.find(": " + std::to_string(last) + " of "), std::string::npos) << ended.out;
+            }
+            continued += rows > 0 && rows < total;
+            if (kept > 0 && kept < total)
+                expect_unfinished("parts.h5");
+        }
+        EXPECT_GT(continued, 0) << "no part began where another one had stopped: nothing was tested";
+        if (rows_in("parts.h5") < total || !ResultReader(folder / "parts.h5").complete()) {
+            const Ended ended = run(part("parts.h5", {"3", "auto"}));
+            ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        }
+        expect_same("whole", "parts");
+        EXPECT_EQ(names(), (Words{"parts.h5", "parts_csv", "whole.h5", "whole_csv"})); // no leftovers
+    }
+
+    /// What an unfinished result can be used for, and what not.
+    void expect_unfinished(const std::string& results) const
+    {
+        EXPECT_FALSE(ResultReader(folder / results).complete());
+        expect_refused({"export", results, "--to", "png"}, {results, "not complete", "continue"});
+        expect_refused({"export", results, "--to", "png", "--picture", "slice"}, {results, "not complete"});
+    }
+};
+
+TEST_F(Resume, AfterKills)
+{
+    interrupt({SIGKILL}, 8, 1);
+}
+
+TEST_F(Resume, AfterInterrupts)
+{
+    interrupt({SIGINT}, 6, 2);
+}
+
+TEST_F(Resume, AfterAMixture)
+{
+    interrupt({SIGKILL, SIGINT, SIGTERM}, 9, 3);
+}
+
+TEST_F(Resume, AnInterruptSaysSo)
+{
+    ProgramRun program = part("a.h5", {"1", "scalar"});
+    program.arguments.push_back("--json");
+    program.terminal = false;
+    program.signal = SIGINT;
+    program.after_s = 1;
+    const Ended ended = run(program);
+    ASSERT_EQ(ended.status, 130) << testing::PrintToString(ended);
+    EXPECT_EQ(ended.err, "");
+    const JsonValue json = json_of(ended);
+    EXPECT_FALSE(json["complete"].boolean);
+    EXPECT_EQ(json["total"].number, static_cast<double>(total));
+    EXPECT_LT(json["realizations"].number, static_cast<double>(total));
+    EXPECT_GE(json["realizations"].number, static_cast<double>(rows_in("a.h5")));
+    EXPECT_EQ(names(), Words{"a.h5"});
+}
+
+TEST_F(Resume, RowsOfAnUnfinishedRunCanBeExportedAndReplayed)
+{
+    run_at_once("whole.h5");
+    ProgramRun program = part("a.h5", {"1", "scalar"});
+    program.signal = SIGKILL;
+    for (program.after_s = 0.5; rows_in("a.h5") == 0 && program.after_s < 30; program.after_s *= 2)
+        run(program);
+    const std::uint64_t rows = rows_in("a.h5");
+    ASSERT_GT(rows, 0u);
+    ASSERT_LT(rows, total);
+    ASSERT_EQ(run({"export", "a.h5", "--to", "csv"}).status, 0);
+    EXPECT_EQ(count_of(read_bytes(folder / "a_csv/realizations.csv"), "\n"), rows + 1);
+    EXPECT_FALSE(fs::exists(folder / "a_csv/surface.csv")); // a surface of some of its trials is none
+
+    // one that is in the file, and one that is not
+    const ResultReader reader(folder / "a.h5"), whole(folder / "whole.h5");
+    const std::uint64_t known = reader.rows().front().index;
+    std::uint64_t unknown = 0;
+    while (reader.has(unknown))
+        ++unknown;
+    for (const std::uint64_t index : {known, unknown}) {
+        const Ended ended = run({"replay", "a.h5", "--realization", std::to_string(index), "--json"});
+        ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        const JsonValue json = json_of(ended);
+        EXPECT_EQ(json["in_results"].boolean, index == known);
+        EXPECT_EQ(json["same_bits"].boolean, index == known);
+        EXPECT_EQ(json["energy_residual"].number, whole.row(index).outcome.energy_residual);
+    }
+}
+
+TEST_F(Resume, TwoRunsDoNotWriteOneFile)
+{
+    // the second one starts while the first one is at work, and is refused
+    ProgramRun first = part("a.h5", {"1", "scalar"});
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        first.signal = SIGINT;
+        first.after_s = 2.5;
+        const Ended ended = run(first);
+        ::_exit(ended.status == 130 ? 0 : 1);
+    }
+    for (int i = 0; i < 500 && rows_in("a.h5") == 0; ++i)
+        ::usleep(10'000);
+    const Ended second = run(part("a.h5", {"1", "auto"}).arguments);
+    EXPECT_EQ(second.status, 2) << testing::PrintToString(second);
+    EXPECT_EQ(second.out, "");
+    EXPECT_NE(second.err.find("is being written by another run"), std::string::npos) << second.err;
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << "the first one did not end as an interrupted run does";
+}
+
+TEST_F(Resume, AnInterruptedReplayLeavesNothing)
+{
+    ASSERT_EQ(run(run_words(column_study, eight_realizations, {"-o", "a.h5"})).status, 0);
+    // a stiff column is long at work
+    Words stiff = eight_realizations;
+    stiff.push_back("contact.normal_stiffness_n_m2=1e11");
+    ProgramRun program{.arguments = run_words(column_study, stiff, {"-o", "stiff.h5"}), .signal = SIGKILL};
+    for (program.after_s = 0.3; !fs::exists(folder / "stiff.h5") && program.after_s < 30; program.after_s *= 2)
+        run(program);
+    ASSERT_TRUE(fs::exists(folder / "stiff.h5"));
+    const auto before = contents();
+    program = {.arguments = {"replay", "stiff.h5", "--realization", "0", "-o", "t.h5"}, .signal = SIGINT, .after_s = 0.3};
+    const Ended ended = run(program);
+    EXPECT_EQ(ended.signal, SIGINT) << testing::PrintToString(ended);
+    EXPECT_TRUE(contents() == before);
+}
+
+} // namespace
+} // namespace stylobate
