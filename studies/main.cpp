@@ -107,7 +107,8 @@ int main(int argc, char** argv)
     exporting
         ->add_option("--picture", picture, "png: surface, slice or strip (default: surface, or strip if there is none)")
         ->check(CLI::IsMember({"surface", "slice", "strip"}));
-    exporting->add_option("--realization", realization, "strip: which one (default: 0)")->check(CLI::Range(0LL, 999999999999LL));
+    exporting->add_option("--realization", realization, "strip: which one (default: 0)")
+        ->check(CLI::Range(0LL, 999999999999LL));
     exporting->add_option("--frequency", frequencies, "slice: frequencies in Hz (default: three over the axis)")
         ->delimiter(',');
     exporting->add_option("-o,--output", output, "the picture, or the folder of the CSV files");

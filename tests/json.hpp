@@ -40,7 +40,8 @@ struct JsonValue {
 
 class JsonParser {
 public:
-    /// @throws std::runtime_error if `text` is not one JSON value with blanks about it, or no UTF-8, or names a key twice
+    /// @throws std::runtime_error if `text` is not one JSON value with blanks about it, or no UTF-8, or names a key
+    /// twice
     static JsonValue parse(std::string_view text)
     {
         JsonParser parser(text);
@@ -121,7 +122,8 @@ private:
         return value;
     }
 
-    template <class Item> void sequence(char close, Item item)
+    template <class Item>
+    void sequence(char close, Item item)
     {
         next();
         blanks();

@@ -1,5 +1,6 @@
 #pragma once
-/// Runs the program as its user does: in a folder of its own, with arguments, and sees what it prints and leaves behind.
+/// Runs the program as its user does: in a folder of its own, with arguments, and sees what it prints and leaves
+/// behind.
 
 #include "json.hpp"
 
@@ -35,9 +36,9 @@ namespace fs = std::filesystem;
 
 struct ProgramRun {
     std::vector<std::string> arguments;
-    bool terminal = false;    ///< standard error is a (pseudo-)terminal
-    bool no_privilege = true; ///< root, too, may write only where the permissions say so
-    int signal = 0;           ///< sent `after_s` after the start
+    bool terminal = false;     ///< standard error is a (pseudo-)terminal
+    bool no_privilege = false; ///< root, too, may read and write only where the permissions say so
+    int signal = 0;            ///< sent `after_s` after the start
     double after_s = 0;
     double limit_s = 120; ///< killed then
 };
@@ -90,8 +91,9 @@ inline Ended run_program(const ProgramRun& run, const fs::path& folder)
 
     Ended ended;
     int out[2] = {}, err[2] = {};
-    const bool opened = ::pipe2(out, O_CLOEXEC) == 0 && (run.terminal ? ::openpty(&err[0], &err[1], nullptr, nullptr, nullptr)
-                                                                      : ::pipe2(err, O_CLOEXEC)) == 0;
+    const bool opened =
+        ::pipe2(out, O_CLOEXEC) == 0 &&
+        (run.terminal ? ::openpty(&err[0], &err[1], nullptr, nullptr, nullptr) : ::pipe2(err, O_CLOEXEC)) == 0;
     if (!opened) {
         ADD_FAILURE() << "no pipe or pseudo-terminal";
         return ended;
@@ -250,8 +252,13 @@ protected:
     /// Bad input: one message that has all of `parts`, exit status 2, nothing on standard output, nothing changed.
     void expect_refused(const Words& arguments, const Words& parts) const
     {
+        expect_refused(ProgramRun{.arguments = arguments}, parts);
+    }
+    void expect_refused(const ProgramRun& program, const Words& parts) const
+    {
+        const Words& arguments = program.arguments;
         const auto before = contents();
-        const Ended ended = run(arguments);
+        const Ended ended = run(program);
         const std::string what = testing::PrintToString(arguments) + "\n" + testing::PrintToString(ended);
         EXPECT_EQ(ended.status, 2) << what;
         EXPECT_EQ(ended.out, "") << what;
@@ -268,7 +275,8 @@ protected:
         EXPECT_GT(text.size(), 30u) << what;
         EXPECT_LE(count_of(text, "\n"), 6u) << what;
         for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-            EXPECT_TRUE(static_cast<unsigned char>(text[i]) >= 0x20 || text[i] == '\n') << "a control character: " << what;
+            EXPECT_TRUE(static_cast<unsigned char>(text[i]) >= 0x20 || text[i] == '\n')
+                << "a control character: " << what;
             EXPECT_FALSE(text[i] == '\n' && text[i + 1] != ' ') << "more than one message: " << what;
         }
     }

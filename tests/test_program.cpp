@@ -134,7 +134,8 @@ TEST_F(Verbs, RunSaysWhatItDid)
     EXPECT_EQ(rows[5].frequency_hz, 8);
     EXPECT_EQ(rows[5].pga_m_s2, 1);
     // the study inside is the one that was given, with its settings
-    EXPECT_EQ(parse_study(reader.header().study_toml, "inside").text, read_study(column_study, eight_realizations).text);
+    EXPECT_EQ(parse_study(reader.header().study_toml, "inside").text,
+              read_study(column_study, eight_realizations).text);
 }
 
 TEST_F(Verbs, RunNamesItsResultsAfterTheStudyAndSpeaksPlainWords)
@@ -198,8 +199,7 @@ TEST_F(Verbs, TooManyInvalidRealizations)
 {
     // a step far above the bound: what does not end as a number is set aside, counted, and kept
     Words settings = eight_realizations;
-    for (const char* setting :
-         {"run.step_s=5e-4", "run.allow_step_above_bound=true", "run.max_invalid_fraction=0.0"})
+    for (const char* setting : {"run.step_s=5e-4", "run.allow_step_above_bound=true", "run.max_invalid_fraction=0.0"})
         settings.push_back(setting);
     const Ended ended = run(run_words(column_study, settings, {"-o", "a.h5", "--json"}));
     EXPECT_EQ(ended.status, 3) << testing::PrintToString(ended);
@@ -247,9 +247,8 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
 {
     run_eight({"-o", "a.h5"});
     const auto rows = ResultReader(folder / "a.h5").rows();
-    const auto collapsed = std::find_if(rows.begin(), rows.end(), [](const ResultRow& row) {
-        return row.outcome.state == State::collapsed;
-    });
+    const auto collapsed = std::find_if(rows.begin(), rows.end(),
+                                        [](const ResultRow& row) { return row.outcome.state == State::collapsed; });
     ASSERT_NE(collapsed, rows.end());
     for (const std::uint64_t index : {std::uint64_t{0}, collapsed->index}) {
         const std::string file = "t" + std::to_string(index) + ".h5";
