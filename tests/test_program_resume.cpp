@@ -13,11 +13,11 @@ namespace {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
 constexpr int per_cell = 96; // such a build is ten times slower and more
 #else
-constexpr int per_cell = 480;
+constexpr int per_cell = 320;
 #endif
 constexpr std::uint64_t total = 16 * per_cell;
 
-/// 16 cells, up to 30 chunks; in about half of the cells it collapses. Seconds with one thread of scalar code.
+/// 16 cells, up to 20 chunks; in about half of the cells it collapses. Seconds with one thread of scalar code.
 const std::vector<std::string> many_realizations = {
     "study.realizations=" + std::to_string(per_cell),
     "structure.blocks=4",
@@ -168,7 +168,7 @@ TEST_F(Resume, AfterInterrupts)
 
 TEST_F(Resume, AfterAMixture)
 {
-    interrupt({SIGKILL, SIGINT, SIGTERM}, 9, 3);
+    interrupt({SIGKILL, SIGINT, SIGTERM}, 8, 3);
 }
 
 TEST_F(Resume, AnInterruptSaysSo)
