@@ -186,7 +186,7 @@ TEST_F(Verbs, PlainLinesWhereThereIsNoTerminal)
     // one line after ten seconds; then it is stopped
     const Ended ended = run({.arguments = run_words(column_study, {"study.realizations=400"}, {"--threads", "1"}),
                              .signal = SIGINT,
-                             .after_s = 11.5});
+                             .after_s = slow_build ? 16 : 11.5});
     ASSERT_EQ(ended.status, 130) << testing::PrintToString(ended);
     EXPECT_NE(ended.err.find(" of 102400 realizations, "), std::string::npos) << ended.err;
     EXPECT_NE(ended.err.find(" left, "), std::string::npos) << ended.err;
@@ -199,7 +199,7 @@ TEST_F(Verbs, TooManyInvalidRealizations)
 {
     // a step far above the bound: what does not end as a number is set aside, counted, and kept
     Words settings = eight_realizations;
-    for (const char* setting : {"run.step_s=5e-4", "run.allow_step_above_bound=true", "run.max_invalid_fraction=0.0"})
+    for (const char* setting : {"run.step_s=2e-3", "run.allow_step_above_bound=true", "run.max_invalid_fraction=0.0"})
         settings.push_back(setting);
     const Ended ended = run(run_words(column_study, settings, {"-o", "a.h5", "--json"}));
     EXPECT_EQ(ended.status, 3) << testing::PrintToString(ended);
