@@ -291,7 +291,7 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
         double peak = 0;
         for (std::size_t i = 0; i < nt; ++i)
             peak = std::max(peak, std::abs(t.x_m[i * nb + top] - t.x_m[top]));
-        EXPECT_LE(peak, o.peak_top_displacement_m + 1e-6); // which counts from where it would stand if it were rigid
+        EXPECT_LE(peak, o.peak_top_displacement_m + 1e-4); // that is from where it would stand if it were rigid
         EXPECT_GE(peak, o.peak_top_displacement_m * 0.9);
         const double residual = t.x_m[(nt - 1) * nb + top] - t.x_m[top];
         if (o.state == State::collapsed) {
@@ -304,7 +304,7 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
             EXPECT_TRUE(t.y_m[last] < 0.65 * t.y_m[block] || std::abs(t.theta_rad[last]) > 0.9 * corner)
                 << t.y_m[last] << " of " << t.y_m[block] << ", " << t.theta_rad[last];
         } else {
-            EXPECT_NEAR(residual, o.residual_top_displacement_m, 1e-6);
+            EXPECT_NEAR(residual, o.residual_top_displacement_m, 0.05 * peak); // the mean of the last vibrations
         }
     }
 }
