@@ -16,8 +16,8 @@ struct Outcome {
     InvalidReason invalid_reason = InvalidReason::none;
     double collapse_time_s = -1;            ///< first time of the collapse; -1 = none
     std::int32_t first_collapse_block = -1; ///< block that met the collapse criterion first; -1 = none
-    double peak_top_displacement_m = 0;     ///< largest |x| of the top block's centre against the base
-    double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, against its start
+    double peak_top_displacement_m = 0; ///< largest |x| of the top block's centre from its place in the reference stack
+    double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, from its rest at the start
     double total_sliding_m = 0;             ///< sum over the joints of the slip while slipping
     double total_rocking_rad = 0;           ///< sum over the joints of the largest relative rotation
     double sliding_path_m = 0;              ///< sum over the joints of the relative path of the faces in contact
