@@ -13,7 +13,7 @@ namespace stylobate {
 
 /// What is fixed when a store is created.
 struct ResultHeader {
-    std::string kind; ///< "single" or "surface"
+    std::string kind; ///< "single" or "surface"; "replay" for one realization of either
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;

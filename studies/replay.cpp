@@ -27,6 +27,9 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
     ResultHeader one = header;
     one.first = index;
     one.total = 1;
+    one.kind = "replay"; // of one realization: there is no surface to it
+    one.frequency_hz.clear();
+    one.pga_m_s2.clear();
     one.code_version = code_version();
     const FollowedRealization f = follow(loaded, index, options.isa());
     const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);

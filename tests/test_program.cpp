@@ -255,8 +255,12 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
         const JsonValue json =
             json_of(run({"replay", "a.h5", "--realization", std::to_string(index), "-o", file, "--json"}));
         EXPECT_EQ(json["trajectory"].text, file);
+        // its picture is the strip, without being asked for by name; and it can be replayed itself
+        EXPECT_EQ(run({"export", file, "--to", "png", "-o", "strip.png"}).status, 0);
+        EXPECT_EQ(run({"replay", file, "--realization", std::to_string(index)}).status, 0);
         const ResultReader reader(folder / file);
         ASSERT_TRUE(reader.complete());
+        EXPECT_EQ(reader.header().kind, "replay");
         EXPECT_EQ(reader.header().first, index);
         EXPECT_EQ(reader.header().total, 1u);
         EXPECT_TRUE(same_bits(reader.row(index), rows[index]));
