@@ -27,11 +27,13 @@ public:
           observer_(observer), progress_(plan.before), pattern_(sampler.realization(0))
     {
         progress_.total = plan.total;
+        handover_.fetch_add(1);
     }
 
     /// One worker: a bundle that is refilled until nothing is left.
     void work() noexcept
     {
+        handover_.fetch_add(1);
         try {
             LaneSet lanes(study_, record_, kernels_, pattern_);
             for (int lane = 0; lane < lanes.lanes(); ++lane)
@@ -54,10 +56,12 @@ public:
                 error_ = std::current_exception();
             stopped_ = true;
         }
+        handover_.fetch_add(1);
     }
 
     Progress finish()
     {
+        handover_.fetch_add(1);
         if (error_)
             std::rethrow_exception(error_);
         report(true);
@@ -131,6 +135,8 @@ private:
     std::atomic<double> next_report_ = 0;
     std::atomic<bool> stopped_ = false;
     std::atomic<std::uint64_t> lane_chunks_ = 0, active_chunks_ = 0;
+    /// TBB orders what was before the workers, in them and after them; this says it where ThreadSanitizer can see it.
+    std::atomic<int> handover_ = 0;
     const Realization pattern_; ///< the topology that all realizations share
 };
 

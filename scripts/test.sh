@@ -30,4 +30,5 @@ cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 scripts/install_packages.sh
 cmake --preset "$preset" >/dev/null
 cmake --build "build/$preset" --parallel "$(nproc)"
+export TSAN_OPTIONS="suppressions=$PWD/tests/tsan_suppressions.txt ${TSAN_OPTIONS:-}"
 exec ctest --preset "$preset" --parallel "$(nproc)" "${selection[@]}" "$@"
