@@ -77,9 +77,9 @@ public:
     /// The place of a string among the words that are allowed.
     std::size_t word_index(std::string_view key, const std::vector<std::string>& words) const;
 
-    /// "PLACE: path.key = value WHAT.\n  TODO"; `what` begins with a verb.
+    /// "PLACE: path.key = value WHAT.\n  ADVICE"; `what` begins with a verb.
     [[noreturn]] void refuse(std::string_view key, const std::string& what, const std::string& todo = {}) const;
-    /// "PLACE: path.key is missing.\n  TODO"
+    /// "PLACE: path.key is missing.\n  ADVICE"
     [[noreturn]] void missing(std::string_view key, const std::string& todo) const;
 
     const std::string& path() const { return path_; }

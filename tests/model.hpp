@@ -1,7 +1,7 @@
 #pragma once
 /// The structures of the oracle tests as hand-built realizations, and two ways to run them.
 ///
-/// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.  BLOCK_A: 1 x 4 m.
+/// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
 #include "ensemble/lanes.hpp"
@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -35,7 +36,19 @@ struct Bed {
 
 inline const Stone spec_drum{0.048, 0.029, 0.1355};
 inline const Stone mono_stone{0.048, 0.174, 0.813};
-inline const Stone block_a{1, 4, 4 * 2500.0}; // 2500 kg/m3, 1 m deep
+
+/// Six of the specimen's drums of unequal widths, a little out of line: no two sides are flush.
+inline std::vector<Stone> uneven_drums(unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::normal_distribution<double> error(0, 0.0003);
+    std::vector<Stone> stones(6, spec_drum);
+    for (Stone& stone : stones) {
+        stone.width += error(random);
+        stone.offset = error(random);
+    }
+    return stones;
+}
 
 /// sqrt(K_N B / m) [rad/s].
 inline double bed_rate(const Bed& bed, const Stone& stone)

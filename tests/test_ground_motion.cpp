@@ -3,6 +3,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/ground_motion.hpp"
+#include "tests/csv_line.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -336,21 +337,6 @@ struct Row {
     std::size_t n = 0;
     double dt_s = 0, duration_s = 0, pga_m_s2 = 0, d5_95_s = 0, predominant_hz = 0, mean_hz = 0;
 };
-
-std::vector<std::string> cells_of(const std::string& line)
-{
-    std::vector<std::string> cells(1);
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"')
-            quoted = !quoted;
-        else if (c == ',' && !quoted)
-            cells.emplace_back();
-        else
-            cells.back() += c;
-    }
-    return cells;
-}
 
 std::filesystem::path records_folder()
 {

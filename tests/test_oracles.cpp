@@ -465,13 +465,7 @@ TEST(Energy, ResidualIsBoundedAndShrinksWithTheStep)
 
 Realization uneven_specimen(unsigned seed, double step_s)
 {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> error(0, 0.0003);
-    std::vector<model::Stone> stones(6, model::spec_drum);
-    for (auto& s : stones) {
-        s.width += error(random);
-        s.offset = error(random);
-    }
+    const std::vector<model::Stone> stones = model::uneven_drums(seed);
     return model::stack(stones, {1e8, 0.1, 0.68}, step_s);
 }
 

@@ -1,5 +1,6 @@
 /// Records through the program: what it says of them, and a small surface under each.
 
+#include "csv_line.hpp"
 #include "program.hpp"
 
 #include "io/result_store.hpp"
@@ -115,16 +116,7 @@ Summary summary_of(const fs::path& csv, const std::string& file, const std::stri
 {
     std::istringstream text(read_bytes(csv));
     for (std::string line; std::getline(text, line);) {
-        std::vector<std::string> cells(1);
-        bool quoted = false;
-        for (const char c : line) {
-            if (c == '"')
-                quoted = !quoted;
-            else if (c == ',' && !quoted)
-                cells.emplace_back();
-            else
-                cells.back() += c;
-        }
+        const std::vector<std::string> cells = cells_of(line);
         if (cells.size() > 8 && cells[0] == file && (component.empty() || cells[1] == component))
             return {cells[0],
                     cells[1],

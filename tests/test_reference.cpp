@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
 
 namespace stylobate {
@@ -27,13 +26,7 @@ constexpr double frequency_hz = 30, pga_m_s2 = 25;
 /// Six drums of unequal widths, a little out of line: no two sides are flush.
 Realization uneven_stack(unsigned seed, bool per_chord)
 {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> error(0, 0.0003);
-    std::vector<model::Stone> stones(6, model::spec_drum);
-    for (auto& s : stones) {
-        s.width += error(random);
-        s.offset = error(random);
-    }
+    const std::vector<model::Stone> stones = model::uneven_drums(seed);
     Realization r = model::stack(stones, {1e8, 0.1, 0.4, per_chord}, step_s);
     r.frequency_hz = frequency_hz;
     r.pga_m_s2 = pga_m_s2;
