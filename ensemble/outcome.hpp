@@ -2,6 +2,7 @@
 /// How a realization ended. Plain data, SI units.
 
 #include <cstdint>
+#include <vector>
 
 namespace stylobate {
 
@@ -16,12 +17,19 @@ struct Outcome {
     InvalidReason invalid_reason = InvalidReason::none;
     double collapse_time_s = -1;            ///< first time of the collapse; -1 = none
     std::int32_t first_collapse_block = -1; ///< block that met the collapse criterion first; -1 = none
+    std::int32_t fallen_blocks = 0;         ///< how many have met it by the end
+    std::int32_t unseated_block = -1;       ///< epistyle that lost a seat first; -1 = none
+    double unseating_time_s = -1;           ///< when; -1 = never
+    double total_collapse_time_s = -1;      ///< when every column and every epistyle had fallen; -1 = not so
     double peak_top_displacement_m = 0; ///< largest |x| of the top block's centre from its place in the reference stack
     double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, from its rest at the start
-    double total_sliding_m = 0;             ///< sum over the joints of the slip while slipping
-    double total_rocking_rad = 0;           ///< sum over the joints of the largest relative rotation
-    double sliding_path_m = 0;              ///< sum over the joints of the relative path of the faces in contact
-    double max_relative_rotation_rad = 0;   ///< of the joint that rotated most
+    double top_path_m = 0;                  ///< path of the top block's centre against the base
+    double total_sliding_m = 0;             ///< sum over the beds of the slip while slipping
+    double sliding_path_m = 0;              ///< sum over the beds of the relative path of the faces in contact
+    double residual_sliding_m = 0;          ///< sum over the beds of how far the faces lie from where they lay
+    double total_rocking_rad = 0;           ///< sum over the beds of the largest relative rotation
+    double rocking_path_rad = 0;            ///< sum over the beds of the path of the relative rotation
+    double max_relative_rotation_rad = 0;   ///< of the bed that rotated most
     double energy_kinetic_j = 0;            ///< at the end
     double energy_potential_j = 0;          ///< gravity, against the start
     double energy_spring_j = 0;             ///< normal and tangential, against the start
@@ -32,6 +40,7 @@ struct Outcome {
     double end_time_s = 0;                  ///< simulated time
     double step_s = 0;                      ///< time step
     std::uint64_t steps = 0;
+    std::vector<double> fall_time_s; ///< (blocks but the ground) when each met the collapse criterion; -1 = never
 };
 
 } // namespace stylobate

@@ -6,6 +6,13 @@
 
 namespace stylobate {
 
+/// What a block is, for names, limit states and pictures.
+enum class BlockRole : std::uint8_t {
+    drum,     ///< of a column, a capital or a whole shaft included
+    epistyle, ///< spans from column to column
+    ground    ///< what a structure stands on, and what has fallen lies on
+};
+
 /// A rigid rectangle in its place in the reference stack (faces just touching, before the static overlaps).
 struct Block {
     double half_width_m = 0;
@@ -15,9 +22,11 @@ struct Block {
     double x_m = 0;           ///< centre, against the axis of the structure
     double y_m = 0;           ///< centre, above the base
     bool fixed = false;       ///< moves with the base
+    BlockRole role = BlockRole::drum;
+    int column = 0; ///< of a drum, from the left; -1 for all else
 };
 
-/// The bed between two blocks.
+/// The bed between two blocks, or what becomes one if they meet.
 struct Joint {
     int lower = 0; ///< index of the lower block
     int upper = 0; ///< index of the upper block
@@ -31,9 +40,12 @@ struct Joint {
 
 struct Realization {
     std::uint64_t index = 0;
-    std::vector<Block> blocks; ///< the structure's drums from the bottom, then the ground where one is needed
-    std::vector<Joint> joints; ///< those with at least one free block
+    std::vector<Block> blocks; ///< column by column from the bottom, then the epistyles, then the ground where needed
+    std::vector<Joint> joints; ///< with at least one free block each: the beds at rest, then the watched pairs
+    int watched = 0;           ///< so many of the joints, the last ones: blocks that lie on no common bed, but may meet
     int drums = 0;             ///< blocks without the ground
+
+    int beds() const { return static_cast<int>(joints.size()) - watched; }
     double gravity_m_s2 = 9.81;
     double base_tilt_rad = 0;    ///< base out of level
     double initial_tilt_rad = 0; ///< leaned about the base corner

@@ -133,7 +133,14 @@ struct OutputSpec {
     double trajectory_rate_hz = 1000;
 };
 
+/// How long a realization is followed.
+enum class Follow {
+    collapse, ///< until a block has fallen
+    rest      ///< on, until what has fallen lies still: partial and total collapse, and their order
+};
+
 struct OutcomeSpec {
+    Follow follow = Follow::collapse;
     double collapse_height_fraction = 0.6; ///< a drum's centre below this part of its rest height: collapse
     double rocking_threshold_rad = 0.01;   ///< largest relative rotation below which a column has not rocked
     double sliding_threshold = 0.005;      ///< total sliding over drum width below which a column has not slid

@@ -2,9 +2,11 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/key_reader.hpp"
+#include "io/study_excitation.hpp"
 #include "io/study_names.hpp"
 #include "io/study_perturbations.hpp"
 #include "io/study_ranges.hpp"
+#include "io/study_structure.hpp"
 
 #include <fmt/format.h>
 
@@ -26,47 +28,6 @@ void only_word(const KeyReader& keys, std::string_view key, const char* word)
 {
     if (keys.has(key))
         keys.word_index(key, {word});
-}
-
-StructureSpec read_structure(const KeyReader& keys)
-{
-    keys.allow_only({"kind", "blocks", "fixed_blocks", "drum_width_m", "drum_height_m", "depth_m", "drum_mass_kg",
-                     "density_kg_m3", "gravity_m_s2"});
-    only_word(keys, "kind", "column");
-
-    StructureSpec s;
-    s.blocks = static_cast<int>(keys.whole("blocks", 1, 200, "Drums of the column, the fixed ones counted."));
-    s.fixed_blocks = static_cast<int>(keys.whole_or("fixed_blocks", 0, static_cast<std::uint64_t>(s.blocks - 1), 0,
-                                                    "At least one of the drums must be free."));
-    s.drum_width_m = keys.number("drum_width_m", length_range);
-    s.drum_height_m = keys.number("drum_height_m", length_range);
-    s.depth_m = keys.number("depth_m", length_range);
-    s.gravity_m_s2 = keys.number_or("gravity_m_s2", gravity_range, s.gravity_m_s2);
-
-    const double volume = s.drum_width_m * s.drum_height_m * s.depth_m;
-    if (!(volume >= std::numeric_limits<double>::min()))
-        keys.refuse("drum_width_m", "gives a drum without volume", length_range.hint);
-    if (keys.has("drum_mass_kg") && keys.has("density_kg_m3"))
-        keys.refuse("density_kg_m3", "and drum_mass_kg exclude each other", "Give one of the two.");
-    if (keys.has("density_kg_m3")) {
-        s.drum_mass_kg = keys.number("density_kg_m3", density_range) * volume;
-        if (!mass_range.contains(s.drum_mass_kg))
-            keys.refuse("density_kg_m3",
-                        fmt::format("gives a mass of {} kg, outside {}", s.drum_mass_kg, mass_range.text()),
-                        density_range.hint);
-    } else if (keys.has("drum_mass_kg")) {
-        s.drum_mass_kg = keys.number("drum_mass_kg", mass_range);
-        // the mass of a density at the end of its range may round to just beyond it
-        constexpr double slack = 1 + 1e-12;
-        const double density = s.drum_mass_kg / volume;
-        if (!(density > 0 && density <= density_range.high * slack))
-            keys.refuse("drum_mass_kg",
-                        fmt::format("makes a density of {:.6g} kg/m3, outside {}", density, density_range.text()),
-                        "Masses are in kilograms and lengths in metres: is one in other units?");
-    } else {
-        keys.missing("drum_mass_kg", "Give the mass of a drum in kilograms, or density_kg_m3.");
-    }
-    return s;
 }
 
 /// A dashpot's ratio or its coefficient.
@@ -99,99 +60,6 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
     c.damping_per = keys.choice_or("damping_per", damping_per_names, c.damping_per);
     c.friction = keys.number("friction", friction_range);
     return c;
-}
-
-std::vector<std::string> excitation_keys(ExcitationKind kind)
-{
-    switch (kind) {
-    case ExcitationKind::none:
-        return {"kind", "duration_s"};
-    case ExcitationKind::harmonic:
-        return {"kind", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles", "phase_rad", "tail_s"};
-    case ExcitationKind::half_sine:
-    case ExcitationKind::full_sine:
-        return {"kind", "frequency_hz", "pga_m_s2", "tail_s"};
-    case ExcitationKind::record:
-        break;
-    }
-    return {"kind", "file", "component", "unit", "scale_to_pga_m_s2", "time_scale", "baseline", "tail_s"};
-}
-
-void read_harmonic(const KeyReader& keys, ExcitationSpec& e)
-{
-    e.start = keys.choice_or("start", edge_names, e.start);
-    e.end = keys.choice_or("end", edge_names, e.end);
-    e.ramp_cycles = keys.number_or("ramp_cycles", cycles_range, e.ramp_cycles);
-    e.cycles = keys.number_or("cycles", cycles_range, e.cycles);
-    e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
-    const int ramps = (e.start == HarmonicEdge::smooth ? 1 : 0) + (e.end == HarmonicEdge::smooth ? 1 : 0);
-    if (ramps * e.ramp_cycles > e.cycles) {
-        const auto what = fmt::format("does not fit: {} of {} cycles each in {} cycles",
-                                      ramps == 2 ? "two ramps" : "a ramp", e.ramp_cycles, e.cycles);
-        const char* todo = "Give more cycles or shorter ramps, or start or end = \"abrupt\".";
-        for (const char* key : {"ramp_cycles", "cycles"})
-            if (keys.has(key))
-                keys.refuse(key, what, todo);
-    }
-}
-
-void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
-{
-    if (!keys.has("file"))
-        keys.missing("file", "Name the record here, or on the command line: --set excitation.file=PATH");
-    e.file = keys.text("file");
-    e.component = keys.text_or_empty("component");
-    if (keys.has("unit")) {
-        const std::vector<std::string> units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};
-        e.unit = units[keys.word_index("unit", units)];
-        if (e.unit == "gal")
-            e.unit = "cm/s2"; // one name for one unit, so that equal studies have equal texts
-    }
-    if (!in_surface) {
-        e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
-        e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
-    }
-    e.baseline = keys.boolean_or("baseline", e.baseline);
-}
-
-ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
-{
-    keys.allow_only({"kind", "duration_s", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles",
-                     "phase_rad", "file", "component", "unit", "scale_to_pga_m_s2", "time_scale", "baseline",
-                     "tail_s"});
-    ExcitationSpec e;
-    e.kind = keys.choice("kind", excitation_kind_names);
-    keys.refuse_unused(excitation_keys(e.kind),
-                       fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, e.kind)));
-    if (in_surface) {
-        if (e.kind == ExcitationKind::none)
-            keys.refuse("kind", "shakes nothing, and study.kind is \"surface\"",
-                        "Give another excitation, or study.kind = \"single\".");
-        for (const char* key : {"frequency_hz", "pga_m_s2", "scale_to_pga_m_s2", "time_scale"})
-            if (keys.has(key))
-                keys.refuse(key, "is not used by study.kind = \"surface\"",
-                            "Remove it: frequency and PGA come from the axes of [surface].");
-    }
-    switch (e.kind) {
-    case ExcitationKind::none:
-        e.duration_s = keys.number("duration_s", duration_range);
-        return e;
-    case ExcitationKind::record:
-        read_record(keys, in_surface, e);
-        break;
-    case ExcitationKind::harmonic:
-    case ExcitationKind::half_sine:
-    case ExcitationKind::full_sine:
-        if (!in_surface) {
-            e.frequency_hz = keys.number("frequency_hz", frequency_range);
-            e.pga_m_s2 = keys.number("pga_m_s2", acceleration_range);
-        }
-        if (e.kind == ExcitationKind::harmonic)
-            read_harmonic(keys, e);
-        break;
-    }
-    e.tail_s = keys.maybe_number("tail_s", tail_range);
-    return e;
 }
 
 Axis read_axis(const KeyReader& surface, std::string_view key, const Range& range)

@@ -1,0 +1,12 @@
+#pragma once
+/// The [structure] of a study file.
+
+#include "ensemble/study.hpp"
+#include "io/key_reader.hpp"
+
+namespace stylobate {
+
+/// @throws InputError naming the key
+StructureSpec read_structure(const KeyReader& keys);
+
+} // namespace stylobate
