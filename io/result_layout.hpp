@@ -44,11 +44,18 @@ void visit_fields(Row& row, F&& f)
     f("outcome/invalid_reason", "", o.invalid_reason);
     f("outcome/collapse_time_s", "s", o.collapse_time_s);
     f("outcome/first_collapse_block", "", o.first_collapse_block);
+    f("outcome/fallen_blocks", "", o.fallen_blocks);
+    f("outcome/unseated_block", "", o.unseated_block);
+    f("outcome/unseating_time_s", "s", o.unseating_time_s);
+    f("outcome/total_collapse_time_s", "s", o.total_collapse_time_s);
     f("outcome/peak_top_displacement_m", "m", o.peak_top_displacement_m);
     f("outcome/residual_top_displacement_m", "m", o.residual_top_displacement_m);
+    f("outcome/top_path_m", "m", o.top_path_m);
     f("outcome/total_sliding_m", "m", o.total_sliding_m);
-    f("outcome/total_rocking_rad", "rad", o.total_rocking_rad);
     f("outcome/sliding_path_m", "m", o.sliding_path_m);
+    f("outcome/residual_sliding_m", "m", o.residual_sliding_m);
+    f("outcome/total_rocking_rad", "rad", o.total_rocking_rad);
+    f("outcome/rocking_path_rad", "rad", o.rocking_path_rad);
     f("outcome/max_relative_rotation_rad", "rad", o.max_relative_rotation_rad);
     f("outcome/energy_kinetic_j", "J", o.energy_kinetic_j);
     f("outcome/energy_potential_j", "J", o.energy_potential_j);
@@ -61,7 +68,7 @@ void visit_fields(Row& row, F&& f)
     f("outcome/step_s", "s", o.step_s);
     f("outcome/steps", "", o.steps);
 }
-static_assert(sizeof(Outcome) == 152, "a field that comes to Outcome or leaves it does so in visit_fields() too");
+static_assert(sizeof(Outcome) == 224, "a field that comes to Outcome or leaves it does so in visit_fields() too");
 
 enum class Stored { state, invalid_reason, i32, u64, f64 };
 
