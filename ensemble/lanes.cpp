@@ -26,6 +26,9 @@ constexpr double fall_time = 1;
 constexpr double energy_bound = 0.25;
 // Chunks between two audits: they cost as much as several steps.
 constexpr std::uint64_t audit_chunks = 16;
+// How far a block may stray before close pairs are looked for again, as a part of the smallest half size: small enough
+// that what stands apart stays out of the list, large enough that looking is rare.
+constexpr double skin_part = 0.25;
 
 double* allocate(std::size_t doubles)
 {
@@ -41,6 +44,18 @@ std::uint64_t whole_chunks(double time_s, double step_s)
 {
     const double chunks = std::ceil(time_s / step_s / chunk_steps);
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(chunks)) * chunk_steps;
+}
+
+/// `face_offset` of every bed [m].
+std::vector<double> bed_offsets(const Realization& r, const std::vector<BlockMotion>& moved)
+{
+    std::vector<double> offsets;
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+        const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
+        offsets.push_back(face_offset(r.blocks[l], moved[l], r.blocks[u], moved[u]));
+    }
+    return offsets;
 }
 
 } // namespace
@@ -74,10 +89,12 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     topology_.blocks = static_cast<int>(order_.size());
     topology_.top = topology_.blocks - 1;
     topology_.joints = static_cast<int>(joints_.size());
+    topology_.watched = pattern.watched;
     topology_.joint = joints_.data();
+    close_.resize(static_cast<std::size_t>(topology_.watched));
 
     memory_.reset(allocate(bundle_registers(topology_) * lanes_));
-    bundle_ = bind_bundle(topology_, kernels_.lanes, memory_.get());
+    bundle_ = bind_bundle(topology_, kernels_.lanes, memory_.get(), close_.data());
     parameters_memory_.reset(allocate(9 * lanes_));
     double* p = parameters_memory_.get();
     for (double** array : {&parameters_.cycles_per_step, &parameters_.amplitude_m, &parameters_.cycles,
@@ -130,7 +147,8 @@ void LaneSet::store_state(int lane, const Realization& r)
         const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
         const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
         bundle_.at(OfJoint::reference_x, k, lane) = upper.x_m - lower.x_m;
-        bundle_.at(OfJoint::height, k, lane) = lower.half_height_m + upper.half_height_m;
+        bundle_.at(OfJoint::height, k, lane) =
+            k < topology_.beds() ? lower.half_height_m + upper.half_height_m : upper.y_m - lower.y_m;
         bundle_.at(OfJoint::depth_limit, k, lane) = 0.1 * std::min(lower.half_height_m, upper.half_height_m);
         bundle_.at(OfJoint::K_n, k, lane) = joint.normal_stiffness_n_m2;
         bundle_.at(OfJoint::K_t, k, lane) = joint.tangential_stiffness_n_m;
@@ -147,6 +165,7 @@ void LaneSet::store_state(int lane, const Realization& r)
     }
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
     bundle_.at(OfRealization::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
+    bundle_.at(OfRealization::skin, lane) = skin_part * places_[static_cast<std::size_t>(lane)].scales.least_size_m;
 }
 
 /// The increments before the first step: U(-dt) = U0 + a0 dt2 / 2 for a start from rest, a0 by one trial step of the
@@ -155,7 +174,7 @@ void LaneSet::first_increments(int lane)
 {
     const std::size_t registers = bundle_registers(topology_) - chunk_steps; // the table of base motion stays at 0
     const std::unique_ptr<double[], AlignedFree> memory(allocate(registers + chunk_steps));
-    const Bundle one = bind_bundle(topology_, 1, memory.get());
+    const Bundle one = bind_bundle(topology_, 1, memory.get(), close_.data());
     for (std::size_t i = 0; i < registers; ++i)
         memory[i] = memory_[i * lanes_ + static_cast<std::size_t>(lane)];
     kernels(Isa::scalar).run(topology_, one, 0, 1);
@@ -182,8 +201,6 @@ void LaneSet::load(int lane, Realization realization)
     place.realization = std::move(realization);
     const Realization& r = place.realization;
     place.scales = scales_of(r);
-    const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
-    place.base_top_m = base.y_m + base.half_height_m;
     place.motion = BaseMotion(study_.excitation, r, record_);
     place.motion.store(parameters_, lane);
 
@@ -192,9 +209,13 @@ void LaneSet::load(int lane, Realization realization)
     const double tail = shaken ? study_.excitation.tail_s.value_or(tail_after_shaking(r)) : 0;
     place.last_step = whole_chunks(place.shaking_end_s + tail, r.step_s);
     place.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
-    place.fall_steps = whole_chunks(fall_time / place.scales.p_rad_s, r.step_s);
+    const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
+    place.limits = LimitStates(r, study_.outcome, base.y_m + base.half_height_m,
+                               whole_chunks(fall_time / place.scales.p_rad_s, r.step_s));
     store_state(lane, r);
     first_increments(lane);
+    read_motion(lane);
+    place.start_offset_m = bed_offsets(r, place.moved);
     place.start_top_x_m = bundle_.at(OfBlock::x, topology_.top, lane);
 }
 
@@ -252,21 +273,13 @@ double LaneSet::audit(int lane, Outcome& o) const
     return lacks / (place.scales.barrier_j + std::fabs(o.energy_friction_j) + std::fabs(o.energy_damping_j));
 }
 
-int LaneSet::fallen_block(int lane, bool& for_good) const
+void LaneSet::read_motion(int lane)
 {
-    const Place& place = places_[static_cast<std::size_t>(lane)];
-    int first = -1;
-    for_good = false;
-    for (int k = topology_.fixed; k < topology_.blocks; ++k) {
-        const int block = order_[static_cast<std::size_t>(k)];
-        const double rest = place.realization.blocks[static_cast<std::size_t>(block)].y_m - place.base_top_m;
-        const bool low = rest + bundle_.at(OfBlock::y, k, lane) < study_.outcome.collapse_height_fraction * rest;
-        const bool turned = std::fabs(bundle_.at(OfBlock::theta, k, lane)) > place.scales.rotation_rad;
-        for_good = for_good || low;
-        if (first < 0 && (low || turned))
-            first = block;
-    }
-    return first;
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    place.moved.resize(place.realization.blocks.size());
+    for (int k = topology_.fixed; k < topology_.blocks; ++k)
+        place.moved[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = {
+            bundle_.at(OfBlock::x, k, lane), bundle_.at(OfBlock::y, k, lane), bundle_.at(OfBlock::theta, k, lane)};
 }
 
 void LaneSet::look(int lane)
@@ -276,25 +289,16 @@ void LaneSet::look(int lane)
     place.steps += chunk_steps;
     first_step_[lane] = static_cast<double>(place.steps);
 
+    read_motion(lane);
     double sum = 0.5 * bundle_.at(OfRealization::kinetic, lane);
-    for (int k = topology_.fixed; k < topology_.blocks; ++k)
-        sum += bundle_.at(OfBlock::x, k, lane) + bundle_.at(OfBlock::y, k, lane) + bundle_.at(OfBlock::theta, k, lane);
+    for (const BlockMotion& moved : place.moved)
+        sum += moved.x_m + moved.y_m + moved.theta_rad;
     if (!std::isfinite(sum))
         return end(lane, State::invalid, InvalidReason::not_finite);
 
-    bool for_good = false;
-    const int block = fallen_block(lane, for_good);
-    if (block < 0) {
-        place.falling = false;
-    } else {
-        if (!place.falling) {
-            place.falling = true;
-            place.falling_since = place.steps;
-            place.falling_block = block;
-        }
-        if (for_good || place.steps - place.falling_since >= place.fall_steps)
-            return end(lane, State::collapsed, InvalidReason::none);
-    }
+    place.limits.look(place.realization, place.steps, place.moved);
+    if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)
+        return end(lane, State::collapsed, InvalidReason::none);
 
     if (place.steps % (audit_chunks * chunk_steps) == 0) {
         Outcome trial;
@@ -307,7 +311,7 @@ void LaneSet::look(int lane)
     const double slip = bundle_.at(OfRealization::slip, lane) - place.slip_m;
     place.slip_m += slip;
     const bool slips = slip > rest_slip * place.scales.width_m * place.scales.p_rad_s * chunk_steps * dt;
-    if (time >= place.shaking_end_s && block < 0 && !slips &&
+    if (time >= place.shaking_end_s && !place.limits.undecided() && !slips &&
         std::fabs(kinetic) < rest_energy * place.scales.barrier_j) {
         if (!place.quiet) {
             place.quiet_since = place.steps;
@@ -322,8 +326,10 @@ void LaneSet::look(int lane)
     }
     const bool at_rest = study_.excitation.kind != ExcitationKind::none && place.quiet &&
                          place.steps - place.quiet_since >= place.rest_steps;
-    if (at_rest || place.steps >= place.last_step)
-        end(lane, place.falling ? State::collapsed : State::stood, InvalidReason::none);
+    if (at_rest || place.steps >= place.last_step) {
+        place.limits.conclude(place.realization);
+        end(lane, place.limits.fallen() ? State::collapsed : State::stood, InvalidReason::none);
+    }
 }
 
 void LaneSet::end(int lane, State state, InvalidReason reason)
@@ -338,9 +344,14 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     const double top =
         place.quiet ? place.quiet_top_m / place.quiet_looks : bundle_.at(OfBlock::x, topology_.top, lane);
     o.residual_top_displacement_m = top - place.start_top_x_m;
+    o.top_path_m = bundle_.at(OfRealization::top_path, lane);
     o.total_sliding_m = bundle_.at(OfRealization::slip, lane);
     o.sliding_path_m = bundle_.at(OfRealization::path, lane);
-    for (int j = 0; j < topology_.joints; ++j) {
+    o.rocking_path_rad = bundle_.at(OfRealization::rocking_path, lane);
+    const std::vector<double> offsets = bed_offsets(r, place.moved);
+    for (std::size_t j = 0; j < offsets.size(); ++j)
+        o.residual_sliding_m += std::fabs(offsets[j] - place.start_offset_m[j]);
+    for (int j = 0; j < topology_.beds(); ++j) {
         const double rotation = bundle_.at(OfJoint::max_rotation, j, lane);
         o.total_rocking_rad += rotation;
         o.max_relative_rotation_rad = std::max(o.max_relative_rotation_rad, rotation);
@@ -350,10 +361,9 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
         state = State::invalid;
         reason = InvalidReason::energy;
     }
-    if (state == State::collapsed) {
-        o.collapse_time_s = static_cast<double>(place.falling_since) * r.step_s;
-        o.first_collapse_block = place.falling_block;
-    } else if (state == State::stood) {
+    // of one that was set aside nothing is said
+    (state == State::invalid ? LimitStates(r, study_.outcome, 0, 0) : place.limits).write(r, o);
+    if (state == State::stood) {
         // the dominant of the two ways of moving, by the displacement that each stands for at the edge of a drum
         const bool rocks = o.max_relative_rotation_rad > study_.outcome.rocking_threshold_rad;
         const bool slides = o.total_sliding_m > study_.outcome.sliding_threshold * place.scales.width_m;

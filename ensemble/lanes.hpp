@@ -2,6 +2,7 @@
 /// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
 
 #include "ensemble/base_motion.hpp"
+#include "ensemble/limit_states.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/scales.hpp"
 #include "ensemble/study.hpp"
@@ -59,14 +60,13 @@ private:
         std::uint64_t last_step = 0;  ///< a multiple of chunk_steps
         std::uint64_t rest_steps = 0; ///< needed in a row
         std::uint64_t quiet_since = 0;
-        std::uint64_t fall_steps = 0; ///< needed in a row
-        std::uint64_t falling_since = 0;
         double slip_m = 0;      ///< at the last look
         double quiet_top_m = 0; ///< sum over the looks since then
         int quiet_looks = 0;
-        bool quiet = false, falling = false;
-        int falling_block = -1;
-        double base_top_m = 0;
+        bool quiet = false;
+        LimitStates limits;
+        std::vector<BlockMotion> moved;     ///< (blocks) at the last look
+        std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
         double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0;
         double start_top_x_m = 0;
     };
@@ -79,9 +79,8 @@ private:
     double audit(int lane, Outcome& outcome) const;
     /// After every chunk: not finite? fallen? energy out of balance? at rest, or out of time?
     void look(int lane);
-    /// The lowest block that is below its limit of height or turned beyond the limit of rotation, -1 if there is none.
-    /// `for_good` if any is too low: it cannot come back; one that has only turned may.
-    int fallen_block(int lane, bool& for_good) const;
+    /// Where the blocks are, into `Place::moved`.
+    void read_motion(int lane);
     void end(int lane, State state, InvalidReason reason);
 
     const Study& study_;
@@ -91,6 +90,7 @@ private:
     std::vector<int> order_;    ///< kernel's block -> realization's block: the fixed ones first
     std::vector<int> place_of_; ///< realization's block -> kernel's block, -1 for one that touches no free block
     std::vector<TopologyJoint> joints_;
+    std::vector<int> close_; ///< for the kernel
     Topology topology_;
     struct AlignedFree {
         void operator()(double* p) const;

@@ -6,13 +6,14 @@
 namespace stylobate {
 
 struct Scales {
-    double p_rad_s = 0;      ///< sqrt(3 g / (4 R)), R half the diagonal of the whole free structure
-    double barrier_j = 0;    ///< least energy that topples any part of the stack as one body about its edge
-    double rotation_rad = 0; ///< largest slenderness angle atan(b / h) of the free blocks
-    double width_m = 0;      ///< mean width of the free blocks
+    double p_rad_s = 0;      ///< sqrt(3 g / (4 R)), R half the diagonal of a whole column of the free drums
+    double barrier_j = 0;    ///< least energy that topples any part of a column, or an epistyle, about its edge
+    double width_m = 0;      ///< mean width of the free drums
+    double least_size_m = 0; ///< smallest half size of the free blocks
 };
 
-/// @pre at least one free block and one joint
+/// @pre at least one free drum and one bed; each free drum is the upper block of exactly one bed, and the beds of a
+///      column come from the bottom up
 Scales scales_of(const Realization& realization);
 
 } // namespace stylobate

@@ -1,6 +1,6 @@
 #include "ensemble/static_state.hpp"
 
-#include "kernels/overlap.hpp"
+#include "ensemble/settle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,32 @@ namespace stylobate {
 
 namespace {
 
-struct Pose {
-    double x, y, theta; ///< centre in the frame of the base, rotation
-};
+const Block& upper_of(const Realization& r, int bed)
+{
+    return r.blocks[static_cast<std::size_t>(r.joints[static_cast<std::size_t>(bed)].upper)];
+}
 
-/// What rests on a joint.
+bool is_one_column(const Realization& r)
+{
+    return std::all_of(r.blocks.begin(), r.blocks.end(), [](const Block& block) {
+        return block.role == BlockRole::ground || (block.role == BlockRole::drum && block.column == 0);
+    });
+}
+
+/// What of its own column rests on a bed.
 struct Load {
-    double weight; ///< across the joint [N]
+    double weight; ///< across the bed [N]
     double x, y;   ///< centre of mass in the reference stack
 };
 
-Load load_above(const Realization& r, std::size_t joint)
+Load load_above(const Realization& r, int bed)
 {
+    const int column = upper_of(r, bed).column;
     double mass = 0, x = 0, y = 0;
-    for (std::size_t j = joint; j < r.joints.size(); ++j) {
-        const Block& block = r.blocks[static_cast<std::size_t>(r.joints[j].upper)];
+    for (int j = bed; j < r.beds(); ++j) {
+        const Block& block = upper_of(r, j);
+        if (block.column != column || block.role != BlockRole::drum)
+            continue;
         mass += block.mass_kg;
         x += block.mass_kg * block.x_m;
         y += block.mass_kg * block.y_m;
@@ -50,62 +61,119 @@ Bedding bedding(double K, double L, double N, double e)
     return {edge_depth - rotation * L / 2, e > 0 ? -rotation : rotation};
 }
 
-Overlap<double> overlap_of(const Block& lower, const Pose& l, const Block& upper, const Pose& u)
+/// Lowers some blocks, by bisection, until the beds between them and the others carry a weight.
+void sink(const Realization& r, std::vector<Pose>& poses, const std::vector<bool>& moved, double weight, double reach)
 {
-    const double sine = std::sin(u.theta - l.theta), cosine = std::cos(u.theta - l.theta);
-    // bottom face of the upper block, then into the lower block's frame with its origin in the top face
-    const double bx = u.x + upper.half_height_m * std::sin(u.theta) - l.x;
-    const double by = u.y - upper.half_height_m * std::cos(u.theta) - l.y;
-    const double x = bx * std::cos(l.theta) + by * std::sin(l.theta);
-    const double y = -bx * std::sin(l.theta) + by * std::cos(l.theta) - lower.half_height_m;
-    return general_overlap<double>({x, -y, sine, cosine},
-                                   {lower.half_width_m, lower.half_height_m, upper.half_width_m, upper.half_height_m});
-}
-
-/// Turns the free blocks about the lowest one's corner, then lowers them until the base carries their weight.
-void lean(const Realization& r, std::vector<Pose>& poses)
-{
-    const Joint& base = r.joints.front();
-    const auto lower = static_cast<std::size_t>(base.lower), upper = static_cast<std::size_t>(base.upper);
-    const Block& foot = r.blocks[upper];
-    const double side = r.initial_tilt_rad > 0 ? -1 : 1;
-    const Pose& p = poses[upper];
-    const double sine = std::sin(r.initial_tilt_rad), cosine = std::cos(r.initial_tilt_rad);
-    const double corner_x = p.x + side * foot.half_width_m * std::cos(p.theta) + foot.half_height_m * std::sin(p.theta);
-    const double corner_y = p.y + side * foot.half_width_m * std::sin(p.theta) - foot.half_height_m * std::cos(p.theta);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        if (r.blocks[i].fixed)
-            continue;
-        const double dx = poses[i].x - corner_x, dy = poses[i].y - corner_y;
-        poses[i].x = corner_x + cosine * dx - sine * dy;
-        poses[i].y = corner_y + sine * dx + cosine * dy;
-        poses[i].theta += r.initial_tilt_rad;
-    }
-    const double weight = load_above(r, 0).weight;
-    double high = foot.half_height_m, low = -foot.half_height_m; // shift: in the air, and far too deep
+    double high = reach, low = -reach; // shift: in the air, and far too deep
     for (int i = 0; i < 200; ++i) {
         const double shift = 0.5 * (high + low);
-        Pose moved = poses[upper];
-        moved.y += shift;
-        const double force = base.normal_stiffness_n_m2 * overlap_of(r.blocks[lower], poses[lower], foot, moved).area;
+        double force = 0;
+        for (int j = 0; j < r.beds(); ++j) {
+            const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+            const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
+            if (moved[l] || !moved[u])
+                continue;
+            Pose pose = poses[u];
+            pose.y += shift;
+            force += joint.normal_stiffness_n_m2 * overlap_of(r.blocks[l], poses[l], r.blocks[u], pose).area;
+        }
         (force > weight ? low : high) = shift;
     }
     for (std::size_t i = 0; i < poses.size(); ++i)
-        if (!r.blocks[i].fixed)
+        if (moved[i])
             poses[i].y += low;
 }
 
-} // namespace
-
-StaticState static_state(const Realization& r)
+/// Corner of a block: `side` -1 left, 1 right; `end` -1 bottom, 1 top.
+Pose corner(const Block& block, const Pose& p, double side, double end)
 {
-    std::vector<Pose> poses;
-    for (const Block& block : r.blocks)
-        poses.push_back({block.x_m, block.y_m, 0});
-    StaticState state;
+    const double sine = std::sin(p.theta), cosine = std::cos(p.theta);
+    const double x = side * block.half_width_m, y = end * block.half_height_m;
+    return {p.x + x * cosine - y * sine, p.y + x * sine + y * cosine, 0};
+}
+
+/// Weight that the epistyles bring onto a column, each shared equally by its seats [N].
+double epistyle_share(const Realization& r, int column)
+{
+    double mass = 0;
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+        if (upper_of(r, j).role != BlockRole::epistyle ||
+            r.blocks[static_cast<std::size_t>(joint.lower)].column != column)
+            continue;
+        int seats = 0;
+        for (int k = 0; k < r.beds(); ++k)
+            seats += r.joints[static_cast<std::size_t>(k)].upper == joint.upper ? 1 : 0;
+        mass += upper_of(r, j).mass_kg / seats;
+    }
+    return mass * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
+}
+
+/// Turns the columns from `initial_tilt_block` up about that block's corner, sinks them in, and puts the epistyles on.
+void lean(const Realization& r, std::vector<Pose>& poses)
+{
+    const double side = r.initial_tilt_rad > 0 ? -1 : 1;
+    const double sine = std::sin(r.initial_tilt_rad), cosine = std::cos(r.initial_tilt_rad);
+    std::vector<Pose> before = poses;
+    std::vector<int> drums_seen; // of each column
+    for (int bed = 0; bed < r.beds(); ++bed) {
+        const Block& foot = upper_of(r, bed);
+        if (foot.role != BlockRole::drum)
+            continue;
+        const auto column = static_cast<std::size_t>(foot.column);
+        drums_seen.resize(std::max(drums_seen.size(), column + 1), 0);
+        const auto upper = static_cast<std::size_t>(r.joints[static_cast<std::size_t>(bed)].upper);
+        int place = 0; // of the block in its column
+        for (std::size_t i = 0; i < upper; ++i)
+            place += r.blocks[i].role == BlockRole::drum && r.blocks[i].column == foot.column ? 1 : 0;
+        const bool pivot = place >= r.initial_tilt_block && drums_seen[column]++ == 0;
+        if (!pivot)
+            continue;
+        const Pose about = corner(foot, poses[upper], side, -1);
+        std::vector<bool> moved(poses.size(), false);
+        for (int j = bed; j < r.beds(); ++j) {
+            const auto i = static_cast<std::size_t>(r.joints[static_cast<std::size_t>(j)].upper);
+            if (r.blocks[i].role != BlockRole::drum || r.blocks[i].column != foot.column)
+                continue;
+            moved[i] = true;
+            const double dx = poses[i].x - about.x, dy = poses[i].y - about.y;
+            poses[i].x = about.x + cosine * dx - sine * dy;
+            poses[i].y = about.y + sine * dx + cosine * dy;
+            poses[i].theta += r.initial_tilt_rad;
+        }
+        sink(r, poses, moved, load_above(r, bed).weight + epistyle_share(r, foot.column), foot.half_height_m);
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (r.blocks[i].role != BlockRole::epistyle)
+            continue;
+        // it goes where the risen corners of its seats went, on the mean
+        double x = 0, y = 0;
+        int seats = 0;
+        for (int j = 0; j < r.beds(); ++j) {
+            const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+            if (static_cast<std::size_t>(joint.upper) != i)
+                continue;
+            const auto l = static_cast<std::size_t>(joint.lower);
+            const Pose now = corner(r.blocks[l], poses[l], -side, 1), then = corner(r.blocks[l], before[l], -side, 1);
+            x += now.x - then.x;
+            y += now.y - then.y;
+            ++seats;
+        }
+        poses[i].x += x / seats;
+        poses[i].y += y / seats;
+        std::vector<bool> moved(poses.size(), false);
+        moved[i] = true;
+        sink(r, poses, moved, r.blocks[i].mass_kg * r.gravity_m_s2 * std::cos(r.base_tilt_rad),
+             r.blocks[i].half_height_m);
+    }
+}
+
+/// A single column, bed by bed from the bottom.
+void stack_up(const Realization& r, std::vector<Pose>& poses, StaticState& state)
+{
     const double slope = std::tan(r.base_tilt_rad);
-    for (std::size_t j = 0; j < r.joints.size(); ++j) {
-        const Joint& joint = r.joints[j];
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
         const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
         const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
         const double left = std::max(lower.x_m - lower.half_width_m, upper.x_m - upper.half_width_m);
@@ -128,6 +196,21 @@ StaticState static_state(const Realization& r)
         const double limit = joint.friction * load.weight;
         state.spring_n.push_back(std::clamp(load.weight * slope, -limit, limit));
     }
+}
+
+} // namespace
+
+StaticState static_state(const Realization& r)
+{
+    std::vector<Pose> poses;
+    for (const Block& block : r.blocks)
+        poses.push_back({block.x_m, block.y_m, 0});
+    StaticState state;
+    if (is_one_column(r))
+        stack_up(r, poses, state);
+    else
+        settle(r, poses, state.spring_n);
+    state.spring_n.resize(r.joints.size(), 0);
     if (r.initial_tilt_rad != 0)
         lean(r, poses);
     for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -15,13 +15,16 @@ struct StaticState {
     std::vector<double> spring_n;  ///< (joints) elastic part of F_T
 };
 
-/// Each joint presses by the weight above it, with the tilt that its eccentricity gives a bed without tension; the
-/// friction carries the slope of a base out of level. Starting from the reference stack instead would make it bounce.
+/// A single column is statically determinate: each bed presses by the weight above it, with the tilt that its
+/// eccentricity gives a bed without tension, and the friction carries the slope of a base out of level. A colonnade is
+/// not: there the equilibrium of the contact forces themselves is found (`settle`), friction counted from the reference
+/// stack on. Starting from the reference stack instead would make the structure bounce.
 ///
-/// With `initial_tilt_rad` the free blocks then turn as one rigid body about the lower corner of the lowest one, which
-/// sinks in until the base carries the weight.
+/// With `initial_tilt_rad` each column, from `initial_tilt_block` up, then turns as one rigid body about the lower
+/// corner of that block, which sinks in until the bed carries what is above. Epistyles are carried along, level, on the
+/// corners that have risen.
 ///
-/// @pre the joints are a stack from the bottom up: each free block is the upper block of exactly one joint
+/// @pre each free drum is the upper block of exactly one bed, and the beds of a column come from the bottom up
 StaticState static_state(const Realization& realization);
 
 } // namespace stylobate

@@ -65,6 +65,16 @@ double edge_rate(const std::vector<Block>& blocks, const Joint& joint, double x)
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()(1);
 }
 
+/// Largest eigenvalue of M^-1 K of a block that is held on both its long faces by full contacts [1/s2].
+double caught_between(const Block& block, const Joint& joint)
+{
+    const double face = 2 * std::max(block.half_width_m, block.half_height_m);
+    const double arm = std::min(block.half_width_m, block.half_height_m);
+    const double k_n = joint.normal_stiffness_n_m2 * face, k_t = joint.tangential_stiffness_n_m;
+    return 2 * std::max({k_n / block.mass_kg, k_t / block.mass_kg,
+                         (k_n * face * face / 12 + k_t * arm * arm) / block.inertia_kg_m2});
+}
+
 } // namespace
 
 const char* to_string(StepLimit limit)
@@ -80,13 +90,15 @@ const char* to_string(StepLimit limit)
     return "?";
 }
 
-StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints)
+StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched)
 {
-    assert(!joints.empty() && "a structure without a joint has no step bound");
+    const std::size_t beds = joints.size() - static_cast<std::size_t>(watched);
+    assert(beds > 0 && "a structure without a bed has no step bound");
     std::vector<Eigen::Matrix3d> stiffness(blocks.size(), Eigen::Matrix3d::Zero());
     double beta = 0;
     double rate = 0;
-    for (const Joint& joint : joints) {
+    for (std::size_t j = 0; j < beds; ++j) {
+        const Joint& joint = joints[j];
         const FullContact contact = full_contact(blocks, joint);
         for (const bool upper : {false, true}) {
             const std::size_t b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
@@ -103,6 +115,27 @@ StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>&
 
     StepBound bound;
     double w2 = 0;
+    for (std::size_t j = beds; j < joints.size(); ++j) {
+        const Joint& joint = joints[j];
+        assert(joint.damping_chord_m > 0 && "the dashpots of a watched pair go with its length");
+        const auto long_face = [&](int b) {
+            const Block& block = blocks[static_cast<std::size_t>(b)];
+            return 2 * std::max(block.half_width_m, block.half_height_m);
+        };
+        const double length = std::min(long_face(joint.lower), long_face(joint.upper)) / joint.damping_chord_m;
+        beta = std::max({beta, joint.normal_damping_n_s_m / (joint.normal_stiffness_n_m2 * joint.damping_chord_m),
+                         length * joint.tangential_damping_n_s_m / joint.tangential_stiffness_n_m});
+        for (const int b : {joint.lower, joint.upper}) {
+            const Block& block = blocks[static_cast<std::size_t>(b)];
+            if (block.fixed)
+                continue;
+            const double held = caught_between(block, joint);
+            if (2 * held > w2) {
+                w2 = 2 * held;
+                bound.block = b;
+            }
+        }
+    }
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         if (blocks[b].fixed)
             continue;
@@ -128,8 +161,10 @@ StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>&
     return bound;
 }
 
-LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2)
+LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
+                               int watched)
 {
+    const std::size_t beds = joints.size() - static_cast<std::size_t>(watched);
     // unknowns: (x, y, theta) of each free block
     std::vector<Eigen::Index> first(blocks.size(), -1);
     Eigen::Index size = 0;
@@ -142,8 +177,8 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
 
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(size, size);
     Eigen::MatrixXd C = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd opening = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(joints.size()));
-    for (std::size_t j = 0; j < joints.size(); ++j) {
+    Eigen::MatrixXd opening = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(beds));
+    for (std::size_t j = 0; j < beds; ++j) {
         const Joint& joint = joints[j];
         const FullContact contact = full_contact(blocks, joint);
         Eigen::VectorXd slide = Eigen::VectorXd::Zero(size);
@@ -176,7 +211,7 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
 
     // what each joint carries at rest, and what that takes from the rotational stiffness of its blocks
     const Eigen::VectorXd settled = K.ldlt().solve(weight);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
+    for (std::size_t j = 0; j < beds; ++j) {
         const double carried =
             -full_contact(blocks, joints[j]).k_n * opening.col(static_cast<Eigen::Index>(j)).dot(settled);
         for (const int block : {joints[j].lower, joints[j].upper}) {

@@ -49,8 +49,12 @@ struct StepBound {
 /// C_T) is below 1 (G: 2 x 2, both blocks, at the corner where it is largest). A block that is held at edges by two
 /// joints at once then has at most 2, which is where the scheme becomes unstable.
 ///
-/// @pre at least one joint; stiffnesses, sizes and masses above 0
-StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints);
+/// Watched pairs (the last `watched` joints): what falls can be caught between two others on its long faces, so such a
+/// block counts as if full contacts of the pair's stiffness held both of them. Their dashpots go with the contact's
+/// length, at most the shorter of the two blocks' long faces.
+///
+/// @pre at least one bed; stiffnesses, sizes and masses above 0; watched pairs have `damping_chord_m` > 0
+StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched = 0);
 
 /// The linear vibrations of the whole structure about its static equilibrium, all contacts full, no slip.
 struct LinearResponse {
@@ -65,7 +69,8 @@ struct LinearResponse {
 /// takes N H / 2 from its rotational stiffness.
 ///
 /// @param gravity_m_s2 0 leaves the weight out
-/// @pre as above, and every free block is connected to a fixed one by joints
-LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2);
+/// @pre as above, and every free block is connected to a fixed one by beds; watched pairs are left out
+LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
+                               int watched = 0);
 
 } // namespace stylobate

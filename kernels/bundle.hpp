@@ -47,7 +47,7 @@ struct OfJoint {
         max_rotation,  ///< largest |relative rotation| so far [rad]; step
         elastic,       ///< energy of the normal spring at the last step of a chunk [J]; step
         reference_x,   ///< upper centre - lower centre in the reference stack [m]
-        height,        ///< the same upwards: sum of the half heights [m]
+        height,        ///< the same upwards [m]; of a bed the sum of the half heights
         depth_limit,   ///< of the closed form of the overlap [m]
         K_n,           ///< [N/m2]
         K_t,           ///< [N/m]
@@ -67,25 +67,40 @@ struct OfRealization {
         gravity_dx,      ///< dt2 x horizontal gravity (base out of level) [m]
         gravity_dy,      ///< dt2 x vertical gravity, negative [m]
         base_step,       ///< second difference of the base displacement in the last step [m]; step
-        slip,            ///< sum over joints and time of the slip while slipping [m]; step
-        path,            ///< sum over joints and time of the relative path in contact [m]; step
+        slip,            ///< sum over beds and time of the slip while slipping [m]; step
+        path,            ///< sum over beds and time of the relative path in contact [m]; step
+        rocking_path,    ///< sum over beds and time of the path of the relative rotation [rad]; step
         friction_energy, ///< dissipated by slipping [J]; step
         dashpot_energy,  ///< 2 x what the normal dashpots dissipated [J]; step
         shear_energy,    ///< 2 x the work against F_T: slip, dashpot and tangential spring [J]; step
         base_energy,     ///< 2 dt2 x the work of the base [J s2]; step
         peak_top,        ///< largest |x| of the top block's centre [m]; step
+        top_path,        ///< sum over time of |dx| of the top block's centre [m]; step
+        skin,            ///< how far a block may stray before the close pairs are looked for again [m]
         kinetic,         ///< 2 dt2 x the kinetic energy at the last step of a chunk [J s2]; step
         potential,       ///< dt2 x the potential energy at the last step of a chunk [J s2]; step
         count
     };
 };
 
+/// Where a block was when the close pairs were last looked for; only there is with watched pairs.
+struct OfNeighbourhood {
+    enum Field : int {
+        x,     ///< [m] step
+        y,     ///< [m] step
+        theta, ///< [rad] step
+        count
+    };
+};
+
 struct Bundle {
     int lanes = 0;
-    double* blocks = nullptr;       ///< (blocks x OfBlock::count x lanes)
-    double* joints = nullptr;       ///< (joints x OfJoint::count x lanes)
-    double* realizations = nullptr; ///< (OfRealization::count x lanes)
-    double* base_table = nullptr;   ///< (chunk_steps x lanes) second difference of the base displacement [m]
+    double* blocks = nullptr;        ///< (blocks x OfBlock::count x lanes)
+    double* joints = nullptr;        ///< (joints x OfJoint::count x lanes)
+    double* realizations = nullptr;  ///< (OfRealization::count x lanes)
+    double* neighbourhood = nullptr; ///< (blocks x OfNeighbourhood::count x lanes), with watched pairs
+    int* close = nullptr;            ///< (watched) the close pairs, for the kernel alone
+    double* base_table = nullptr;    ///< (chunk_steps x lanes) second difference of the base displacement [m]
 
     double& at(OfBlock::Field field, int block, int lane) const
     {
@@ -101,20 +116,24 @@ struct Bundle {
 /// Registers that a bundle needs, each of `lanes` doubles.
 inline std::size_t bundle_registers(const Topology& topology)
 {
+    const int neighbourhood = topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + chunk_steps);
+                                    OfRealization::count + neighbourhood + chunk_steps);
 }
 
 /// Lays a bundle out.
 /// @param memory `bundle_registers` x lanes doubles, aligned to 64 bytes
-inline Bundle bind_bundle(const Topology& topology, int lanes, double* memory)
+/// @param close `topology.watched` integers; null where there are none
+inline Bundle bind_bundle(const Topology& topology, int lanes, double* memory, int* close = nullptr)
 {
     Bundle b;
     b.lanes = lanes;
     b.blocks = memory;
     b.joints = b.blocks + topology.blocks * OfBlock::count * lanes;
     b.realizations = b.joints + topology.joints * OfJoint::count * lanes;
-    b.base_table = b.realizations + OfRealization::count * lanes;
+    b.neighbourhood = b.realizations + OfRealization::count * lanes;
+    b.base_table = b.neighbourhood + (topology.watched > 0 ? topology.blocks * OfNeighbourhood::count * lanes : 0);
+    b.close = close;
     return b;
 }
 

@@ -11,6 +11,10 @@
 /// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory:
 /// neighbouring joints are independent within a phase, so that the processor works on several at once, where one pass
 /// from geometry to force would wait for each result in turn.
+///
+/// Beds go through the phases in every step. Watched pairs (`topology.hpp`) do where their bounding boxes meet; which
+/// pairs come so close is looked for only when a block has strayed. Neither changes a bit of the result: a pair that
+/// does not touch adds nothing, so it makes no difference whether it was worked on for a neighbour's sake.
 
 #include "kernels/bundle.hpp"
 #include "kernels/mechanism.hpp"
@@ -39,6 +43,15 @@ struct JointScratch {
     Real lower_arm_x, lower_arm_y; // faces -> forces: centroid from the blocks' centres, frame of the base
     Real upper_arm_x, upper_arm_y; //
     Real closing, sliding;         // faces -> forces
+    Real turning;                  // faces -> forces: relative rotation of the last step
+};
+
+/// The two kinds of joints, as the phases tell them apart.
+struct Bed {
+    static constexpr bool at_rest = true;
+};
+struct Pair {
+    static constexpr bool at_rest = false;
 };
 
 } // namespace detail
@@ -55,19 +68,19 @@ public:
     STYLOBATE_INLINE void run(int first, int last) const
     {
         detail::JointScratch<Real> scratch[detail::joint_group];
-        const int joints = topology_.joints;
+        const int beds = topology_.beds();
+        int close = 0;
         for (int step = first; step < last; ++step) {
             const bool audit = step + 1 == last;
             angles();
-            for (int begin = 0; begin < joints; begin += detail::joint_group) {
-                const int count = joints - begin < detail::joint_group ? joints - begin : detail::joint_group;
-                for (int j = 0; j < count; ++j)
-                    geometry(begin + j, scratch[j]);
-                for (int j = 0; j < count; ++j)
-                    overlap(begin + j, scratch[j], audit);
-                for (int j = 0; j < count; ++j)
-                    faces(begin + j, scratch[j]);
-                forces(begin, count, scratch);
+            for (int begin = 0; begin < beds; begin += detail::joint_group)
+                contacts<detail::Bed>(
+                    beds - begin < detail::joint_group ? beds - begin : detail::joint_group,
+                    [begin](int j) { return begin + j; }, scratch, audit);
+            if (topology_.watched > 0) {
+                if (step == first || strayed())
+                    close = look_around();
+                pairs(close, scratch, audit);
             }
             update(step, audit);
         }
@@ -80,6 +93,14 @@ private:
     STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
     STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
     STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * L::count]); }
+    STYLOBATE_INLINE Real get(OfNeighbourhood::Field f, int i) const
+    {
+        return L::load(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)]);
+    }
+    STYLOBATE_INLINE void put(OfNeighbourhood::Field f, int i, Real v) const
+    {
+        L::store(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)], v);
+    }
     STYLOBATE_INLINE void put(OfBlock::Field f, int i, Real v) const
     {
         L::store(&b_.blocks[row(i, OfBlock::count, f)], v);
@@ -94,6 +115,19 @@ private:
         return (static_cast<long>(i) * fields + f) * L::count;
     }
 
+    /// From geometry to forces, for `count` joints; `joint(j)` is the j-th of them.
+    template <class Kind, class JointOf>
+    STYLOBATE_INLINE void contacts(int count, JointOf joint, Scratch* scratch, bool audit) const
+    {
+        for (int j = 0; j < count; ++j)
+            geometry<Kind>(joint(j), scratch[j]);
+        for (int j = 0; j < count; ++j)
+            overlap<Kind>(joint(j), scratch[j], audit);
+        for (int j = 0; j < count; ++j)
+            faces(joint(j), scratch[j]);
+        forces<Kind>(count, joint, scratch);
+    }
+
     STYLOBATE_INLINE void angles() const
     {
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
@@ -106,7 +140,8 @@ private:
         }
     }
 
-    /// Relative placement from relative displacements and versines: nothing large cancels.
+    /// Relative placement. Of a bed from relative displacements and versines: nothing large cancels.
+    template <class Kind>
     STYLOBATE_INLINE void geometry(int joint, Scratch& s) const
     {
         const auto [lower, upper] = topology_.joint[joint];
@@ -124,21 +159,31 @@ private:
         s.place.sine = sine;
         s.place.cosine = one - versine;
         s.place.x = fma(x, cl, fma(y, sl, hu * sine));
-        s.place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
         s.apart_x = x;
         s.apart_y = y;
+        if constexpr (!Kind::at_rest) {
+            s.place.depth = fma(x, sl, fnma(y, cl, fma(hu, s.place.cosine, get(OfBlock::half_height, lower))));
+            return;
+        }
+        s.place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
         const Real rotation = abs_of(get(OfBlock::theta, upper) - get(OfBlock::theta, lower));
         put(OfJoint::max_rotation, joint, max_of(get(OfJoint::max_rotation, joint), rotation));
     }
 
+    template <class Kind>
     STYLOBATE_INLINE void overlap(int joint, Scratch& s, bool audit) const
     {
         const auto [lower, upper] = topology_.joint[joint];
         auto fits = s.place.sine < s.place.sine;
-        Overlap<Real> o = stacked_overlap(s.place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
-                                          get(OfJoint::depth_limit, joint), fits);
-        if (any(!fits)) [[unlikely]]
-            fall_back(joint, s.place, fits, o);
+        Overlap<Real> o;
+        if constexpr (Kind::at_rest) {
+            o = stacked_overlap(s.place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
+                                get(OfJoint::depth_limit, joint), fits);
+            if (any(!fits)) [[unlikely]]
+                fall_back(joint, s.place, fits, o);
+        } else {
+            o = general(joint, s.place);
+        }
 
         // one division for both: 1 / (area x chord)
         const Real zero(0.0);
@@ -156,6 +201,14 @@ private:
             put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
     }
 
+    STYLOBATE_INLINE Overlap<Real> general(int joint, const Placement<Real>& place) const
+    {
+        const auto [lower, upper] = topology_.joint[joint];
+        return general_overlap(place,
+                               PairSizes<Real>{get(OfBlock::half_width, lower), get(OfBlock::half_height, lower),
+                                               get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)});
+    }
+
     /// The general overlap, for the realizations whose closed form does not hold. Rare, so kept out of the way.
     template <class Mask>
 #if defined(__GNUC__)
@@ -164,10 +217,7 @@ private:
     void
     fall_back(int joint, const Placement<Real>& place, Mask fits, Overlap<Real>& o) const
     {
-        const auto [lower, upper] = topology_.joint[joint];
-        const Overlap<Real> g =
-            general_overlap(place, PairSizes<Real>{get(OfBlock::half_width, lower), get(OfBlock::half_height, lower),
-                                                   get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)});
+        const Overlap<Real> g = general(joint, place);
         o.area = select(fits, o.area, g.area);
         o.moment_x = select(fits, o.moment_x, g.moment_x);
         o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
@@ -194,6 +244,7 @@ private:
         const auto pressed = s.area > zero;
         s.closing = select(pressed, fnma(vx, nx, zero - vy * ny), zero);
         s.sliding = select(pressed, fms(vx, ny, vy * nx), zero);
+        s.turning = abs_of(wu - wl);
         s.normal_x = nx;
         s.normal_y = ny;
         s.lower_arm_x = lx;
@@ -202,13 +253,17 @@ private:
         s.upper_arm_y = uy;
     }
 
-    STYLOBATE_INLINE void forces(int begin, int count, const Scratch* scratch) const
+    /// The sums over a block take its joints in the order of the list. A pair adds to them only where it touches: so
+    /// they have the same bits whether or not it was worked on.
+    template <class Kind, class JointOf>
+    STYLOBATE_INLINE void forces(int count, JointOf joint_of, const Scratch* scratch) const
     {
         Real dashpot_energy = get(OfRealization::dashpot_energy), shear_energy = get(OfRealization::shear_energy);
         Real friction_energy = get(OfRealization::friction_energy);
         Real slip_sum = get(OfRealization::slip), path = get(OfRealization::path);
+        Real rocking_path = get(OfRealization::rocking_path);
         for (int j = 0; j < count; ++j) {
-            const int joint = begin + j;
+            const int joint = joint_of(j);
             const Scratch& s = scratch[j];
             const auto [lower, upper] = topology_.joint[joint];
             const JointLaw<Real> law{get(OfJoint::K_n, joint),        get(OfJoint::K_t, joint),
@@ -221,12 +276,16 @@ private:
 
             const Real fx = fms(f.normal, s.normal_x, f.tangential * s.normal_y);
             const Real fy = fma(f.normal, s.normal_y, f.tangential * s.normal_x);
-            put(OfBlock::force_x, upper, get(OfBlock::force_x, upper) + fx);
-            put(OfBlock::force_y, upper, get(OfBlock::force_y, upper) + fy);
-            put(OfBlock::moment, upper, get(OfBlock::moment, upper) + fms(s.upper_arm_x, fy, s.upper_arm_y * fx));
-            put(OfBlock::force_x, lower, get(OfBlock::force_x, lower) - fx);
-            put(OfBlock::force_y, lower, get(OfBlock::force_y, lower) - fy);
-            put(OfBlock::moment, lower, get(OfBlock::moment, lower) - fms(s.lower_arm_x, fy, s.lower_arm_y * fx));
+            const auto pressed = s.area > Real(0.0);
+            const auto sum = [&](OfBlock::Field field, int block, Real with) {
+                put(field, block, Kind::at_rest ? with : select(pressed, with, get(field, block)));
+            };
+            sum(OfBlock::force_x, upper, get(OfBlock::force_x, upper) + fx);
+            sum(OfBlock::force_y, upper, get(OfBlock::force_y, upper) + fy);
+            sum(OfBlock::moment, upper, get(OfBlock::moment, upper) + fms(s.upper_arm_x, fy, s.upper_arm_y * fx));
+            sum(OfBlock::force_x, lower, get(OfBlock::force_x, lower) - fx);
+            sum(OfBlock::force_y, lower, get(OfBlock::force_y, lower) - fy);
+            sum(OfBlock::moment, lower, get(OfBlock::moment, lower) - fms(s.lower_arm_x, fy, s.lower_arm_y * fx));
 
             // energy: the work of this step is its displacement times the mean of the forces at its two ends
             const Real dashpot = fnma(law.K_n, s.area, f.normal);
@@ -235,15 +294,91 @@ private:
             shear_energy = fma(f.tangential + get(OfJoint::shear_force, joint), s.sliding, shear_energy);
             put(OfJoint::shear_force, joint, f.tangential);
             const Real slip = f.excess * get(OfJoint::per_K_t, joint);
-            slip_sum = slip_sum + slip;
             friction_energy = fma(slip, law.mu * f.normal, friction_energy);
-            path = path + abs_of(s.sliding);
+            if constexpr (Kind::at_rest) {
+                slip_sum = slip_sum + slip;
+                path = path + abs_of(s.sliding);
+                rocking_path = rocking_path + s.turning;
+            }
         }
         put(OfRealization::dashpot_energy, dashpot_energy);
         put(OfRealization::shear_energy, shear_energy);
         put(OfRealization::friction_energy, friction_energy);
         put(OfRealization::slip, slip_sum);
         put(OfRealization::path, path);
+        put(OfRealization::rocking_path, rocking_path);
+    }
+
+    /// Whether a block of any realization has moved so far since `look_around` that a pair may have come close unseen.
+    STYLOBATE_INLINE bool strayed() const
+    {
+        const Real skin = get(OfRealization::skin);
+        auto far = skin < skin;
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            const Real x = abs_of(get(OfBlock::x, i) - get(OfNeighbourhood::x, i));
+            const Real y = abs_of(get(OfBlock::y, i) - get(OfNeighbourhood::y, i));
+            const Real turned = abs_of(get(OfBlock::theta, i) - get(OfNeighbourhood::theta, i));
+            const Real radius = get(OfBlock::half_width, i) + get(OfBlock::half_height, i);
+            far = far | (fma(radius, turned, max_of(x, y)) > skin);
+        }
+        return any(far);
+    }
+
+    /// Whether the bounding boxes of a pair are less than `margin` apart, or it still carries a force to be ended.
+    STYLOBATE_INLINE auto meets(int joint, Real margin) const
+    {
+        const auto [lower, upper] = topology_.joint[joint];
+        const Real one(1.0);
+        const Real sl = abs_of(get(OfBlock::sine, lower)), cl = abs_of(one - get(OfBlock::versine, lower));
+        const Real su = abs_of(get(OfBlock::sine, upper)), cu = abs_of(one - get(OfBlock::versine, upper));
+        const Real bl = get(OfBlock::half_width, lower), hl = get(OfBlock::half_height, lower);
+        const Real bu = get(OfBlock::half_width, upper), hu = get(OfBlock::half_height, upper);
+        const Real x = abs_of(get(OfJoint::reference_x, joint) + (get(OfBlock::x, upper) - get(OfBlock::x, lower)));
+        const Real y = abs_of(get(OfJoint::height, joint) + (get(OfBlock::y, upper) - get(OfBlock::y, lower)));
+        const Real reach_x = fma(bl, cl, fma(hl, sl, fma(bu, cu, hu * su)));
+        const Real reach_y = fma(bl, sl, fma(hl, cl, fma(bu, su, hu * cu)));
+        const Real carried = abs_of(get(OfJoint::spring, joint)) + abs_of(get(OfJoint::shear_force, joint)) +
+                             abs_of(get(OfJoint::dashpot_force, joint));
+        return ((x - reach_x < margin) & (y - reach_y < margin)) | (carried > Real(0.0));
+    }
+
+    /// Lists the pairs that can meet before a block has strayed by the skin: those less than two skins apart.
+    /// @return how many
+    STYLOBATE_INLINE int look_around() const
+    {
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            put(OfNeighbourhood::x, i, get(OfBlock::x, i));
+            put(OfNeighbourhood::y, i, get(OfBlock::y, i));
+            put(OfNeighbourhood::theta, i, get(OfBlock::theta, i));
+        }
+        const Real margin = get(OfRealization::skin) * Real(2.0);
+        int close = 0;
+        for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
+            if (any(meets(joint, margin)))
+                b_.close[close++] = joint;
+        return close;
+    }
+
+    /// The watched pairs that meet, in the order of the list.
+#if defined(__GNUC__)
+    __attribute__((noinline))
+#endif
+    void
+    pairs(int close, Scratch* scratch, bool audit) const
+    {
+        if (audit)
+            for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
+                put(OfJoint::elastic, joint, Real(0.0));
+        // boxes that touch to rounding are let in
+        const Real margin = get(OfRealization::skin) * Real(1e-3);
+        for (int next = 0; next < close;) {
+            int group[detail::joint_group], count = 0;
+            for (; next < close && count < detail::joint_group; ++next)
+                if (any(meets(b_.close[next], margin)))
+                    group[count++] = b_.close[next];
+            contacts<detail::Pair>(
+                count, [&group](int j) { return group[j]; }, scratch, audit);
+        }
     }
 
     /// Energies at the positions that the step starts from. The kinetic one is the product of the velocities half a
@@ -278,6 +413,7 @@ private:
         put(OfRealization::base_energy, fnma(both, momentum, get(OfRealization::base_energy)));
         put(OfRealization::base_step, base);
         put(OfRealization::peak_top, max_of(get(OfRealization::peak_top), abs_of(get(OfBlock::x, topology_.top))));
+        put(OfRealization::top_path, get(OfRealization::top_path) + abs_of(get(OfBlock::dx, topology_.top)));
         if (audit) {
             put(OfRealization::kinetic, kinetic);
             put(OfRealization::potential, potential);

@@ -1,5 +1,8 @@
 #pragma once
 /// Which blocks meet at which joints: a list, so that a column, a colonnade and a heap are the same to the kernel.
+///
+/// The list begins with the beds, on which blocks lie at rest: they are worked on in every step. Behind them come the
+/// watched pairs, blocks that lie on no common bed but may meet: they are worked on only while they are close.
 
 namespace stylobate {
 
@@ -17,6 +20,8 @@ struct Topology {
     int top = 0;   ///< block whose displacement is followed
     int joints = 0;
     const TopologyJoint* joint = nullptr; ///< (joints)
+    int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
+    int beds() const { return joints - watched; }
     int free_blocks() const { return blocks - fixed; }
 };
 

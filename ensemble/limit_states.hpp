@@ -1,0 +1,69 @@
+#pragma once
+/// What of a structure has fallen, in which order, and which epistyle has lost its seat.
+
+#include "ensemble/outcome.hpp"
+#include "ensemble/realization.hpp"
+#include "ensemble/study.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace stylobate {
+
+/// Displacement of a block from its place in the reference stack, in the frame of the base.
+struct BlockMotion {
+    double x_m = 0;
+    double y_m = 0;
+    double theta_rad = 0;
+};
+
+/// Where the middle of the upper block's bottom face lies along the lower block's top face, from its middle [m].
+double face_offset(const Block& lower, const BlockMotion& lower_moved, const Block& upper,
+                   const BlockMotion& upper_moved);
+
+/// Follows one realization from look to look.
+///
+/// A block has fallen when its centre is below `OutcomeSpec::collapse_height_fraction` of its rest height above the
+/// base; or when it has turned beyond its own slenderness angle atan(b / h) and does not come back in time. Its time is
+/// the beginning of that. An epistyle has lost a seat when its bottom face no longer reaches over the top face of a
+/// block on which it lay (or when it has fallen). A column has fallen when one of its drums has; the collapse is total
+/// when every column that has a free drum and every epistyle have fallen.
+class LimitStates {
+public:
+    LimitStates() = default;
+    /// @param base_top_m what rest heights are counted from
+    /// @param fall_steps how many steps a block that has turned too far has to come back
+    LimitStates(const Realization& realization, const OutcomeSpec& outcome, double base_top_m,
+                std::uint64_t fall_steps);
+
+    /// @param steps done so far
+    /// @param moved (blocks) in the order of `Realization::blocks`
+    void look(const Realization& realization, std::uint64_t steps, const std::vector<BlockMotion>& moved);
+
+    bool fallen() const { return fallen_blocks_ > 0; }
+    /// A block has turned too far, and may come back.
+    bool undecided() const { return undecided_; }
+
+    /// At the end of the realization: what has turned too far and not come back has fallen.
+    void conclude(const Realization& realization);
+    /// Times and counts into the outcome.
+    void write(const Realization& realization, Outcome& outcome) const;
+
+private:
+    static constexpr std::uint64_t never = ~std::uint64_t{0};
+    void fall(const Realization& realization, std::size_t block, std::uint64_t since);
+
+    double height_fraction_ = 0;
+    double base_top_m_ = 0;
+    std::uint64_t fall_steps_ = 0;
+    std::vector<double> turn_limit_rad_;      ///< (blocks)
+    std::vector<std::uint64_t> turned_since_; ///< (blocks) too far since this step, or never
+    std::vector<std::uint64_t> fallen_since_; ///< (blocks)
+    int fallen_blocks_ = 0;
+    bool undecided_ = false;
+    int unseated_block_ = -1;
+    std::uint64_t unseated_since_ = never;
+    std::uint64_t total_since_ = never;
+};
+
+} // namespace stylobate
