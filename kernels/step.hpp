@@ -43,7 +43,6 @@ struct JointScratch {
     Real lower_arm_x, lower_arm_y; // faces -> forces: centroid from the blocks' centres, frame of the base
     Real upper_arm_x, upper_arm_y; //
     Real closing, sliding;         // faces -> forces
-    Real turning;                  // faces -> forces: relative rotation of the last step
 };
 
 /// The two kinds of joints, as the phases tell them apart.
@@ -56,7 +55,8 @@ struct Pair {
 
 } // namespace detail
 
-template <class Real, class Mechanism>
+/// @tparam watching whether there are watched pairs
+template <class Real, class Mechanism, bool watching>
 class Stepper {
 public:
     Stepper(const Topology& topology, const Bundle& bundle, const typename Mechanism::State& mechanism)
@@ -69,7 +69,7 @@ public:
     {
         detail::JointScratch<Real> scratch[detail::joint_group];
         const int beds = topology_.beds();
-        int close = 0;
+        [[maybe_unused]] int close = -1;
         for (int step = first; step < last; ++step) {
             const bool audit = step + 1 == last;
             angles();
@@ -77,11 +77,8 @@ public:
                 contacts<detail::Bed>(
                     beds - begin < detail::joint_group ? beds - begin : detail::joint_group,
                     [begin](int j) { return begin + j; }, scratch, audit);
-            if (topology_.watched > 0) {
-                if (step == first || strayed())
-                    close = look_around();
-                pairs(close, scratch, audit);
-            }
+            if constexpr (watching)
+                close = pairs(close, scratch, audit);
             update(step, audit);
         }
     }
@@ -244,7 +241,6 @@ private:
         const auto pressed = s.area > zero;
         s.closing = select(pressed, fnma(vx, nx, zero - vy * ny), zero);
         s.sliding = select(pressed, fms(vx, ny, vy * nx), zero);
-        s.turning = abs_of(wu - wl);
         s.normal_x = nx;
         s.normal_y = ny;
         s.lower_arm_x = lx;
@@ -298,7 +294,7 @@ private:
             if constexpr (Kind::at_rest) {
                 slip_sum = slip_sum + slip;
                 path = path + abs_of(s.sliding);
-                rocking_path = rocking_path + s.turning;
+                rocking_path = rocking_path + abs_of(get(OfBlock::dtheta, upper) - get(OfBlock::dtheta, lower));
             }
         }
         put(OfRealization::dashpot_energy, dashpot_energy);
@@ -359,13 +355,17 @@ private:
         return close;
     }
 
-    /// The watched pairs that meet, in the order of the list.
+    /// The watched pairs that meet, in the order of the list. Kept out of the way of the beds.
+    /// @param close how many pairs are listed as close; -1: none has been looked for
+    /// @return how many are now
 #if defined(__GNUC__)
     __attribute__((noinline))
 #endif
-    void
+    int
     pairs(int close, Scratch* scratch, bool audit) const
     {
+        if (close < 0 || strayed())
+            close = look_around();
         if (audit)
             for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
                 put(OfJoint::elastic, joint, Real(0.0));
@@ -379,6 +379,7 @@ private:
             contacts<detail::Pair>(
                 count, [&group](int j) { return group[j]; }, scratch, audit);
         }
+        return close;
     }
 
     /// Energies at the positions that the step starts from. The kinetic one is the product of the velocities half a
@@ -430,7 +431,10 @@ template <class Real, class Mechanism = Baseline>
 void run_steps(const Topology& topology, const Bundle& bundle, int first, int last,
                const typename Mechanism::State& state = {})
 {
-    Stepper<Real, Mechanism>(topology, bundle, state).run(first, last);
+    if (topology.watched > 0)
+        Stepper<Real, Mechanism, true>(topology, bundle, state).run(first, last);
+    else
+        Stepper<Real, Mechanism, false>(topology, bundle, state).run(first, last);
 }
 
 } // namespace stylobate
