@@ -48,8 +48,8 @@ struct Realization {
     int beds() const { return static_cast<int>(joints.size()) - watched; }
     double gravity_m_s2 = 9.81;
     double base_tilt_rad = 0;    ///< base out of level
-    double initial_tilt_rad = 0; ///< leaned about the lower corner of a block, with all above it
-    int initial_tilt_block = 0;  ///< that block, counted in each column from the bottom
+    double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
+    int initial_tilt_block = 0;  ///< of each column, from the bottom: it and what stands on it lean
     double frequency_hz = 0;     ///< of the harmonic or pulse; of a record the predominant one
     double pga_m_s2 = 0;
     double phase_rad = 0;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace stylobate {
@@ -64,17 +65,19 @@ bool replaces(const Perturbation& perturbation)
 
 } // namespace
 
-/// Each quantity of one realization, block by block, once, or bed by bed; of beds there is one value more, the last
-/// one, for blocks that meet elsewhere.
-struct Sampler::Values {
-    std::array<std::vector<double>, quantity_count> of;
-
-    const std::vector<double>& operator[](Quantity quantity) const { return of[static_cast<std::size_t>(quantity)]; }
-};
-
 Sampler::Sampler(const Study& study, const Motion* record) : study_(study), layout_(lay_out(study.structure))
 {
-    watches_ = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
+    const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
+    has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
+                                         [](const PlacedBed& bed) { return bed.lower < 0; });
+    if (watches)
+        watch_pairs();
+    for (int q = 0; q < quantity_count; ++q)
+        nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study_, layout_, static_cast<Quantity>(q));
+    for (const auto& [quantity, value] : {std::pair{Quantity::friction, study.contact.friction},
+                                          {Quantity::normal_stiffness, study.contact.normal_stiffness_n_m2},
+                                          {Quantity::tangential_stiffness, study.contact.tangential_stiffness_n_m}})
+        nominal_.of[static_cast<std::size_t>(quantity)].push_back(value);
     if (study.excitation.kind == ExcitationKind::record) {
         if (record == nullptr || record->empty())
             throw std::invalid_argument("a study with a record was given no base motion");
@@ -83,7 +86,7 @@ Sampler::Sampler(const Study& study, const Motion* record) : study_(study), layo
     }
     for (Perturbation perturbation : study.perturbations) {
         const Quantity quantity = perturbation.quantity;
-        std::vector<double> about = nominal(quantity);
+        std::vector<double> about = nominal_[quantity];
         if (is_of_beds(quantity) && perturbation.per != Per::structure)
             about.pop_back(); // what meets elsewhere keeps its nominal value
         if (is_positive(quantity))
@@ -110,35 +113,32 @@ Realization Sampler::realization(std::uint64_t index) const
     stack(values, realization);
     lay_epistyles(values, realization);
     realization.drums = static_cast<int>(layout_.blocks.size());
-    const bool on_ground =
-        std::any_of(layout_.beds.begin(), layout_.beds.end(), [](const PlacedBed& bed) { return bed.lower < 0; });
-    if (on_ground || watches_)
+    if (has_ground_)
         realization.blocks.push_back(ground());
     join(values, realization);
-    if (watches_)
-        watch(values, realization);
+    watch(values, realization);
     shake(values, realization);
     realization.step_s = step(realization);
     return realization;
 }
 
-std::vector<double> Sampler::nominal(Quantity quantity) const
+/// Every pair with a free block that shares no bed, by lower and upper block; the ground comes after all blocks.
+void Sampler::watch_pairs()
 {
-    std::vector<double> values = nominal_values(study_, layout_, quantity);
-    if (quantity == Quantity::friction)
-        values.push_back(study_.contact.friction);
-    else if (quantity == Quantity::normal_stiffness)
-        values.push_back(study_.contact.normal_stiffness_n_m2);
-    else if (quantity == Quantity::tangential_stiffness)
-        values.push_back(study_.contact.tangential_stiffness_n_m);
-    return values;
+    const int ground = static_cast<int>(layout_.blocks.size());
+    std::set<std::pair<int, int>> beds;
+    for (const PlacedBed& bed : layout_.beds)
+        beds.emplace(bed.lower < 0 ? ground : bed.lower, bed.upper);
+    const auto is_fixed = [&](int i) { return i == ground || layout_.blocks[static_cast<std::size_t>(i)].fixed; };
+    for (int lower = 0; lower <= ground; ++lower)
+        for (int upper = lower == ground ? 0 : lower + 1; upper < ground; ++upper)
+            if (!(is_fixed(lower) && is_fixed(upper)) && !beds.contains({lower, upper}))
+                watched_.emplace_back(lower, upper);
 }
 
 Sampler::Values Sampler::draw(std::uint64_t index, std::vector<double>& inputs) const
 {
-    Values values;
-    for (int q = 0; q < quantity_count; ++q)
-        values.of[static_cast<std::size_t>(q)] = nominal(static_cast<Quantity>(q));
+    Values values = nominal_;
     for (const Drawn& drawn : drawn_) {
         std::vector<double>& target = values.of[static_cast<std::size_t>(drawn.quantity)];
         for (std::size_t i = 0; i < drawn.distributions.size(); ++i) {
@@ -323,23 +323,13 @@ void Sampler::join(const Values& values, Realization& realization) const
     }
 }
 
-/// Every other pair that can meet: what falls hits whatever it hits.
+/// Every other pair that can meet: what falls hits whatever is there.
 void Sampler::watch(const Values& values, Realization& realization) const
 {
     const std::vector<Block>& blocks = realization.blocks;
-    const int count = static_cast<int>(blocks.size());
-    const int ground = count - 1;
-    const auto is_bed = [&](int a, int b) {
-        return std::any_of(layout_.beds.begin(), layout_.beds.end(), [&](const PlacedBed& bed) {
-            const int lower = bed.lower < 0 ? ground : bed.lower;
-            return (lower == a && bed.upper == b) || (lower == b && bed.upper == a);
-        });
-    };
-    const auto pair = [&](int lower, int upper) {
+    for (const auto& [lower, upper] : watched_) {
         const Block& a = blocks[static_cast<std::size_t>(lower)];
         const Block& b = blocks[static_cast<std::size_t>(upper)];
-        if ((a.fixed && b.fixed) || is_bed(lower, upper))
-            return;
         const double wide = a.half_width_m + b.half_width_m - std::abs(a.x_m - b.x_m);
         const double high = a.half_height_m + b.half_height_m - std::abs(a.y_m - b.y_m);
         const double chord = 2 * std::min({a.half_width_m, a.half_height_m, b.half_width_m, b.half_height_m});
@@ -351,13 +341,8 @@ void Sampler::watch(const Values& values, Realization& realization) const
         Joint met = joint(values, blocks, lower, upper, layout_.beds.size(), chord);
         met.damping_chord_m = chord; // a corner must not meet with the dashpot of a face
         realization.joints.push_back(met);
-        ++realization.watched;
-    };
-    for (int lower = 0; lower < ground; ++lower)
-        for (int upper = lower + 1; upper < ground; ++upper)
-            pair(lower, upper);
-    for (int upper = 0; upper < ground; ++upper)
-        pair(ground, upper);
+    }
+    realization.watched = static_cast<int>(watched_.size());
 }
 
 void Sampler::shake(const Values& values, Realization& realization) const
@@ -389,7 +374,8 @@ void Sampler::shake(const Values& values, Realization& realization) const
 
 double Sampler::step(const Realization& realization) const
 {
-    const StepBound bound = step_bound(realization.blocks, realization.joints);
+    const std::vector<Joint> beds(realization.joints.begin(), realization.joints.begin() + realization.beds());
+    const StepBound bound = step_bound(realization.blocks, beds);
     if (!study_.run.step_s)
         return study_.run.step_fraction * bound.dt_s;
     if (*study_.run.step_s > bound.dt_s && !study_.run.allow_step_above_bound)

@@ -8,8 +8,10 @@
 #include "ensemble/structure.hpp"
 #include "ensemble/study.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -40,13 +42,22 @@ private:
         std::size_t draws;                       ///< beds, blocks or 1
         std::vector<Distribution> distributions; ///< of each of its values; more than `draws`: all from the first draw
     };
-    struct Values;
+    /// Each quantity of one realization, block by block, once, or bed by bed; of beds there is one value more, the last
+    /// one, for blocks that meet elsewhere.
+    struct Values {
+        std::array<std::vector<double>, quantity_count> of;
+
+        const std::vector<double>& operator[](Quantity quantity) const
+        {
+            return of[static_cast<std::size_t>(quantity)];
+        }
+    };
     struct Ratios {
         double normal;
         double tangential;
     };
 
-    std::vector<double> nominal(Quantity quantity) const;
+    void watch_pairs();
     Values draw(std::uint64_t index, std::vector<double>& inputs) const;
     void stack(const Values& values, Realization& realization) const;
     void lay_epistyles(const Values& values, Realization& realization) const;
@@ -63,7 +74,9 @@ private:
 
     Study study_;
     Layout layout_;
-    bool watches_ = false; ///< blocks that lie on no common bed
+    bool has_ground_ = false;
+    std::vector<std::pair<int, int>> watched_; ///< lower and upper block
+    Values nominal_;
     double record_frequency_hz_ = 0;
     double record_pga_m_s2_ = 0;
     std::vector<Drawn> drawn_; ///< in the order of the study
