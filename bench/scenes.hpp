@@ -13,12 +13,7 @@ inline Study rocking_column(int blocks)
     Study study;
     study.kind = StudyKind::single;
     study.realizations = 1'000'000;
-    study.structure = {.blocks = blocks,
-                       .fixed_blocks = 1,
-                       .drum_width_m = 0.048,
-                       .drum_height_m = 0.029,
-                       .depth_m = 0.048,
-                       .drum_mass_kg = 0.1355};
+    study.structure = equal_column(blocks, 1, 0.048, 0.029, 0.048, 0.1355);
     study.contact.normal_stiffness_n_m2 = 1e8;
     study.contact.tangential_stiffness_n_m = 4.8e6;
     study.contact.friction = 0.68;

@@ -1,6 +1,7 @@
 #include "ensemble/sampler.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "ensemble/nominal.hpp"
 #include "ensemble/step_bound.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace stylobate {
@@ -47,6 +49,13 @@ bool is_positive(Quantity quantity)
     return quantity != Quantity::drum_offset && quantity != Quantity::tilt && quantity != Quantity::phase;
 }
 
+/// Quantities of which each bed has its own.
+bool is_of_beds(Quantity quantity)
+{
+    return quantity == Quantity::friction || quantity == Quantity::normal_stiffness ||
+           quantity == Quantity::tangential_stiffness;
+}
+
 /// A value that is drawn as a whole takes the place of the nominal one.
 bool replaces(const Perturbation& perturbation)
 {
@@ -56,15 +65,19 @@ bool replaces(const Perturbation& perturbation)
 
 } // namespace
 
-/// Each quantity of one realization, joint by joint, block by block, or once.
-struct Sampler::Values {
-    std::array<std::vector<double>, quantity_count> of;
-
-    const std::vector<double>& operator[](Quantity quantity) const { return of[static_cast<std::size_t>(quantity)]; }
-};
-
-Sampler::Sampler(const Study& study, const Motion* record) : study_(study)
+Sampler::Sampler(const Study& study, const Motion* record) : study_(study), layout_(lay_out(study.structure))
 {
+    const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
+    has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
+                                         [](const PlacedBed& bed) { return bed.lower < 0; });
+    if (watches)
+        watch_pairs();
+    for (int q = 0; q < quantity_count; ++q)
+        nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study_, layout_, static_cast<Quantity>(q));
+    for (const auto& [quantity, value] : {std::pair{Quantity::friction, study.contact.friction},
+                                          {Quantity::normal_stiffness, study.contact.normal_stiffness_n_m2},
+                                          {Quantity::tangential_stiffness, study.contact.tangential_stiffness_n_m}})
+        nominal_.of[static_cast<std::size_t>(quantity)].push_back(value);
     if (study.excitation.kind == ExcitationKind::record) {
         if (record == nullptr || record->empty())
             throw std::invalid_argument("a study with a record was given no base motion");
@@ -73,13 +86,18 @@ Sampler::Sampler(const Study& study, const Motion* record) : study_(study)
     }
     for (Perturbation perturbation : study.perturbations) {
         const Quantity quantity = perturbation.quantity;
-        const std::size_t draws = perturbation.per == Per::structure ? 1 : count(quantity);
+        std::vector<double> about = nominal_[quantity];
+        if (is_of_beds(quantity) && perturbation.per != Per::structure)
+            about.pop_back(); // what meets elsewhere keeps its nominal value
         if (is_positive(quantity))
             perturbation.min = std::max(perturbation.min.value_or(0), 0.0);
-        drawn_.push_back({quantity, stream_of(quantity), draws, Distribution(perturbation, nominal(quantity))});
-        for (std::size_t i = 0; i < draws; ++i)
+        Drawn drawn{quantity, stream_of(quantity), perturbation.per == Per::structure ? 1 : about.size(), {}};
+        for (const double value : about)
+            drawn.distributions.emplace_back(perturbation, value);
+        for (std::size_t i = 0; i < drawn.draws; ++i)
             input_names_.push_back(perturbation.per == Per::structure ? std::string(to_string(quantity))
                                                                       : fmt::format("{}[{}]", to_string(quantity), i));
+        drawn_.push_back(std::move(drawn));
     }
 }
 
@@ -90,160 +108,241 @@ Realization Sampler::realization(std::uint64_t index) const
     realization.index = index;
     realization.gravity_m_s2 = study_.structure.gravity_m_s2;
     realization.initial_tilt_rad = study_.initial.tilt_rad;
+    realization.initial_tilt_block = study_.initial.tilt_from_block;
     const Values values = draw(index, realization.inputs);
     stack(values, realization);
+    lay_epistyles(values, realization);
+    realization.drums = static_cast<int>(layout_.blocks.size());
+    if (has_ground_)
+        realization.blocks.push_back(ground());
     join(values, realization);
+    watch(values, realization);
     shake(values, realization);
     realization.step_s = step(realization);
     return realization;
 }
 
-std::size_t Sampler::count(Quantity quantity) const
+/// Every pair with a free block that shares no bed, by lower and upper block; the ground comes after all blocks.
+void Sampler::watch_pairs()
 {
-    switch (quantity) {
-    case Quantity::friction:
-    case Quantity::normal_stiffness:
-    case Quantity::tangential_stiffness: // each free drum stands on one joint
-        return static_cast<std::size_t>(study_.structure.blocks - study_.structure.fixed_blocks);
-    case Quantity::drum_width:
-    case Quantity::drum_height:
-    case Quantity::drum_offset:
-    case Quantity::density:
-        return static_cast<std::size_t>(study_.structure.blocks);
-    case Quantity::damping_ratio:
-    case Quantity::tilt:
-    case Quantity::phase:
-        break;
-    }
-    return 1;
-}
-
-double Sampler::nominal(Quantity quantity) const
-{
-    const StructureSpec& structure = study_.structure;
-    switch (quantity) {
-    case Quantity::friction:
-        return study_.contact.friction;
-    case Quantity::normal_stiffness:
-        return study_.contact.normal_stiffness_n_m2;
-    case Quantity::tangential_stiffness:
-        return study_.contact.tangential_stiffness_n_m;
-    case Quantity::damping_ratio:
-        return study_.contact.normal_damping_ratio;
-    case Quantity::drum_width:
-        return structure.drum_width_m;
-    case Quantity::drum_height:
-        return structure.drum_height_m;
-    case Quantity::density:
-        return structure.drum_mass_kg / (structure.drum_width_m * structure.drum_height_m * structure.depth_m);
-    case Quantity::phase:
-        return study_.excitation.phase_rad;
-    case Quantity::drum_offset:
-    case Quantity::tilt:
-        break;
-    }
-    return 0;
+    const int ground = static_cast<int>(layout_.blocks.size());
+    std::set<std::pair<int, int>> beds;
+    for (const PlacedBed& bed : layout_.beds)
+        beds.emplace(bed.lower < 0 ? ground : bed.lower, bed.upper);
+    const auto is_fixed = [&](int i) { return i == ground || layout_.blocks[static_cast<std::size_t>(i)].fixed; };
+    for (int lower = 0; lower <= ground; ++lower)
+        for (int upper = lower == ground ? 0 : lower + 1; upper < ground; ++upper)
+            if (!(is_fixed(lower) && is_fixed(upper)) && !beds.contains({lower, upper}))
+                watched_.emplace_back(lower, upper);
 }
 
 Sampler::Values Sampler::draw(std::uint64_t index, std::vector<double>& inputs) const
 {
-    Values values;
-    for (int q = 0; q < quantity_count; ++q) {
-        const auto quantity = static_cast<Quantity>(q);
-        values.of[static_cast<std::size_t>(q)].assign(count(quantity), nominal(quantity));
-    }
+    Values values = nominal_;
     for (const Drawn& drawn : drawn_) {
         std::vector<double>& target = values.of[static_cast<std::size_t>(drawn.quantity)];
-        for (std::size_t i = 0; i < drawn.draws; ++i) {
-            const double value = drawn.distribution.value(uniform01(study_.seed, index, drawn.stream, i));
-            inputs.push_back(value);
-            if (drawn.draws == target.size())
-                target[i] = value;
-            else
-                target.assign(target.size(), value);
+        for (std::size_t i = 0; i < drawn.distributions.size(); ++i) {
+            const std::size_t element = std::min(i, drawn.draws - 1);
+            target[i] = drawn.distributions[i].value(uniform01(study_.seed, index, drawn.stream, element));
+            if (i < drawn.draws)
+                inputs.push_back(target[i]);
         }
     }
     return values;
 }
 
+/// A block of the layout with its drawn sizes and mass, in its column's axis or its place along the colonnade.
+Block Sampler::block(const Values& values, std::size_t i, double height_m) const
+{
+    const PlacedBlock& placed = layout_.blocks[i];
+    const double width = values[Quantity::drum_width][i];
+    const double density = placed.mass_kg / (placed.width_m * placed.height_m * study_.structure.depth_m);
+    Block block;
+    block.half_width_m = width / 2;
+    block.half_height_m = height_m / 2;
+    // the nominal mass times what has changed: without perturbation it is the nominal mass to the last bit
+    block.mass_kg = placed.mass_kg * (values[Quantity::density][i] / density) * (width / placed.width_m) *
+                    (height_m / placed.height_m);
+    block.inertia_kg_m2 = block.mass_kg * (width * width + height_m * height_m) / 12;
+    block.x_m = placed.axis_m + values[Quantity::drum_offset][i];
+    block.fixed = placed.fixed;
+    block.role = placed.role;
+    block.column = placed.column;
+    return block;
+}
+
+/// The columns. A column of its own is as high as its drums are; those of a colonnade stay level, as masons dress the
+/// seats: the topmost drum of each takes up what the others differ.
 void Sampler::stack(const Values& values, Realization& realization) const
 {
-    const StructureSpec& structure = study_.structure;
-    const double density = nominal(Quantity::density);
+    const std::vector<PlacedBlock>& blocks = layout_.blocks;
+    const bool dressed = study_.structure.kind == StructureKind::colonnade &&
+                         std::any_of(drawn_.begin(), drawn_.end(),
+                                     [](const Drawn& drawn) { return drawn.quantity == Quantity::drum_height; });
     double top = 0;
-    for (std::size_t i = 0; i < count(Quantity::drum_width); ++i) {
-        const double width = values[Quantity::drum_width][i];
-        const double height = values[Quantity::drum_height][i];
-        Block block;
-        block.half_width_m = width / 2;
-        block.half_height_m = height / 2;
-        // the nominal mass times what has changed: without perturbation it is the nominal mass to the last bit
-        block.mass_kg = structure.drum_mass_kg * (values[Quantity::density][i] / density) *
-                        (width / structure.drum_width_m) * (height / structure.drum_height_m);
-        block.inertia_kg_m2 = block.mass_kg * (width * width + height * height) / 12;
-        block.x_m = values[Quantity::drum_offset][i];
-        block.y_m = top + height / 2;
-        block.fixed = static_cast<int>(i) < structure.fixed_blocks;
-        realization.blocks.push_back(block);
+    for (std::size_t i = 0; i < blocks.size() && blocks[i].role == BlockRole::drum; ++i) {
+        if (i > 0 && blocks[i].column != blocks[i - 1].column)
+            top = 0;
+        const bool topmost = i + 1 == blocks.size() || blocks[i + 1].column != blocks[i].column;
+        double height = values[Quantity::drum_height][i];
+        if (dressed && topmost) {
+            height = blocks[i].top() - top;
+            if (height < blocks[i].height_m / 2)
+                throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
+                                             "{:g} m for {}, less than half of its {:g} m: the columns of a colonnade "
+                                             "stay level. Lower its spread, or limit it with min and max.",
+                                             realization.index, blocks[i].column, height, blocks[i].name,
+                                             blocks[i].height_m));
+        }
+        Block drum = block(values, i, height);
+        drum.y_m = top + height / 2;
+        realization.blocks.push_back(drum);
         top += height;
-    }
-    realization.drums = structure.blocks;
-
-    if (structure.fixed_blocks == 0) {
-        // so wide that a column that has fallen and slid still lies on it
-        Block ground;
-        ground.half_width_m = 50 * std::max(structure.drum_width_m, structure.blocks * structure.drum_height_m);
-        ground.half_height_m = structure.drum_height_m;
-        ground.mass_kg = structure.drum_mass_kg;
-        ground.inertia_kg_m2 =
-            ground.mass_kg * (ground.half_width_m * ground.half_width_m + ground.half_height_m * ground.half_height_m) /
-            3;
-        ground.y_m = -ground.half_height_m;
-        ground.fixed = true;
-        realization.blocks.push_back(ground);
     }
 }
 
-void Sampler::join(const Values& values, Realization& realization) const
+/// The epistyles, one after the other from the left, as they are laid: one that is too long for its place pushes the
+/// next ones to the right.
+void Sampler::lay_epistyles(const Values& values, Realization& realization) const
 {
-    const ContactSpec& contact = study_.contact;
-    const std::vector<Block>& blocks = realization.blocks;
+    for (std::size_t i = realization.blocks.size(); i < layout_.blocks.size(); ++i) {
+        const double height = values[Quantity::drum_height][i];
+        Block epistyle = block(values, i, height);
+        epistyle.y_m = layout_.blocks[i].bottom() + height / 2;
+        if (layout_.blocks[i - 1].role == BlockRole::epistyle) {
+            const Block& before = realization.blocks.back();
+            const bool side_by_side =
+                std::abs(epistyle.y_m - before.y_m) < epistyle.half_height_m + before.half_height_m;
+            const double gap = epistyle.x_m - before.x_m - epistyle.half_width_m - before.half_width_m;
+            if (side_by_side && gap < 0)
+                epistyle.x_m = before.x_m + before.half_width_m + epistyle.half_width_m;
+        }
+        realization.blocks.push_back(epistyle);
+    }
+}
 
+/// A wide flat block with its top face at y = 0.
+Block Sampler::ground() const
+{
+    double left = 0;
+    double right = 0;
+    double tallest = 0;
+    std::size_t drums = 0;
+    for (const PlacedBlock& block : layout_.blocks) {
+        left = std::min(left, block.left());
+        right = std::max(right, block.right());
+        tallest = std::max(tallest, block.height_m);
+    }
+    for (const ColumnSpec& column : study_.structure.columns)
+        drums = std::max(drums, column.drums.size());
+    const std::size_t courses = drums + (study_.structure.epistyles.empty() ? 0 : 1);
+
+    // so wide that what has fallen and slid still lies on it
+    Block ground;
+    ground.half_width_m = 50 * std::max(right - left, static_cast<double>(courses) * tallest);
+    ground.half_height_m = tallest;
+    ground.mass_kg = layout_.blocks.front().mass_kg;
+    ground.inertia_kg_m2 =
+        ground.mass_kg * (ground.half_width_m * ground.half_width_m + ground.half_height_m * ground.half_height_m) / 3;
+    ground.y_m = -ground.half_height_m;
+    ground.fixed = true;
+    ground.role = BlockRole::ground;
+    ground.column = -1;
+    return ground;
+}
+
+/// "drum 2 of column 1" or "the ground"
+std::string Sampler::name(int block) const
+{
+    const auto i = static_cast<std::size_t>(block);
+    return i < layout_.blocks.size() ? layout_.blocks[i].name : "the ground";
+}
+
+/// Both damping ratios of a realization.
+Sampler::Ratios Sampler::ratios(const Values& values) const
+{
     // The ratio that is drawn is the normal one. A value that takes the nominal one's place is that of both; a change
     // of the nominal one changes both in proportion.
-    const double ratio_n = values[Quantity::damping_ratio][0];
-    double ratio_t = contact.tangential_damping_ratio;
+    const ContactSpec& contact = study_.contact;
+    const double normal = values[Quantity::damping_ratio][0];
+    double tangential = contact.tangential_damping_ratio;
     for (const Perturbation& perturbation : study_.perturbations)
         if (perturbation.quantity == Quantity::damping_ratio)
-            ratio_t = replaces(perturbation) || contact.normal_damping_ratio == 0
-                          ? ratio_n
-                          : ratio_t * (ratio_n / contact.normal_damping_ratio);
+            tangential = replaces(perturbation) || contact.normal_damping_ratio == 0
+                             ? normal
+                             : tangential * (normal / contact.normal_damping_ratio);
+    return {normal, tangential};
+}
 
-    for (std::size_t j = 0; j < count(Quantity::friction); ++j) {
-        Joint joint;
-        joint.upper = study_.structure.fixed_blocks + static_cast<int>(j);
-        joint.lower = joint.upper > 0 ? joint.upper - 1 : realization.drums; // the lowest drum stands on the ground
-        const Block& lower = blocks[static_cast<std::size_t>(joint.lower)];
-        const Block& upper = blocks[static_cast<std::size_t>(joint.upper)];
-        const double chord = 2 * std::min(lower.half_width_m, upper.half_width_m);
-        if (std::abs(upper.x_m - lower.x_m) >= upper.half_width_m + lower.half_width_m)
-            throw InputError(
-                fmt::format("perturbation.drum_offset: in realization {} drum {} lies at x = {:g} m and the "
-                            "one below it at {:g} m, and they do not touch. Lower sd_m, or set min_m and "
-                            "max_m well within half the drum's width ({:g} m).",
-                            realization.index, joint.upper, upper.x_m, lower.x_m, study_.structure.drum_width_m / 2));
-        const double mass = lower.fixed ? upper.mass_kg : std::min(lower.mass_kg, upper.mass_kg);
+/// The contact of two blocks. @param value of each quantity: which of its values   @param chord_m full contact length
+Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int lower, int upper, std::size_t value,
+                     double chord_m) const
+{
+    const ContactSpec& contact = study_.contact;
+    const Block& below = blocks[static_cast<std::size_t>(lower)];
+    const Block& above = blocks[static_cast<std::size_t>(upper)];
+    const double mass = below.fixed   ? above.mass_kg
+                        : above.fixed ? below.mass_kg
+                                      : std::min(below.mass_kg, above.mass_kg);
+    const Ratios ratio = ratios(values);
+    Joint joint;
+    joint.lower = lower;
+    joint.upper = upper;
+    joint.friction = values[Quantity::friction][value];
+    joint.normal_stiffness_n_m2 = values[Quantity::normal_stiffness][value];
+    joint.tangential_stiffness_n_m = values[Quantity::tangential_stiffness][value];
+    joint.normal_damping_n_s_m = contact.normal_damping_n_s_m.value_or(
+        2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass));
+    joint.tangential_damping_n_s_m = contact.tangential_damping_n_s_m.value_or(
+        2 * ratio.tangential * std::sqrt(joint.tangential_stiffness_n_m * mass));
+    joint.damping_chord_m = contact.damping_per == DampingPer::chord ? chord_m : 0;
+    return joint;
+}
 
-        joint.friction = values[Quantity::friction][j];
-        joint.normal_stiffness_n_m2 = values[Quantity::normal_stiffness][j];
-        joint.tangential_stiffness_n_m = values[Quantity::tangential_stiffness][j];
-        joint.normal_damping_n_s_m =
-            contact.normal_damping_n_s_m.value_or(2 * ratio_n * std::sqrt(joint.normal_stiffness_n_m2 * chord * mass));
-        joint.tangential_damping_n_s_m =
-            contact.tangential_damping_n_s_m.value_or(2 * ratio_t * std::sqrt(joint.tangential_stiffness_n_m * mass));
-        joint.damping_chord_m = contact.damping_per == DampingPer::chord ? chord : 0;
-        realization.joints.push_back(joint);
+/// The beds.
+void Sampler::join(const Values& values, Realization& realization) const
+{
+    const std::vector<Block>& blocks = realization.blocks;
+    for (std::size_t j = 0; j < layout_.beds.size(); ++j) {
+        const int upper = layout_.beds[j].upper;
+        const int lower = layout_.beds[j].lower >= 0 ? layout_.beds[j].lower : realization.drums; // the ground
+        const Block& below = blocks[static_cast<std::size_t>(lower)];
+        const Block& above = blocks[static_cast<std::size_t>(upper)];
+        const double apart = std::abs(above.x_m - below.x_m);
+        const double reach = above.half_width_m + below.half_width_m;
+        if (apart >= reach)
+            throw InputError(fmt::format("perturbation.drum_offset: in realization {} {} lies at x = {:g} m and {} "
+                                         "below it at {:g} m, and they do not touch. Lower sd_m, or set min and "
+                                         "max well within half a drum's width ({:g} m).",
+                                         realization.index, name(upper), above.x_m, name(lower), below.x_m,
+                                         std::min(above.half_width_m, below.half_width_m)));
+        // two epistyles share the seat on a column; a drum lies on a whole face
+        const double face = 2 * std::min(below.half_width_m, above.half_width_m);
+        const double chord = above.role == BlockRole::epistyle ? std::min(face, reach - apart) : face;
+        realization.joints.push_back(joint(values, blocks, lower, upper, j, chord));
     }
+}
+
+/// Every other pair that can meet: what falls hits whatever is there.
+void Sampler::watch(const Values& values, Realization& realization) const
+{
+    const std::vector<Block>& blocks = realization.blocks;
+    for (const auto& [lower, upper] : watched_) {
+        const Block& a = blocks[static_cast<std::size_t>(lower)];
+        const Block& b = blocks[static_cast<std::size_t>(upper)];
+        const double wide = a.half_width_m + b.half_width_m - std::abs(a.x_m - b.x_m);
+        const double high = a.half_height_m + b.half_height_m - std::abs(a.y_m - b.y_m);
+        const double chord = 2 * std::min({a.half_width_m, a.half_height_m, b.half_width_m, b.half_height_m});
+        // rounding of sums of lengths aside
+        if (std::min(wide, high) > 1e-9 * chord)
+            throw InputError(fmt::format("perturbation: in realization {} {} and {} overlap by {:.3g} m at rest. Lower "
+                                         "the spread of drum_width, drum_height and drum_offset, or give them room.",
+                                         realization.index, name(lower), name(upper), std::min(wide, high)));
+        Joint met = joint(values, blocks, lower, upper, layout_.beds.size(), chord);
+        met.damping_chord_m = chord; // a corner must not meet with the dashpot of a face
+        realization.joints.push_back(met);
+    }
+    realization.watched = static_cast<int>(watched_.size());
 }
 
 void Sampler::shake(const Values& values, Realization& realization) const
@@ -275,7 +374,8 @@ void Sampler::shake(const Values& values, Realization& realization) const
 
 double Sampler::step(const Realization& realization) const
 {
-    const StepBound bound = step_bound(realization.blocks, realization.joints);
+    const std::vector<Joint> beds(realization.joints.begin(), realization.joints.begin() + realization.beds());
+    const StepBound bound = step_bound(realization.blocks, beds);
     if (!study_.run.step_s)
         return study_.run.step_fraction * bound.dt_s;
     if (*study_.run.step_s > bound.dt_s && !study_.run.allow_step_above_bound)

@@ -5,10 +5,13 @@
 #include "ensemble/motion.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
+#include "ensemble/structure.hpp"
 #include "ensemble/study.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -18,37 +21,62 @@ namespace stylobate {
 class Sampler {
 public:
     /// @param record the base motion of a study with `excitation.kind = "record"`, else ignored; not kept
-    /// @throws InputError if a perturbation leaves no probability between its limits
+    /// @throws InputError if the structure cannot stand, or a perturbation leaves no probability between its limits
     /// @throws std::invalid_argument if such a study comes without its record
     Sampler(const Study& study, const Motion* record);
 
     /// @param index from 0 to study.total() - 1; in a surface it says the cell too
     /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
-    ///         that this is meant
+    ///         that this is meant, or if what was drawn cannot be built: blocks that miss each other or overlap
     Realization realization(std::uint64_t index) const;
 
-    /// Names of `Realization::inputs`: "friction[0]", "friction[1]" and so on for each joint (or block), from the
-    /// bottom; the name alone for what is drawn once for the structure.
+    /// Names of `Realization::inputs`: "friction[0]", "friction[1]" and so on for each bed (or block) of the layout;
+    /// the name alone for what is drawn once for the structure, which is then the value of the first bed or block.
     const std::vector<std::string>& input_names() const { return input_names_; }
 
 private:
+    /// One perturbed quantity.
     struct Drawn {
         Quantity quantity;
         Stream stream;
-        std::size_t draws; ///< joints, blocks or 1
-        Distribution distribution;
+        std::size_t draws;                       ///< beds, blocks or 1
+        std::vector<Distribution> distributions; ///< of each of its values; more than `draws`: all from the first draw
     };
-    struct Values;
+    /// Each quantity of one realization, block by block, once, or bed by bed; of beds there is one value more, the last
+    /// one, for blocks that meet elsewhere.
+    struct Values {
+        std::array<std::vector<double>, quantity_count> of;
 
-    std::size_t count(Quantity quantity) const;
-    double nominal(Quantity quantity) const;
+        const std::vector<double>& operator[](Quantity quantity) const
+        {
+            return of[static_cast<std::size_t>(quantity)];
+        }
+    };
+    struct Ratios {
+        double normal;
+        double tangential;
+    };
+
+    void watch_pairs();
     Values draw(std::uint64_t index, std::vector<double>& inputs) const;
     void stack(const Values& values, Realization& realization) const;
+    void lay_epistyles(const Values& values, Realization& realization) const;
+    Block block(const Values& values, std::size_t i, double height_m) const;
+    Block ground() const;
+    Ratios ratios(const Values& values) const;
+    Joint joint(const Values& values, const std::vector<Block>& blocks, int lower, int upper, std::size_t value,
+                double chord_m) const;
     void join(const Values& values, Realization& realization) const;
+    void watch(const Values& values, Realization& realization) const;
     void shake(const Values& values, Realization& realization) const;
     double step(const Realization& realization) const;
+    std::string name(int block) const;
 
     Study study_;
+    Layout layout_;
+    bool has_ground_ = false;
+    std::vector<std::pair<int, int>> watched_; ///< lower and upper block
+    Values nominal_;
     double record_frequency_hz_ = 0;
     double record_pga_m_s2_ = 0;
     std::vector<Drawn> drawn_; ///< in the order of the study

@@ -3,6 +3,8 @@
 ///
 /// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
+#include "ensemble/structure.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,18 +13,6 @@
 namespace stylobate {
 
 enum class StudyKind { single, surface };
-
-/// A column of equal drums. Drums are counted from the bottom, the fixed ones first.
-/// With `fixed_blocks == 0` the lowest drum stands on a wide flat ground.
-struct StructureSpec {
-    int blocks = 0;             ///< drums, fixed ones included
-    int fixed_blocks = 0;       ///< drums that are fixed to the shaking table
-    double drum_width_m = 0;    ///< full width B
-    double drum_height_m = 0;   ///< full height H
-    double depth_m = 0;         ///< depth D, out of the plane
-    double drum_mass_kg = 0;    ///< from `drum_mass_kg` or from `density_kg_m3` x B x H x D
-    double gravity_m_s2 = 9.81; ///< the acceleration of gravity
-};
 
 /// How the dashpot coefficients C_N and C_T of Eqs. 1 and 2 depend on the contact.
 enum class DampingPer {
@@ -93,9 +83,9 @@ enum class Quantity {
     normal_stiffness,     ///< K_N; per joint or structure
     tangential_stiffness, ///< K_T; per joint or structure
     damping_ratio,        ///< both damping ratios at once; per structure
-    drum_width,           ///< B; per block or structure
+    drum_width,           ///< B, of an epistyle its length; per block or structure
     drum_height,          ///< H; per block or structure
-    drum_offset,          ///< horizontal offset of a drum from the axis; per block
+    drum_offset,          ///< of a drum from its column's axis, of an epistyle from its place; per block
     density,              ///< mass at given sizes; per block or structure
     tilt,                 ///< of the base, out of level; per structure [rad]
     phase                 ///< of the harmonic; per structure [rad]
@@ -112,6 +102,8 @@ enum class Per { joint, block, structure };
 ///   uniform     value ~ U(from, to): replaces the nominal value
 ///   log_uniform ln value ~ U(ln from, ln to): replaces the nominal value
 /// `min` and `max` truncate the distribution of the value itself (not clip: no mass at the ends).
+/// Where nominal values differ from block to block or bed to bed, each has its own distribution; drawn once for the
+/// structure, all take the same quantile of theirs.
 struct Perturbation {
     Quantity quantity = Quantity::friction;
     DistributionKind distribution = DistributionKind::normal;
@@ -125,8 +117,11 @@ struct Perturbation {
     std::optional<double> max;
 };
 
+/// The structure leaned as one rigid body about a corner; of a colonnade each column alike, and the epistyles ride on
+/// them.
 struct InitialSpec {
-    double tilt_rad = 0; ///< the structure leaned as one rigid body about its base corner; > 0 counter-clockwise
+    double tilt_rad = 0;     ///< > 0 counter-clockwise
+    int tilt_from_block = 0; ///< of each column, from the bottom: it and all above it lean about its lower corner
 };
 
 struct OutputSpec {
@@ -140,7 +135,7 @@ enum class Follow {
 };
 
 struct OutcomeSpec {
-    Follow follow = Follow::collapse;
+    Follow follow = Follow::collapse;      ///< in a study file `rest` is the default of a colonnade
     double collapse_height_fraction = 0.6; ///< a drum's centre below this part of its rest height: collapse
     double rocking_threshold_rad = 0.01;   ///< largest relative rotation below which a column has not rocked
     double sliding_threshold = 0.005;      ///< total sliding over drum width below which a column has not slid

@@ -121,6 +121,20 @@ KeyReader KeyReader::table(std::string_view key) const
     return KeyReader(find(key), full(key), place_);
 }
 
+std::vector<KeyReader> KeyReader::tables(std::string_view key) const
+{
+    std::vector<KeyReader> all;
+    const TomlValue* list = find(key);
+    if (!list)
+        return all;
+    if (list->type != TomlValue::Type::array)
+        refuse(key, fmt::format("is {}, not an array", list->type_name()),
+               "Give a list of tables: [ { ... }, { ... } ].");
+    for (const TomlValue& entry : list->entries)
+        all.emplace_back(&entry, fmt::format("{}[{}]", full(key), entry.key), place_);
+    return all;
+}
+
 const TomlValue& KeyReader::need(std::string_view key, const std::string& todo) const
 {
     const auto* value = find(key);
@@ -237,6 +251,11 @@ void KeyReader::refuse(std::string_view key, const std::string& what, const std:
     const auto& value = *find(key);
     throw InputError(value.place.source, value.place.line,
                      with_todo(fmt::format("{} = {} {}.", full(key), value.shown(), what), todo));
+}
+
+void KeyReader::refuse_all(const std::string& text) const
+{
+    throw InputError(place_.source, place_.line, text);
 }
 
 void KeyReader::missing(std::string_view key, const std::string& todo) const

@@ -44,6 +44,9 @@ public:
     /// A table in this one, perhaps absent.
     KeyReader table(std::string_view key) const;
 
+    /// The tables of an array of tables, each with its own place; none if the key is absent.
+    std::vector<KeyReader> tables(std::string_view key) const;
+
     double number(std::string_view key, const Range& range) const;
     double number_or(std::string_view key, const Range& range, double absent) const;
     std::optional<double> maybe_number(std::string_view key, const Range& range) const;
@@ -81,6 +84,9 @@ public:
     [[noreturn]] void refuse(std::string_view key, const std::string& what, const std::string& todo = {}) const;
     /// "PLACE: path.key is missing.\n  ADVICE"
     [[noreturn]] void missing(std::string_view key, const std::string& todo) const;
+
+    /// "PLACE: TEXT", for what no single key of the table is to blame for.
+    [[noreturn]] void refuse_all(const std::string& text) const;
 
     const std::string& path() const { return path_; }
 

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -52,9 +53,12 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
 
     ContactSpec c;
     c.normal_stiffness_n_m2 = keys.number("normal_stiffness_n_m2", normal_stiffness_range);
+    double widest = 0;
+    for (const DrumSpec& drum : structure.columns[0].drums)
+        widest = std::max(widest, drum.width_m);
     // as stiff along the bed as across it: K_T is the axial stiffness K_N B of the full bed
-    c.tangential_stiffness_n_m = keys.number_or("tangential_stiffness_n_m", tangential_stiffness_range,
-                                                c.normal_stiffness_n_m2 * structure.drum_width_m);
+    c.tangential_stiffness_n_m =
+        keys.number_or("tangential_stiffness_n_m", tangential_stiffness_range, c.normal_stiffness_n_m2 * widest);
     read_damping(keys, "normal", c.normal_damping_ratio, c.normal_damping_n_s_m);
     read_damping(keys, "tangential", c.tangential_damping_ratio, c.tangential_damping_n_s_m);
     c.damping_per = keys.choice_or("damping_per", damping_per_names, c.damping_per);
@@ -92,10 +96,27 @@ SurfaceSpec read_surface(const KeyReader& keys)
     return {read_axis(keys, "frequency_hz", frequency_range), read_axis(keys, "pga_m_s2", acceleration_range)};
 }
 
-OutcomeSpec read_outcome(const KeyReader& keys)
+/// @param structure must be read: from where it may be leaned
+InitialSpec read_initial(const KeyReader& keys, const StructureSpec& structure)
 {
-    keys.allow_only({"collapse", "rocking_threshold_rad", "sliding_threshold"});
+    keys.allow_only({"tilt_rad", "tilt_from_block"});
+    InitialSpec initial;
+    initial.tilt_rad = keys.number_or("tilt_rad", initial_tilt_range, initial.tilt_rad);
+    std::size_t fewest = structure.columns[0].drums.size();
+    for (const ColumnSpec& column : structure.columns)
+        fewest = std::min(fewest, column.drums.size());
+    initial.tilt_from_block = static_cast<int>(
+        keys.whole_or("tilt_from_block", 0, fewest - 1, 0, "A block of each column, counted from 0, from the bottom."));
+    return initial;
+}
+
+/// @param kind decides how long a realization is followed unless the study says it
+OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
+{
+    keys.allow_only({"follow", "collapse", "rocking_threshold_rad", "sliding_threshold"});
     OutcomeSpec o;
+    o.follow =
+        keys.choice_or("follow", follow_names, kind == StructureKind::colonnade ? Follow::rest : Follow::collapse);
     const KeyReader collapse = keys.table("collapse");
     collapse.allow_only({"height_fraction"});
     o.collapse_height_fraction = collapse.number_or(
@@ -157,14 +178,12 @@ Study read_tree(const TomlValue& root)
     }
     study.perturbations = read_perturbations(top.table("perturbation"), study);
 
-    const KeyReader initial = top.table("initial");
-    initial.allow_only({"tilt_rad"});
-    study.initial.tilt_rad = initial.number_or("tilt_rad", initial_tilt_range, study.initial.tilt_rad);
+    study.initial = read_initial(top.table("initial"), study.structure);
     const KeyReader output = top.table("output");
     output.allow_only({"trajectory_rate_hz"});
     study.output.trajectory_rate_hz = output.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0},
                                                        study.output.trajectory_rate_hz);
-    study.outcome = read_outcome(top.table("outcome"));
+    study.outcome = read_outcome(top.table("outcome"), study.structure.kind);
     study.run = read_run(top.table("run"));
     return study;
 }

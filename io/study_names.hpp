@@ -15,6 +15,10 @@ struct Name {
 
 inline constexpr std::array study_kind_names = {Name<StudyKind>{"single", StudyKind::single},
                                                 Name<StudyKind>{"surface", StudyKind::surface}};
+inline constexpr std::array structure_kind_names = {Name<StructureKind>{"column", StructureKind::column},
+                                                    Name<StructureKind>{"colonnade", StructureKind::colonnade}};
+inline constexpr std::array follow_names = {Name<Follow>{"collapse", Follow::collapse},
+                                            Name<Follow>{"rest", Follow::rest}};
 inline constexpr std::array excitation_kind_names = {Name<ExcitationKind>{"none", ExcitationKind::none},
                                                      Name<ExcitationKind>{"harmonic", ExcitationKind::harmonic},
                                                      Name<ExcitationKind>{"half_sine", ExcitationKind::half_sine},

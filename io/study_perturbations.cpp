@@ -1,5 +1,6 @@
 #include "io/study_perturbations.hpp"
 
+#include "ensemble/nominal.hpp"
 #include "io/study_names.hpp"
 #include "io/study_ranges.hpp"
 
@@ -19,66 +20,72 @@ constexpr double farthest_sd = 9;
 constexpr double least_kept = 1e-6;
 
 struct Rule {
-    std::vector<double> nominal;    ///< the values that are perturbed
+    std::vector<double> nominal;    ///< the values that are perturbed, each once
     Range value;                    ///< what a value may be
     Range sd;                       ///< what a standard deviation may be
     bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
     std::vector<Name<Per>> allowed; ///< the first is the default
 };
 
-Rule rule_for(Quantity quantity, const Study& study)
+/// Each value once, in ascending order.
+std::vector<double> distinct(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+}
+
+/// @param nominal the quantity's nominal values, each once, ascending
+Rule rule_for(Quantity quantity, const Study& study, std::vector<double> nominal)
 {
     constexpr Name<Per> joint{"joint", Per::joint}, block{"block", Per::block}, structure{"structure", Per::structure};
-    const auto& s = study.structure;
-    const auto& c = study.contact;
     const auto below = [](Range range, double high) {
         range.low = 0;
         range.high = high;
         range.open = true;
         return range;
     };
+    const double least = nominal.front();
     switch (quantity) {
     case Quantity::friction:
-        return {{c.friction}, friction_range, below(friction_range, c.friction), true, {joint, structure}};
+        return {std::move(nominal), friction_range, below(friction_range, least), true, {joint, structure}};
     case Quantity::normal_stiffness:
-        return {{c.normal_stiffness_n_m2},
-                normal_stiffness_range,
-                below(normal_stiffness_range, c.normal_stiffness_n_m2),
-                true,
-                {structure, joint}};
+        return {
+            std::move(nominal), normal_stiffness_range, below(normal_stiffness_range, least), true, {structure, joint}};
     case Quantity::tangential_stiffness:
-        return {{c.tangential_stiffness_n_m},
+        return {std::move(nominal),
                 tangential_stiffness_range,
-                below(tangential_stiffness_range, c.tangential_stiffness_n_m),
+                below(tangential_stiffness_range, least),
                 true,
                 {structure, joint}};
     case Quantity::damping_ratio:
-        return {{c.normal_damping_ratio, c.tangential_damping_ratio},
+        return {{study.contact.normal_damping_ratio, study.contact.tangential_damping_ratio},
                 damping_ratio_range,
                 below(damping_ratio_range, damping_ratio_range.high),
                 true,
                 {structure}};
     case Quantity::drum_width:
-        return {{s.drum_width_m}, length_range, below(length_range, s.drum_width_m), true, {block, structure}};
     case Quantity::drum_height:
-        return {{s.drum_height_m}, length_range, below(length_range, s.drum_height_m), true, {block, structure}};
+        return {std::move(nominal), length_range, below(length_range, least), true, {block, structure}};
     case Quantity::drum_offset: {
+        double widest = 0;
+        for (const ColumnSpec& column : study.structure.columns)
+            for (const DrumSpec& drum : column.drums)
+                widest = std::max(widest, drum.width_m);
         Range offset = length_range;
-        offset.low = -s.drum_width_m;
-        offset.high = s.drum_width_m;
+        offset.low = -widest;
+        offset.high = widest;
         offset.open = false;
-        return {{0}, offset, below(length_range, s.drum_width_m), false, {block}};
+        return {std::move(nominal), offset, below(length_range, widest), false, {block}};
     }
-    case Quantity::density: {
-        const double density = s.drum_mass_kg / (s.drum_width_m * s.drum_height_m * s.depth_m);
-        return {{density}, density_range, below(density_range, density), true, {block, structure}};
-    }
+    case Quantity::density:
+        return {std::move(nominal), density_range, below(density_range, least), true, {block, structure}};
     case Quantity::tilt:
-        return {{0}, tilt_range, below(tilt_range, tilt_range.high), false, {structure}};
+        return {std::move(nominal), tilt_range, below(tilt_range, tilt_range.high), false, {structure}};
     case Quantity::phase:
         break;
     }
-    return {{study.excitation.phase_rad}, phase_range, below(phase_range, phase_range.high), false, {structure}};
+    return {std::move(nominal), phase_range, below(phase_range, phase_range.high), false, {structure}};
 }
 
 /// Probability of a standard normal number between a and b.
@@ -155,9 +162,9 @@ void read_uniform(const KeyReader& keys, const Rule& rule, Perturbation& p)
         keys.refuse("from", fmt::format("is not below to = {}", p.to));
 }
 
-Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& study)
+Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& study, const Layout& layout)
 {
-    const Rule rule = rule_for(quantity, study);
+    const Rule rule = rule_for(quantity, study, distinct(nominal_values(study, layout, quantity)));
     const std::string sd = sd_key(quantity);
     keys.allow_only({"distribution", sd, "cov", "sigma_ln", "from", "to", "min", "max", "per"});
 
@@ -194,6 +201,13 @@ Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& stu
     case DistributionKind::uniform:
     case DistributionKind::log_uniform:
         keys.refuse_unused({"distribution", "from", "to", "per"}, why);
+        // densities from masses and sizes differ in their last digits
+        if (quantity != Quantity::damping_ratio &&
+            rule.nominal.back() - rule.nominal.front() > 1e-9 * rule.nominal.back())
+            keys.refuse("distribution",
+                        fmt::format("replaces nominal values that differ, from {} to {}", rule.nominal.front(),
+                                    rule.nominal.back()),
+                        "Use normal or lognormal, which are about each one's own value.");
         read_uniform(keys, rule, p);
         break;
     }
@@ -209,6 +223,7 @@ std::vector<Perturbation> read_perturbations(const KeyReader& section, const Stu
         known.emplace_back(to_string(static_cast<Quantity>(i)));
     section.allow_only(known);
 
+    const Layout layout = lay_out(study.structure);
     std::vector<Perturbation> all;
     for (int i = 0; i < quantity_count; ++i) {
         const auto quantity = static_cast<Quantity>(i);
@@ -224,7 +239,7 @@ std::vector<Perturbation> read_perturbations(const KeyReader& section, const Stu
             (study.contact.normal_damping_n_s_m || study.contact.tangential_damping_n_s_m))
             section.refuse("damping_ratio", "is not used where [contact] gives a damping coefficient",
                            "Give contact.normal_damping_ratio and contact.tangential_damping_ratio instead.");
-        all.push_back(read_one(keys, quantity, study));
+        all.push_back(read_one(keys, quantity, study, layout));
     }
     return all;
 }

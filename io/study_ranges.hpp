@@ -10,6 +10,8 @@ namespace stylobate {
 inline constexpr double degree = std::numbers::pi / 180;
 
 inline const Range length_range{0, 10, true, "Lengths are in metres.", 1e-3};
+inline const Range spacing_range{0, 100, true, "Lengths are in metres.", 1e-3};
+inline const Range position_range{-1000, 1000, false, "Places are in metres.", 1e-3};
 inline const Range mass_range{0, 3e7, true, "Masses are in kilograms.", 1e-3};
 inline const Range density_range{0, 30000, true, "Densities are in kg/m3; marble has about 2700.", 0};
 inline const Range gravity_range{0, 100, true, "Gravity is in m/s2; on Earth 9.81.", 0};

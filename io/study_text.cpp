@@ -43,7 +43,9 @@ private:
     std::string out_;
 };
 
-std::string inline_table(const std::vector<std::pair<std::string, std::string>>& entries)
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+std::string inline_table(const Entries& entries)
 {
     std::string out = "{ ";
     for (const auto& [key, value] : entries)
@@ -51,17 +53,99 @@ std::string inline_table(const std::vector<std::pair<std::string, std::string>>&
     return out + " }";
 }
 
+/// An array of many lines, one element on each.
+std::string list(const std::vector<std::string>& elements, const std::string& indent)
+{
+    std::string out = "[";
+    for (const std::string& element : elements)
+        out += (out.size() > 1 ? ",\n" : "\n") + indent + "    " + element;
+    return elements.empty() ? "[]" : out + "\n" + indent + "]";
+}
+
+void add(Entries& entries, const BedSpec& bed)
+{
+    if (bed.friction)
+        entries.emplace_back("friction", toml_number(*bed.friction));
+    if (bed.normal_stiffness_n_m2)
+        entries.emplace_back("normal_stiffness_n_m2", toml_number(*bed.normal_stiffness_n_m2));
+    if (bed.tangential_stiffness_n_m)
+        entries.emplace_back("tangential_stiffness_n_m", toml_number(*bed.tangential_stiffness_n_m));
+}
+
+/// Equal drums, one upon the other, are one line.
+std::string drums(const std::vector<DrumSpec>& drums, const std::string& indent)
+{
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < drums.size();) {
+        const DrumSpec& drum = drums[i];
+        std::size_t count = 1;
+        while (i + count < drums.size() && drums[i + count] == drum)
+            ++count;
+        Entries entries = {{"width_m", toml_number(drum.width_m)},
+                           {"height_m", toml_number(drum.height_m)},
+                           {"mass_kg", toml_number(drum.mass_kg)}};
+        if (drum.offset_m != 0)
+            entries.emplace_back("offset_m", toml_number(drum.offset_m));
+        add(entries, drum.bed);
+        if (count > 1)
+            entries.emplace_back("count", std::to_string(count));
+        lines.push_back(inline_table(entries));
+        i += count;
+    }
+    return list(lines, indent);
+}
+
+std::string columns(const std::vector<ColumnSpec>& columns)
+{
+    std::vector<std::string> lines;
+    for (const ColumnSpec& column : columns)
+        lines.push_back(inline_table({{"x_m", toml_number(column.x_m)},
+                                      {"fixed_blocks", std::to_string(column.fixed_blocks)},
+                                      {"drums", drums(column.drums, "    ")}}));
+    return list(lines, "");
+}
+
+std::string epistyles(const std::vector<EpistyleSpec>& epistyles)
+{
+    std::vector<std::string> lines;
+    for (const EpistyleSpec& epistyle : epistyles) {
+        Entries entries = {{"first_column", std::to_string(epistyle.first_column)},
+                           {"last_column", std::to_string(epistyle.last_column)},
+                           {"x_m", toml_number(epistyle.x_m)},
+                           {"length_m", toml_number(epistyle.length_m)},
+                           {"height_m", toml_number(epistyle.height_m)},
+                           {"mass_kg", toml_number(epistyle.mass_kg)}};
+        add(entries, epistyle.bed);
+        lines.push_back(inline_table(entries));
+    }
+    return list(lines, "");
+}
+
+/// A column of equal drums in few words; all else block by block.
 void write(Writer& out, const StructureSpec& structure)
 {
     out.section("structure");
-    out.word("kind", "column");
-    out.whole("blocks", static_cast<std::uint64_t>(structure.blocks));
-    out.whole("fixed_blocks", static_cast<std::uint64_t>(structure.fixed_blocks));
-    out.number("drum_width_m", structure.drum_width_m);
-    out.number("drum_height_m", structure.drum_height_m);
+    out.word("kind", word_for(structure_kind_names, structure.kind));
     out.number("depth_m", structure.depth_m);
-    out.number("drum_mass_kg", structure.drum_mass_kg);
     out.number("gravity_m_s2", structure.gravity_m_s2);
+    if (structure.kind == StructureKind::colonnade) {
+        out.line("column_list", columns(structure.columns));
+        out.line("epistyles", epistyles(structure.epistyles));
+        return;
+    }
+    const ColumnSpec& column = structure.columns[0];
+    const DrumSpec& lowest = column.drums[0];
+    const int count = static_cast<int>(column.drums.size());
+    if (structure == equal_column(count, column.fixed_blocks, lowest.width_m, lowest.height_m, structure.depth_m,
+                                  lowest.mass_kg, structure.gravity_m_s2)) {
+        out.whole("blocks", column.drums.size());
+        out.number("drum_width_m", lowest.width_m);
+        out.number("drum_height_m", lowest.height_m);
+        out.number("drum_mass_kg", lowest.mass_kg);
+    } else {
+        out.line("drums", drums(column.drums, ""));
+    }
+    out.whole("fixed_blocks", static_cast<std::uint64_t>(column.fixed_blocks));
 }
 
 void write(Writer& out, const ContactSpec& contact)
@@ -128,8 +212,7 @@ std::string axis(const Axis& axis)
 
 std::string perturbation(const Perturbation& p)
 {
-    std::vector<std::pair<std::string, std::string>> entries = {
-        {"distribution", toml_quoted(word_for(distribution_names, p.distribution))}};
+    Entries entries = {{"distribution", toml_quoted(word_for(distribution_names, p.distribution))}};
     switch (p.distribution) {
     case DistributionKind::normal:
         entries.emplace_back(p.cov > 0 ? "cov" : sd_key(p.quantity), toml_number(p.cov > 0 ? p.cov : p.sd));
@@ -174,9 +257,11 @@ std::string study_text(const Study& study)
         out.line(to_string(p.quantity), perturbation(p));
     out.section("initial");
     out.number("tilt_rad", study.initial.tilt_rad);
+    out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));
     out.section("output");
     out.number("trajectory_rate_hz", study.output.trajectory_rate_hz);
     out.section("outcome");
+    out.word("follow", word_for(follow_names, study.outcome.follow));
     out.line("collapse", inline_table({{"height_fraction", toml_number(study.outcome.collapse_height_fraction)}}));
     out.number("rocking_threshold_rad", study.outcome.rocking_threshold_rad);
     out.number("sliding_threshold", study.outcome.sliding_threshold);

@@ -82,8 +82,16 @@ TomlValue convert(const toml::node& node, std::string key, const TomlPlace& plac
     } else if (const auto* string = node.as_string()) {
         out.type = Type::string;
         out.text = string->get();
+    } else if (const auto* array = node.as_array()) {
+        out.type = Type::array;
+        for (const auto& entry : *array) {
+            TomlPlace own = place;
+            if (!place.command_line)
+                own.line = static_cast<long>(entry.source().begin.line);
+            out.entries.push_back(convert(entry, std::to_string(out.entries.size()), own));
+        }
     } else {
-        out.type = node.is_array() ? Type::array : Type::date;
+        out.type = Type::date;
     }
     return out;
 }

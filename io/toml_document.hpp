@@ -26,7 +26,7 @@ struct TomlValue {
     std::int64_t integer = 0;
     double number = 0;              ///< of an integer too
     std::string text;               ///< of a string; of another value from the command line, as it was typed
-    std::vector<TomlValue> entries; ///< of a table, by name
+    std::vector<TomlValue> entries; ///< of a table, by name; of an array, in order, named by their numbers
 
     /// The entry of a table; null if there is none.
     const TomlValue* find(std::string_view name) const;

@@ -30,8 +30,9 @@ const std::map<std::string, std::set<std::string>> may_include = {
 
 /// What `io` may include besides: plain data.
 const std::set<std::string> plain_data = {
-    "ensemble/input_error.hpp", "ensemble/motion.hpp", "ensemble/observer.hpp", "ensemble/outcome.hpp",
-    "ensemble/realization.hpp", "ensemble/study.hpp",  "kernels/topology.hpp",
+    "ensemble/input_error.hpp", "ensemble/motion.hpp",      "ensemble/observer.hpp",
+    "ensemble/outcome.hpp",     "ensemble/realization.hpp", "ensemble/study.hpp",
+    "kernels/topology.hpp",     "ensemble/nominal.hpp",     "ensemble/structure.hpp",
 };
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.

@@ -23,12 +23,7 @@ Study specimen()
     Study study;
     study.seed = 7;
     study.realizations = 1000000;
-    study.structure = {.blocks = 7,
-                       .fixed_blocks = 1,
-                       .drum_width_m = 0.048,
-                       .drum_height_m = 0.029,
-                       .depth_m = 0.048,
-                       .drum_mass_kg = 0.1355};
+    study.structure = equal_column(7, 1, 0.048, 0.029, 0.048, 0.1355);
     study.contact.normal_stiffness_n_m2 = 1e8;
     study.contact.tangential_stiffness_n_m = 4.8e6;
     study.contact.friction = 0.68;
@@ -178,9 +173,7 @@ TEST(Sampler, UnperturbedSpecimen)
 TEST(Sampler, GroundUnderAColumnWithoutFixedDrums)
 {
     Study study = specimen();
-    study.structure.fixed_blocks = 0;
-    study.structure.blocks = 3;
-    study.structure.drum_height_m = 0.2;
+    study.structure = equal_column(3, 0, 0.048, 0.2, 0.048, 0.1355);
     study.perturbations = {relative(Quantity::friction, Per::joint, 0.1)};
     const Sampler sampler(study, nullptr);
     const Realization r = sampler.realization(0);
@@ -207,7 +200,7 @@ TEST(Sampler, GroundUnderAColumnWithoutFixedDrums)
 TEST(Sampler, OnlyJointsWithAFreeBlock)
 {
     Study study = specimen();
-    study.structure.fixed_blocks = 3;
+    study.structure.columns[0].fixed_blocks = 3;
     const Realization r = Sampler(study, nullptr).realization(0);
     ASSERT_EQ(r.joints.size(), 4U);
     EXPECT_EQ(r.joints[0].lower, 2);
@@ -314,7 +307,7 @@ TEST(Sampler, ADrawDependsOnItsOwnNumberOnly)
     study.perturbations = {perturbed().perturbations[0]};
     const std::vector<double> alone = Sampler(study, nullptr).realization(4).inputs;
     const std::vector<double> among = Sampler(perturbed(), nullptr).realization(4).inputs;
-    study.structure.blocks = 12;
+    study.structure = equal_column(12, 1, 0.048, 0.029, 0.048, 0.1355);
     const std::vector<double> taller = Sampler(study, nullptr).realization(4).inputs;
     for (std::size_t j = 0; j < 6; ++j) {
         EXPECT_EQ(alone[j], among[j]);

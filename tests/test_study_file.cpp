@@ -95,12 +95,7 @@ TEST(StudyFile, ReadsEveryValueAndFillsInTheDefaults)
     EXPECT_EQ(study.seed, 1u);
     EXPECT_EQ(study.realizations, 8u);
     EXPECT_EQ(study.total(), 8u * 15u);
-    EXPECT_EQ(study.structure.blocks, 7);
-    EXPECT_EQ(study.structure.fixed_blocks, 1);
-    EXPECT_EQ(study.structure.drum_width_m, 0.048);
-    EXPECT_EQ(study.structure.drum_height_m, 0.029);
-    EXPECT_EQ(study.structure.depth_m, 0.048);
-    EXPECT_EQ(study.structure.drum_mass_kg, 0.1355);
+    EXPECT_EQ(study.structure, equal_column(7, 1, 0.048, 0.029, 0.048, 0.1355));
     EXPECT_EQ(study.structure.gravity_m_s2, 9.81);
     EXPECT_EQ(study.contact.normal_stiffness_n_m2, 1e8);
     EXPECT_DOUBLE_EQ(study.contact.tangential_stiffness_n_m, 4.8e6); // K_N times the width
@@ -155,7 +150,7 @@ TEST(StudyFile, TheMassMayComeFromTheDensity)
 {
     auto lines = surface_lines();
     lines[10] = "density_kg_m3 = 2000";
-    EXPECT_DOUBLE_EQ(read(lines).structure.drum_mass_kg, 2000 * 0.048 * 0.029 * 0.048);
+    EXPECT_DOUBLE_EQ(read(lines).structure.columns[0].drums[3].mass_kg, 2000 * 0.048 * 0.029 * 0.048);
 }
 
 TEST(StudyFile, ReadsTheOtherKindsOfExcitation)
@@ -316,7 +311,8 @@ TEST(StudyFile, RefusesWordsThatAreNotAllowed)
     expect_line_refused(2, "kind = \"fragility\"",
                         {"study.kind = \"fragility\" is not allowed", "Allowed: \"single\", \"surface\"."});
     expect_line_refused(2, "kind = \"Surface\"", {"Did you mean \"surface\"?"});
-    expect_line_refused(5, "kind = \"colonnade\"\nblocks = 7", {"structure.kind = \"colonnade\"", "\"column\""});
+    expect_line_refused(5, "kind = \"colonade\"\nblocks = 7",
+                        {"structure.kind = \"colonade\"", "\"column\"", "Did you mean \"colonnade\"?"});
     expect_line_refused(15, "kind = \"ricker\"", {"excitation.kind", "\"half_sine\"", "\"record\""});
     expect_line_refused(15, "kind = \"harmonc\"", {"Did you mean \"harmonic\"?"});
     expect_line_refused(16, "start = \"smoth\"", {"excitation.start", "Did you mean \"smooth\"?"});
@@ -437,7 +433,7 @@ TEST(StudyFile, SettingsOverrideTheFile)
                                     "surface.frequency_hz={from=1, to=2, count=2}", "study.realizations=4"});
     EXPECT_EQ(study.realizations, 4u); // the last one counts
     EXPECT_EQ(study.seed, 9u);
-    EXPECT_EQ(study.structure.drum_width_m, 0.05);
+    EXPECT_EQ(study.structure.columns[0].drums[0].width_m, 0.05);
     EXPECT_EQ(study.surface->pga_m_s2.to, 5);
     EXPECT_EQ(study.surface->pga_m_s2.from, 1);
     EXPECT_EQ(study.surface->frequency_hz.count, 2);
@@ -518,7 +514,7 @@ TEST(StudyFile, TheStudiesOfTheProjectAreRead)
     const std::filesystem::path inputs = STYLOBATE_SOURCE_DIR "/studies/inputs";
     const auto column = read_study(inputs / "small_scale_column.toml");
     EXPECT_EQ(column.total(), 16u * 16u * 256u);
-    EXPECT_EQ(column.structure.blocks - column.structure.fixed_blocks, 6);
+    EXPECT_EQ(static_cast<int>(column.structure.columns[0].drums.size()) - column.structure.columns[0].fixed_blocks, 6);
     EXPECT_EQ(column.contact.tangential_stiffness_n_m, 4.8e6);
     EXPECT_EQ(column.perturbations.size(), 9u);
 

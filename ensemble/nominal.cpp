@@ -1,0 +1,56 @@
+#include "ensemble/nominal.hpp"
+
+namespace stylobate {
+namespace {
+
+std::vector<double> of_beds(const Layout& layout, std::optional<double> BedSpec::*own, double common)
+{
+    std::vector<double> values;
+    for (const PlacedBed& bed : layout.beds)
+        values.push_back((bed.bed.*own).value_or(common));
+    return values;
+}
+
+template <class Value>
+std::vector<double> of_blocks(const Layout& layout, Value&& value)
+{
+    std::vector<double> values;
+    for (const PlacedBlock& block : layout.blocks)
+        values.push_back(value(block));
+    return values;
+}
+
+} // namespace
+
+std::vector<double> nominal_values(const Study& study, const Layout& layout, Quantity quantity)
+{
+    const StructureSpec& structure = study.structure;
+    const ContactSpec& contact = study.contact;
+    switch (quantity) {
+    case Quantity::friction:
+        return of_beds(layout, &BedSpec::friction, contact.friction);
+    case Quantity::normal_stiffness:
+        return of_beds(layout, &BedSpec::normal_stiffness_n_m2, contact.normal_stiffness_n_m2);
+    case Quantity::tangential_stiffness:
+        return of_beds(layout, &BedSpec::tangential_stiffness_n_m, contact.tangential_stiffness_n_m);
+    case Quantity::damping_ratio:
+        return {contact.normal_damping_ratio};
+    case Quantity::drum_width:
+        return of_blocks(layout, [](const PlacedBlock& block) { return block.width_m; });
+    case Quantity::drum_height:
+        return of_blocks(layout, [](const PlacedBlock& block) { return block.height_m; });
+    case Quantity::drum_offset:
+        return of_blocks(layout, [](const PlacedBlock& block) { return block.offset_m; });
+    case Quantity::density:
+        return of_blocks(layout, [&](const PlacedBlock& block) {
+            return block.mass_kg / (block.width_m * block.height_m * structure.depth_m);
+        });
+    case Quantity::tilt:
+        return {0};
+    case Quantity::phase:
+        return {study.excitation.phase_rad};
+    }
+    return {0};
+}
+
+} // namespace stylobate

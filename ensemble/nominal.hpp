@@ -1,0 +1,16 @@
+#pragma once
+/// The values that the perturbed quantities of a study have without perturbation.
+
+#include "ensemble/structure.hpp"
+#include "ensemble/study.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// Nominal values of a quantity: one for each bed or each block of the layout, in its order, or one in all for what
+/// belongs to the whole structure. In the quantity's unit; an epistyle's drum_width is its length, its drum_offset is
+/// counted from its place as it is designed.
+std::vector<double> nominal_values(const Study& study, const Layout& layout, Quantity quantity);
+
+} // namespace stylobate

@@ -1,0 +1,109 @@
+#pragma once
+/// What stands on the ground: columns of drums, and the epistyles that lie on them. Plain data, SI units; and where
+/// each block of it stands at rest.
+
+#include "ensemble/realization.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+enum class StructureKind {
+    column,   ///< one column: where it stands is all that its blocks can meet
+    colonnade ///< columns with or without epistyles: any block may meet any other one
+};
+
+/// Values of a bed that differ from those of [contact].
+struct BedSpec {
+    std::optional<double> friction;                 ///< mu
+    std::optional<double> normal_stiffness_n_m2;    ///< K_N
+    std::optional<double> tangential_stiffness_n_m; ///< K_T
+    friend bool operator==(const BedSpec&, const BedSpec&) = default;
+};
+
+/// A block of a column: a drum, a capital or a whole shaft.
+struct DrumSpec {
+    double width_m = 0;  ///< full width B
+    double height_m = 0; ///< full height H
+    double mass_kg = 0;
+    double offset_m = 0; ///< of its centre from the axis of its column
+    BedSpec bed = {};    ///< under it; without meaning where it and what it stands on are fixed
+    friend bool operator==(const DrumSpec&, const DrumSpec&) = default;
+};
+
+struct ColumnSpec {
+    double x_m = 0;              ///< its axis
+    int fixed_blocks = 0;        ///< so many of the drums, the lowest ones, are fixed to the shaking table
+    std::vector<DrumSpec> drums; ///< from the bottom
+    friend bool operator==(const ColumnSpec&, const ColumnSpec&) = default;
+};
+
+/// Lies on every column from the first to the last one.
+struct EpistyleSpec {
+    int first_column = 0; ///< from 0, from the left
+    int last_column = 0;
+    double x_m = 0;      ///< its centre
+    double length_m = 0; ///< along the colonnade
+    double height_m = 0;
+    double mass_kg = 0;
+    BedSpec bed = {}; ///< each of its seats
+    friend bool operator==(const EpistyleSpec&, const EpistyleSpec&) = default;
+};
+
+struct StructureSpec {
+    StructureKind kind = StructureKind::column;
+    double depth_m = 0;                  ///< D, out of the plane, of every block
+    double gravity_m_s2 = 9.81;          ///< the acceleration of gravity
+    std::vector<ColumnSpec> columns;     ///< from the left
+    std::vector<EpistyleSpec> epistyles; ///< from the left
+    friend bool operator==(const StructureSpec&, const StructureSpec&) = default;
+};
+
+/// A column of equal drums about x = 0.
+/// @param blocks drums, the fixed ones counted   @param fixed so many of them, the lowest, are fixed to the table
+StructureSpec equal_column(int blocks, int fixed, double width_m, double height_m, double depth_m, double mass_kg,
+                           double gravity_m_s2 = 9.81);
+
+/// A block in its place at rest, faces just touching.
+struct PlacedBlock {
+    std::string name; ///< "drum 2 of column 1", "epistyle 0": counted from 0, from the bottom and from the left
+    BlockRole role = BlockRole::drum;
+    int column = 0; ///< of a drum, from the left; -1 for an epistyle
+    double width_m = 0;
+    double height_m = 0;
+    double mass_kg = 0;
+    double axis_m = 0;   ///< from which its offset counts: of its column, or the place of an epistyle
+    double offset_m = 0; ///< of its centre from there
+    double y_m = 0;      ///< centre, above the base
+    bool fixed = false;
+
+    double x_m() const { return axis_m + offset_m; } ///< centre
+    double left() const { return x_m() - width_m / 2; }
+    double right() const { return x_m() + width_m / 2; }
+    double bottom() const { return y_m - height_m / 2; }
+    double top() const { return y_m + height_m / 2; }
+};
+
+struct PlacedBed {
+    int lower = -1; ///< block; -1: the ground
+    int upper = 0;  ///< block, a free one
+    BedSpec bed = {};
+};
+
+struct Layout {
+    std::vector<PlacedBlock> blocks; ///< column by column from the bottom, then the epistyles
+    std::vector<PlacedBed> beds;     ///< column by column from the bottom, then the epistyles' seats from the left
+};
+
+/// Where the blocks of a structure stand and on what.
+///
+/// @throws InputError, naming the blocks and the distance, for a structure that cannot stand: blocks that overlap
+///         (neighbours that just touch are fine), drums whose common centre of mass is not above the bed under them
+///         (epistyles left out), an epistyle that one of its columns does not reach or reaches at another height, or
+///         whose centre of mass is not between its outermost seats; for blocks without size or mass, for columns and
+///         epistyles that are not listed from the left, and for a column that is fixed as a whole
+Layout lay_out(const StructureSpec& structure);
+
+} // namespace stylobate
