@@ -332,7 +332,9 @@ void Sampler::watch(const Values& values, Realization& realization) const
         const Block& b = blocks[static_cast<std::size_t>(upper)];
         const double wide = a.half_width_m + b.half_width_m - std::abs(a.x_m - b.x_m);
         const double high = a.half_height_m + b.half_height_m - std::abs(a.y_m - b.y_m);
-        const double chord = 2 * std::min({a.half_width_m, a.half_height_m, b.half_width_m, b.half_height_m});
+        // the longest contact that the two can have: dashpots in proportion to the length reach their full value there
+        const double chord =
+            2 * std::min(std::max(a.half_width_m, a.half_height_m), std::max(b.half_width_m, b.half_height_m));
         // rounding of sums of lengths aside
         if (std::min(wide, high) > 1e-9 * chord)
             throw InputError(fmt::format("perturbation: in realization {} {} and {} overlap by {:.3g} m at rest. Lower "
@@ -374,8 +376,7 @@ void Sampler::shake(const Values& values, Realization& realization) const
 
 double Sampler::step(const Realization& realization) const
 {
-    const std::vector<Joint> beds(realization.joints.begin(), realization.joints.begin() + realization.beds());
-    const StepBound bound = step_bound(realization.blocks, beds);
+    const StepBound bound = step_bound(realization.blocks, realization.joints, realization.watched);
     if (!study_.run.step_s)
         return study_.run.step_fraction * bound.dt_s;
     if (*study_.run.step_s > bound.dt_s && !study_.run.allow_step_above_bound)
