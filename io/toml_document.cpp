@@ -180,7 +180,7 @@ Unfit find_unfit(std::string_view text)
 toml::table parse_setting(const std::string& value, const std::string& place)
 {
     std::string why;
-    if (const auto unfit = find_unfit(value); unfit.line > 0) {
+    if (const auto unfit = find_unfit("value = " + value); unfit.line > 0) {
         why = unfit.what;
     } else {
         try {

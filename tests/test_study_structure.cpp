@@ -1,6 +1,7 @@
 /// The [structure] of a study file: the ways to write columns and colonnades, and what each misuse says.
 
 #include "ensemble/input_error.hpp"
+#include "ensemble/sampler.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>
@@ -351,7 +352,7 @@ TEST(StudyStructure, PerturbationsOfBlocksThatDiffer)
               1U);
 }
 
-TEST(StudyStructure, EveryStudyOfTheCatalogueIsRead)
+TEST(StudyStructure, EveryStudyOfTheCatalogueIsReadAndDrawn)
 {
     int studies = 0;
     for (const auto& entry : std::filesystem::directory_iterator(STYLOBATE_SOURCE_DIR "/studies/inputs")) {
@@ -362,6 +363,11 @@ TEST(StudyStructure, EveryStudyOfTheCatalogueIsRead)
             settings = {"excitation.file=quake.at2"};
         const Study study = read_study(entry.path(), settings);
         EXPECT_EQ(parse_study(study.text, "again.toml").text, study.text) << entry.path();
+        if (study.excitation.kind != ExcitationKind::record) {
+            const Sampler sampler(study, nullptr);
+            for (std::uint64_t i = 0; i < study.total(); i += 1 + study.total() / 100)
+                EXPECT_NO_THROW(sampler.realization(i)) << entry.path() << ' ' << i;
+        }
         ++studies;
     }
     EXPECT_GE(studies, 10);

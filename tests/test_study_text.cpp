@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -69,6 +70,30 @@ std::vector<Study> all_sorts()
         studies.push_back(single(excitation));
     studies.push_back(single(still, {"contact.normal_damping_n_s_m=0.1", "contact.tangential_damping_n_s_m=0",
                                      "run.step_s=1e-7", "contact.damping_per=chord"}));
+    const std::string colonnade = R"(
+[study]
+kind = "single"
+[structure]
+kind = "colonnade"
+depth_m = 0.06
+columns = 2
+column_spacing_m = 0.09
+drums = [ { width_m = 0.06, height_m = 0.05, mass_kg = 0.375, count = 2 } ]
+epistyle_height_m = 0.06
+epistyle_mass_kg = 1.14
+[contact]
+normal_stiffness_n_m2 = 1e8
+friction = 0.68
+[excitation]
+)" + still;
+    studies.push_back(read(colonnade));
+    studies.push_back(read(colonnade, {"structure.epistyles=[]"}));
+    studies.push_back(read(colonnade, {"outcome.follow=collapse"}));
+    studies.push_back(read(colonnade, {"structure.capital={ width_m = 0.07, height_m = 0.01, mass_kg = 0.1 }"}));
+    studies.push_back(read(colonnade, {"structure.fixed_blocks=1", "initial.tilt_from_block=1"}));
+    studies.push_back(
+        single(still, {"structure.capital={ width_m = 0.05, height_m = 0.01, mass_kg = 0.1, offset_m = 0.001, "
+                       "friction = 0.3, normal_stiffness_n_m2 = 1e9, tangential_stiffness_n_m = 1e8 }"}));
     studies.push_back(single(still, {"run.allow_step_above_bound=true", "run.step_fraction=1.001"}));
     return studies;
 }
@@ -115,6 +140,15 @@ seed = 1
 kind = "surface"
 )";
     EXPECT_EQ(read(other).text, read(surface + structure).text);
+}
+
+void expect_other_texts(const Study& base, const std::vector<std::function<void(Study&)>>& changes)
+{
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        auto changed = base;
+        changes[i](changed);
+        EXPECT_NE(study_text(changed), base.text) << "change " << i;
+    }
 }
 
 TEST(StudyText, DiffersWhereverAStudyDoes)
@@ -178,11 +212,32 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [](Study& s) { s.run.allow_step_above_bound = true; },
         [&](Study& s) { up(s.run.max_invalid_fraction); },
     };
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-        auto changed = base;
-        changes[i](changed);
-        EXPECT_NE(study_text(changed), base.text) << "change " << i;
-    }
+    expect_other_texts(base, changes);
+}
+
+TEST(StudyText, DiffersWhereverAColonnadeDoes)
+{
+    const auto up = [](double& x) { x = std::nextafter(x, 1e300); };
+    const auto sorts = all_sorts();
+    const auto base = *std::find_if(sorts.begin(), sorts.end(), [](const Study& study) {
+        return study.structure.kind == StructureKind::colonnade && !study.structure.epistyles.empty();
+    });
+    expect_other_texts(base, {
+                                 [&](Study& s) { up(s.structure.columns[1].x_m); },
+                                 [](Study& s) { s.structure.columns[1].fixed_blocks = 1; },
+                                 [&](Study& s) { up(s.structure.columns[1].drums[0].mass_kg); },
+                                 [](Study& s) { s.structure.columns.pop_back(); },
+                                 [](Study& s) { s.structure.epistyles.pop_back(); },
+                                 [](Study& s) { s.structure.epistyles[0].first_column = 1; },
+                                 [](Study& s) { s.structure.epistyles[0].last_column = 0; },
+                                 [&](Study& s) { s.structure.epistyles[0].x_m = 0.001; },
+                                 [&](Study& s) { up(s.structure.epistyles[0].length_m); },
+                                 [&](Study& s) { up(s.structure.epistyles[0].height_m); },
+                                 [&](Study& s) { up(s.structure.epistyles[0].mass_kg); },
+                                 [](Study& s) { s.structure.epistyles[0].bed.friction = 0.68; },
+                                 [](Study& s) { s.structure.epistyles[0].bed.normal_stiffness_n_m2 = 1e8; },
+                                 [](Study& s) { s.structure.epistyles[0].bed.tangential_stiffness_n_m = 1e8; },
+                             });
 }
 
 } // namespace
