@@ -303,15 +303,15 @@ TEST(StructureRealization, ColonnadeWithItsGroundAndWatchedPairs)
     EXPECT_EQ(r.joints[4].friction, 0.7);
     EXPECT_EQ(r.joints[2].damping_chord_m, 0);
 
-    // 0 and 3: the smallest of the four half sizes is 0.02; 3 alone is free, with 0.375 kg
-    EXPECT_EQ(r.joints[4].damping_chord_m, 0.04);
-    EXPECT_NEAR(r.joints[4].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.04 * 0.375), 1e-9);
+    // 0 and 3: the shorter of their long faces is 0.06; 3 alone is free, with 0.375 kg
+    EXPECT_EQ(r.joints[4].damping_chord_m, 0.06);
+    EXPECT_NEAR(r.joints[4].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.06 * 0.375), 1e-9);
     EXPECT_NEAR(r.joints[4].tangential_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.375), 1e-9);
-    // 2 and 4: 2 is fixed, 4 has 1.14 kg, and half of 2's height is the smallest
-    EXPECT_EQ(r.joints[8].damping_chord_m, 0.05);
-    EXPECT_NEAR(r.joints[8].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.05 * 1.14), 1e-9);
+    // 2 and 4: 2 is fixed, 4 has 1.14 kg, and 2's long face is the shorter one
+    EXPECT_EQ(r.joints[8].damping_chord_m, 0.06);
+    EXPECT_NEAR(r.joints[8].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.06 * 1.14), 1e-9);
     // 1 and 3: 0.375 kg is less than 0.45
-    EXPECT_NEAR(r.joints[7].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.05 * 0.375), 1e-9);
+    EXPECT_NEAR(r.joints[7].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.06 * 0.375), 1e-9);
 }
 
 TEST(StructureRealization, PairsOfAColumnAreWatchedWhereItIsFollowedToRest)
