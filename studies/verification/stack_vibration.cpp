@@ -74,7 +74,7 @@ std::vector<double> frequencies_hz(const Realization& r)
 
 double critical_step_s(const Realization& r)
 {
-    const Matrices m = assemble(r, 0);
+    const Matrices m = assemble(r, r.gravity_m_s2);
     const auto stable = [&](double dt) {
         const Eigen::MatrixXd left = 4 * m.M - 2 * dt * m.C - dt * dt * m.K;
         return Eigen::LLT<Eigen::MatrixXd>(left).info() == Eigen::Success;
