@@ -39,7 +39,7 @@ const std::set<std::string> plain_data = {
 const std::map<std::string, std::set<std::string>> library_folders = {
     {"xsimd/", {"kernels"}},
     {"tbb/", {"ensemble", "studies"}},
-    {"Eigen/", {"ensemble"}},
+    {"Eigen/", {"ensemble", "studies"}},
     {"boost/", {"ensemble"}},
     {"Random123/", {"ensemble"}},
     {"fmt/", {"ensemble", "io", "studies"}},

@@ -1,8 +1,8 @@
 /// The whole model against closed forms and against numbers found by other means: static rest, small oscillations,
 /// stability of the step, the scheme's order, restitution, free rocking, overturning by a pulse, sliding, invariants.
 
-#include "model.hpp"
-#include "reference_solver.hpp"
+#include "studies/verification/model.hpp"
+#include "studies/verification/reference_solver.hpp"
 
 #include "ensemble/static_state.hpp"
 

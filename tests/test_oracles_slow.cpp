@@ -1,6 +1,6 @@
 /// Oracles that take longer: stiffer contacts, and the specimen shaken over a range of amplitudes.
 
-#include "model.hpp"
+#include "studies/verification/model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The structures of the oracle tests as hand-built realizations, and two ways to run them.
+/// The structures of the verification cases as hand-built realizations, and two ways to run them.
 ///
 /// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.
 /// Nothing here goes through a study file, the sampler or the choice of the step.
@@ -130,10 +130,15 @@ inline Study harmonic(double cycles, double ramp_cycles)
     return study;
 }
 
+/// Called after every chunk of steps of a realization that is still running, with its place in the list.
+using Look = std::function<void(std::size_t index, const Snapshot&)>;
+
 /// Runs each realization to its end, a register at a time, on the widest instruction set; outcomes in their order.
-inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realization>& realizations)
+/// @param record of a study whose excitation is one
+inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realization>& realizations,
+                                    const Motion* record = nullptr, const Look& look = {})
 {
-    LaneSet set(study, nullptr, kernels(best_isa()), realizations.front());
+    LaneSet set(study, record, kernels(best_isa()), realizations.front());
     const auto lanes = static_cast<std::size_t>(set.lanes());
     std::vector<Outcome> outcomes;
     for (std::size_t begin = 0; begin < realizations.size(); begin += lanes) {
@@ -141,10 +146,14 @@ inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realiz
         for (std::size_t i = 0; i < count; ++i)
             set.load(static_cast<int>(i), realizations[begin + i]);
         const auto running = [&] {
+            bool any = false;
             for (std::size_t i = 0; i < count; ++i)
-                if (!set.outcome(static_cast<int>(i)))
-                    return true;
-            return false;
+                if (!set.outcome(static_cast<int>(i))) {
+                    any = true;
+                    if (look)
+                        look(begin + i, set.snapshot(static_cast<int>(i)));
+                }
+            return any;
         };
         while (running())
             set.advance();
@@ -161,31 +170,73 @@ inline Outcome run_one(const Study& study, const Realization& realization)
     return run_all(study, {realization}).front();
 }
 
-/// Least amplitude that overturns, between one that does not and one that does, to `tolerance`: each pass tries a
-/// register full of amplitudes between the two.
+/// Which of several amplitudes do it.
+using Trial = std::function<std::vector<bool>(const std::vector<double>&)>;
+
+/// Where `happens` changes from false to true, to `tolerance`: each pass tries a register full of amplitudes between
+/// one that does not and one that does.
 /// @throws std::runtime_error when the ends do not bracket it
-inline double least_overturning(const Study& study, const std::function<Realization(double)>& at, double low,
-                                double high, double tolerance)
+inline double threshold(const Trial& happens, double low, double high, double tolerance)
 {
-    const auto falls = [](const Outcome& o) { return o.state == State::collapsed; };
-    const auto ends = run_all(study, {at(low), at(high)});
-    if (falls(ends[0]) || !falls(ends[1]))
-        throw std::runtime_error("the ends do not bracket the overturning amplitude");
+    const std::vector<bool> ends = happens({low, high});
+    if (ends[0] || !ends[1])
+        throw std::runtime_error("the ends do not bracket the threshold");
     const int count = kernels(best_isa()).lanes;
     while (high - low > tolerance) {
         const double step = (high - low) / (count + 1);
-        std::vector<Realization> tries;
+        std::vector<double> tries;
         for (int i = 1; i <= count; ++i)
-            tries.push_back(at(low + step * i));
-        const auto outcomes = run_all(study, tries);
+            tries.push_back(low + step * i);
+        const std::vector<bool> results = happens(tries);
         int first = 0;
-        while (first < count && !falls(outcomes[static_cast<std::size_t>(first)]))
+        while (first < count && !results[static_cast<std::size_t>(first)])
             ++first;
         low += step * first;
         if (first < count)
             high = low + step;
     }
     return 0.5 * (low + high);
+}
+
+/// Least amplitude that overturns.
+/// @param at the realization with an amplitude
+inline double least_overturning(const Study& study, const std::function<Realization(double)>& at, double low,
+                                double high, double tolerance, const Motion* record = nullptr)
+{
+    return threshold(
+        [&](const std::vector<double>& amplitudes) {
+            std::vector<Realization> tries;
+            for (double amplitude : amplitudes)
+                tries.push_back(at(amplitude));
+            std::vector<bool> falls;
+            for (const Outcome& o : run_all(study, tries, record))
+                falls.push_back(o.state == State::collapsed);
+            return falls;
+        },
+        low, high, tolerance);
+}
+
+/// Acceleration that rises smoothly to 1 m/s2 and then stays, for loads that are as good as static.
+inline Motion ramp_and_hold(double rise_s, double hold_s)
+{
+    Motion motion;
+    motion.dt_s = rise_s / 200;
+    for (double t = 0; t < rise_s + hold_s; t += motion.dt_s) {
+        const double x = std::min(t / rise_s, 1.0);
+        motion.acceleration_m_s2.push_back(x * x * x * (10 + x * (6 * x - 15)));
+    }
+    motion.pga_m_s2 = 1;
+    motion.predominant_frequency_hz = 1;
+    return motion;
+}
+
+/// A study along a record that is not stretched: `frequency_hz` of its realizations is 1.
+inline Study along_record(double tail_s = 0)
+{
+    Study study;
+    study.excitation.kind = ExcitationKind::record;
+    study.excitation.tail_s = tail_s;
+    return study;
 }
 
 /// One realization in a bundle of its own, on the scalar kernel, with every field open: for starts that are not a

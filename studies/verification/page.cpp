@@ -1,0 +1,172 @@
+#include "studies/verification/page.hpp"
+
+#include "studies/verification/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace stylobate::verification {
+
+namespace {
+
+/// As many digits as a number and its tolerance deserve.
+std::string number(double value, double tolerance)
+{
+    if (!std::isfinite(value))
+        return fmt::format("{}", value);
+    const double size = std::fabs(value);
+    if (tolerance <= 0 || size == 0)
+        return fmt::format("{:.6g}", value);
+    const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(size / tolerance))) + 2, 3, 10);
+    return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string picture_name(const Case& c, std::size_t convergence)
+{
+    return fmt::format("{}_convergence{}", c.name, convergence + 1);
+}
+
+/// Vertical bars would end a cell of a table.
+std::string cell(std::string text)
+{
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+        text.insert(at, "\\");
+    return text;
+}
+
+std::string table(const std::vector<Check>& checks)
+{
+    std::string text = "| what | expected | measured | difference | allowed | |\n|---|---|---|---|---|---|\n";
+    for (const Check& c : checks) {
+        const char* relation = c.relation == Relation::at_least ? "at least "
+                               : c.relation == Relation::at_most ? "at most "
+                                                                 : "";
+        text += fmt::format("| {} | {}{} | {} | {:+.2g} | {} | {} |\n", cell(c.what), relation,
+                            number(c.expected, c.tolerance), number(c.measured, c.tolerance), c.measured - c.expected,
+                            c.relation == Relation::equals ? fmt::format("{:.2g}", c.tolerance) : "",
+                            c.passed() ? "passed" : "**failed**");
+    }
+    return text;
+}
+
+std::string table(const Convergence& c)
+{
+    std::string text = fmt::format("\n| {} |", cell(c.parameter));
+    std::string rule = "|---|", row = fmt::format("| {} |", cell(c.quantity)), error = "| error |";
+    for (std::size_t i = 0; i < c.at.size(); ++i) {
+        const double e = c.value[i] - c.exact;
+        text += fmt::format(" {:.3g} |", c.at[i]);
+        rule += "---|";
+        row += fmt::format(" {} |", number(c.value[i], std::fabs(e)));
+        error += fmt::format(" {:+.2g} |", e);
+    }
+    return text + fmt::format(" exact |\n{}---|\n{} {:.8g} |\n{} order {:.2f} |\n", rule, row, c.exact, error, c.order);
+}
+
+std::string section(const RunCase& run, const std::string& images)
+{
+    const Case& c = run.the_case;
+    std::string text = fmt::format("### {}: {}\n\n{}\n\n*Oracle:* {} *Tolerance:* {}\n\n", c.name,
+                                   run.passed() ? "passed" : "failed", c.compares, c.oracle, c.tolerance);
+    if (!run.error.empty())
+        return text + fmt::format("It could not be computed: {}\n\n", run.error);
+    text += table(run.finding.checks);
+    for (std::size_t i = 0; i < run.finding.convergences.size(); ++i) {
+        const Convergence& shown = run.finding.convergences[i];
+        text += table(shown);
+        text += fmt::format("\n![Error of {} over {}]({}{}.png)\n", shown.quantity, shown.parameter, images,
+                            picture_name(c, i));
+    }
+    for (const std::string& remark : run.finding.remarks)
+        text += fmt::format("\n{}\n", remark);
+    for (const Picture& p : run.finding.pictures)
+        text += fmt::format("\n![{0}]({1}{2}.png)\n\n*{0}*\n", p.caption, images, p.name);
+    return text + '\n';
+}
+
+} // namespace
+
+std::vector<RunCase> run_cases(const Cases& cases)
+{
+    std::vector<RunCase> runs(cases.size());
+    tbb::parallel_for(std::size_t(0), cases.size(), [&](std::size_t i) {
+        runs[i].the_case = cases[i];
+        try {
+            runs[i].finding = cases[i].run();
+        } catch (const std::exception& e) {
+            runs[i].error = e.what();
+        }
+    });
+    return runs;
+}
+
+std::string page(const std::vector<RunCase>& runs, const std::string& images, const std::string& made_by)
+{
+    struct Count {
+        std::string subject;
+        std::size_t cases = 0, checks = 0, passed = 0;
+    };
+    std::vector<Count> counts;
+    std::size_t failed_cases = 0, checks = 0, passed = 0;
+    for (const RunCase& run : runs) {
+        if (counts.empty() || counts.back().subject != run.the_case.subject)
+            counts.push_back({run.the_case.subject});
+        Count& count = counts.back();
+        ++count.cases;
+        count.checks += run.finding.checks.size();
+        for (const Check& c : run.finding.checks)
+            count.passed += c.passed();
+        failed_cases += !run.passed();
+    }
+    for (const Count& count : counts) {
+        checks += count.checks;
+        passed += count.passed;
+    }
+    std::string text = fmt::format(
+        "# Verification\n\nWritten by `scripts/verification.sh` from its runs; not by hand. {}\n\n"
+        "{} of {} comparisons in {} cases agree with their oracle. None of the expected values comes from the code "
+        "that is tested: each is a closed form, an eigenvalue, the answer of another algorithm written for it "
+        "(`studies/verification`), or a number that was computed elsewhere. Two different questions are asked: whether "
+        "the program solves *its* equations (these hold to many digits), and how far those are from rigid blocks "
+        "(these converge as the contact stiffness K_N grows, slowly: the tables give the order).\n\n"
+        "SPEC is a column of six free drums of 48 x 29 mm and 0.1355 kg on a fixed one, MONO the same as one block of "
+        "48 x 174 mm, COLO two columns of 60 x 100 mm (0.75 kg) that carry a block of 150 x 60 mm (1.14 kg). "
+        "alpha = atan(width / height), p = sqrt(3 g / (4 R)), eta = a / (g tan alpha), xi the damping ratio of the "
+        "dashpots.\n\n",
+        made_by, passed, checks, runs.size());
+    text += "| subject | cases | comparisons | passed |\n|---|---|---|---|\n";
+    for (const Count& count : counts)
+        text += fmt::format("| {} | {} | {} | {} |\n", count.subject, count.cases, count.checks, count.passed);
+    text += '\n';
+    if (failed_cases > 0) {
+        text += "## Failed\n\n";
+        for (const RunCase& run : runs)
+            if (!run.passed())
+                text += section(run, images);
+    }
+    std::string subject;
+    for (const RunCase& run : runs) {
+        if (!run.passed())
+            continue;
+        if (run.the_case.subject != subject)
+            text += fmt::format("## {}\n\n", run.the_case.subject);
+        subject = run.the_case.subject;
+        text += section(run, images);
+    }
+    return text;
+}
+
+void draw(const std::vector<RunCase>& runs, const std::filesystem::path& folder)
+{
+    for (const RunCase& run : runs) {
+        for (std::size_t i = 0; i < run.finding.convergences.size(); ++i)
+            run_gnuplot(error_curve(run.finding.convergences[i]), picture_size,
+                        folder / (picture_name(run.the_case, i) + ".png"));
+        for (const Picture& p : run.finding.pictures)
+            run_gnuplot(p.script, picture_size, folder / (p.name + ".png"));
+    }
+}
+
+} // namespace stylobate::verification

@@ -1,0 +1,43 @@
+#pragma once
+/// Small pictures of the verification page, as scripts for `io/gnuplot.hpp`.
+
+#include "io/gnuplot.hpp"
+#include "studies/verification/case.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate::verification {
+
+inline constexpr PictureSize picture_size{1000, 700};
+
+struct PictureAxis {
+    std::string label;
+    bool log = false;
+    double from = 0, to = 0; ///< both 0: as the data need it
+};
+
+struct Series {
+    std::string title;
+    std::vector<double> x, y;
+    bool line = false;              ///< joined, without marks; else marks alone
+    std::vector<double> low, high; ///< ends of error bars, or empty
+    bool right = false;            ///< on the axis at the right
+};
+
+/// Curves and marks over one another.
+/// @param right axis of the series that ask for it
+/// @param key gnuplot's place of the legend
+std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series,
+                   const std::string& key = "top right", const PictureAxis& right = {});
+
+/// Cells of a grid in the colours of their kinds, with curves over them.
+/// @param kind (y.size() x x.size()) index into `kinds`, row by row
+std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<double>& at_x,
+                const std::vector<double>& at_y, const std::vector<int>& kind, const std::vector<std::string>& kinds,
+                const std::vector<Series>& lines);
+
+/// |value - exact| over the parameter, both logarithmic, with the fitted slope.
+std::string error_curve(const Convergence& convergence);
+
+} // namespace stylobate::verification

@@ -1,0 +1,52 @@
+#pragma once
+/// Housner's rigid block on a rigid base, integrated in extended precision: the oracle of rocking and overturning.
+///
+///   theta'' = -p2 [sin(+-alpha - theta) + (u''/g) cos(+-alpha - theta)],  + for theta > 0, - for theta < 0
+///
+/// An impact at theta = 0 takes the angular velocity times e. A frame of equal columns with a cap obeys the same
+/// equation with another p (Makris and Vassiliou), as long as its cap keeps its seats.
+
+namespace stylobate::verification {
+
+struct RigidBlock {
+    long double alpha = 0; ///< slenderness [rad]
+    long double p = 0;     ///< frequency parameter [rad/s]
+};
+
+/// A block of full width and height [m].
+RigidBlock rigid_block(long double width, long double height, long double gravity = 9.81L);
+
+/// A frame of N equal columns of full width and height under a cap; gamma = cap mass / (N column mass).
+RigidBlock rigid_frame(long double width, long double height, long double gamma, long double gravity = 9.81L);
+
+/// Ratio of the angular velocities after and before an impact: Housner's by conserving the moment of momentum about
+/// the new corner; of a frame with that of its cap (gamma = 0: a single block).
+long double housner_restitution(long double alpha, long double gamma = 0);
+
+/// Time from rest at `start` < alpha to upright [s]: the integral of d theta / theta' by Simpson's rule, with the root
+/// at the start taken out by theta = start - s2.
+long double quarter_period(const RigidBlock& block, long double start);
+
+/// How a block ends that rests until a pulse a sin(w t) of half a cycle or a full one sets it rocking.
+struct PulseEnd {
+    bool overturned = false;
+    int impacts = 0;
+};
+
+/// Fourth-order Runge and Kutta with 600 steps a cycle; impacts are found by halving the step.
+/// @param eta a / (g tan alpha);  @param rate w / p;  @param cycles 0.5 or 1;  @param restitution e
+PulseEnd respond(const RigidBlock& block, long double eta, long double rate, long double cycles,
+                 long double restitution);
+
+/// Least eta that overturns under half a sine (no impact can happen before it).
+double half_sine_edge(const RigidBlock& block, double rate);
+
+/// Edges of overturning under a full sine.
+struct FullSineEdges {
+    bool after_impact = false; ///< whether it can overturn after an impact
+    double low = 0, high = 0;  ///< if so, between these, after one
+    double direct = 0;         ///< and from here on without one
+};
+FullSineEdges full_sine_edges(const RigidBlock& block, double rate, double restitution);
+
+} // namespace stylobate::verification

@@ -1,0 +1,19 @@
+#pragma once
+/// Runs of one rocking block in the engine.
+
+#include "studies/verification/model.hpp"
+
+namespace stylobate::verification {
+
+/// A block leaned by a part of its slenderness on a wide base; mu = 5, dashpots per chord.
+/// @param step_rate dt times sqrt(K_N B / m)
+Realization leaned_block(const model::Stone& stone, double K_n, double part, double step_rate, double xi = 0.1);
+
+/// Time at which it is upright for the first time [s].
+/// @throws std::runtime_error if that takes more than 5 / p
+double upright_time(const Realization& leaned);
+
+/// e of the first impact: e2 is the ratio of the energies of the rigid block, leaned as at the peak after and before.
+double impact_restitution(const Realization& leaned);
+
+} // namespace stylobate::verification
