@@ -243,19 +243,29 @@ inline Study along_record(double tail_s = 0)
 /// static rest, and for a look at the forces.
 class BareColumn {
 public:
-    explicit BareColumn(const Realization& r) : realization_(r)
+    /// @param skin_m how far a block may stray before close pairs are looked for again
+    explicit BareColumn(const Realization& r, double skin_m = 0) : realization_(r)
     {
+        // the kernel wants the fixed block first
+        const int fixed = static_cast<int>(
+            std::find_if(r.blocks.begin(), r.blocks.end(), [](const Block& block) { return block.fixed; }) -
+            r.blocks.begin());
+        for (int i = 0; i < static_cast<int>(r.blocks.size()); ++i)
+            place_.push_back(i == fixed ? 0 : i < fixed ? i + 1 : i);
+        const auto place = [&](int block) { return place_[static_cast<std::size_t>(block)]; };
         for (const Joint& joint : r.joints)
-            joints_.push_back({joint.lower, joint.upper});
+            joints_.push_back({place(joint.lower), place(joint.upper)});
         topology_.blocks = static_cast<int>(r.blocks.size());
         topology_.fixed = 1;
         topology_.top = topology_.blocks - 1;
+        topology_.watched = r.watched;
+        close_.resize(static_cast<std::size_t>(r.watched));
         topology_.joints = static_cast<int>(joints_.size());
         topology_.joint = joints_.data();
         const std::size_t bytes = (bundle_registers(topology_) * sizeof(double) + 63) / 64 * 64;
         memory_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
         std::fill(memory_.get(), memory_.get() + bytes / sizeof(double), 0.0);
-        bundle_ = bind_bundle(topology_, 1, memory_.get());
+        bundle_ = bind_bundle(topology_, 1, memory_.get(), close_.data());
 
         const double dt = r.step_s, dt2 = dt * dt;
         for (int i = 0; i < topology_.blocks; ++i) {
@@ -272,7 +282,7 @@ public:
             const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
             const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
             at(OfJoint::reference_x, j) = upper.x_m - lower.x_m;
-            at(OfJoint::height, j) = lower.half_height_m + upper.half_height_m;
+            at(OfJoint::height, j) = j < r.beds() ? lower.half_height_m + upper.half_height_m : upper.y_m - lower.y_m;
             at(OfJoint::depth_limit, j) = 0.1 * std::min(lower.half_height_m, upper.half_height_m);
             at(OfJoint::K_n, j) = joint.normal_stiffness_n_m2;
             at(OfJoint::K_t, j) = joint.tangential_stiffness_n_m;
@@ -284,9 +294,14 @@ public:
             at(chord ? OfJoint::C_t_chord : OfJoint::C_t_per_dt, j) = joint.tangential_damping_n_s_m * per;
         }
         bundle_.at(OfRealization::gravity_dy, 0) = -dt2 * r.gravity_m_s2;
+        bundle_.at(OfRealization::skin, 0) = skin_m;
     }
 
-    double& at(OfBlock::Field field, int block) { return bundle_.at(field, block, 0); }
+    /// @param block in the order of the realization
+    double& at(OfBlock::Field field, int block)
+    {
+        return bundle_.at(field, place_[static_cast<std::size_t>(block)], 0);
+    }
     double& at(OfJoint::Field field, int joint) { return bundle_.at(field, joint, 0); }
     double& at(OfRealization::Field field) { return bundle_.at(field, 0); }
     int blocks() const { return topology_.blocks; }
@@ -305,7 +320,9 @@ private:
         void operator()(double* p) const { std::free(p); }
     };
     Realization realization_;
+    std::vector<int> place_; ///< of the realization's blocks in the kernel
     std::vector<TopologyJoint> joints_;
+    std::vector<int> close_;
     Topology topology_;
     std::unique_ptr<double[], Free> memory_;
     Bundle bundle_;
