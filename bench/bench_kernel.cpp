@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <string>
 
 using namespace stylobate;
@@ -56,29 +57,49 @@ OperationCounts operations_per_block_step(int blocks)
 }
 
 /// A bundle as the ensemble runs it: base motion, steps, and the look at each realization after every chunk.
-void step(benchmark::State& state, Isa isa, int blocks)
+/// @param warm chunks before the clock starts
+/// @return block-steps of one chunk
+double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
 {
-    const Study study = rocking_column(blocks);
     const Sampler sampler(study, nullptr);
     LaneSet lanes(study, nullptr, kernels(isa), sampler.realization(0));
     std::uint64_t next = 0;
-    for (int lane = 0; lane < lanes.lanes(); ++lane)
+    const auto start = [&](int lane) {
+        lanes.clear(lane);
         lanes.load(lane, sampler.realization(next++));
-    for (int chunk = 0; chunk < 100; ++chunk) // into the motion
-        lanes.advance();
+    };
+    int left = 0; // chunks until all are started again: what is timed must not walk away in time
     for (auto _ : state) {
+        if (left-- == 0) {
+            state.PauseTiming();
+            for (int lane = 0; lane < lanes.lanes(); ++lane)
+                start(lane);
+            for (int chunk = 0; chunk < warm; ++chunk)
+                lanes.advance();
+            left = 2000;
+            state.ResumeTiming();
+        }
         lanes.advance();
         for (int lane = 0; lane < lanes.lanes(); ++lane)
             if (lanes.outcome(lane)) {
                 state.PauseTiming();
-                lanes.load(lane, sampler.realization(next++));
+                start(lane);
                 state.ResumeTiming();
             }
     }
+    const Realization& r = lanes.realization(0);
+    const auto free = std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& block) { return !block.fixed; });
+    const double block_steps = static_cast<double>(lanes.lanes()) * static_cast<double>(free) * chunk_steps;
+    state.counters["block_steps_per_second"] =
+        benchmark::Counter(block_steps, benchmark::Counter::kIsIterationInvariantRate);
+    return block_steps;
+}
+
+void step(benchmark::State& state, Isa isa, int blocks)
+{
+    const double block_steps = chunks(state, isa, rocking_column(blocks), 100);
     const OperationCounts per = operations_per_block_step(blocks);
-    const double block_steps = static_cast<double>(lanes.lanes()) * (blocks - 1) * chunk_steps;
     using benchmark::Counter;
-    state.counters["block_steps_per_second"] = Counter(block_steps, Counter::kIsIterationInvariantRate);
     state.counters["flops_per_second"] =
         Counter(block_steps * static_cast<double>(per.flops()), Counter::kIsIterationInvariantRate);
     state.counters["flops_per_block_step"] = static_cast<double>(per.flops());
@@ -91,6 +112,19 @@ const bool registered = [] {
         benchmark::RegisterBenchmark(("BM_PeakFma/" + name).c_str(), peak_fma, isa);
         for (const int blocks : {2, 4, 7, 13, 25, 49})
             benchmark::RegisterBenchmark(("BM_Step/" + name + "/" + std::to_string(blocks)).c_str(), step, isa, blocks);
+        const std::string structure = "BM_Structure/" + name + "/";
+        const auto add = [&](const char* scene, const Study& study, int warm) {
+            benchmark::RegisterBenchmark((structure + scene).c_str(), [isa, study, warm](benchmark::State& state) {
+                chunks(state, isa, study, warm);
+            });
+        };
+        add("column", rocking_column(7), 100);
+        add("column_watched", watched_column(7), 100);
+        add("colonnade_2x1", shaken_colonnade(2, 1, 4), 100);
+        add("colonnade_2x2", shaken_colonnade(2, 2, 4), 100);
+        add("colonnade_4x4", shaken_colonnade(4, 4, 4), 100);
+        add("heap_2x2", shaken_colonnade(2, 2, 12), 600);
+        add("heap_4x4", shaken_colonnade(4, 4, 12), 600);
     }
     return true;
 }();
