@@ -86,6 +86,10 @@ inline Trajectory some_trajectory(std::size_t blocks, double width, double heigh
     t.index = 77;
     t.half_width_m.assign(blocks, width / 2);
     t.half_height_m.assign(blocks, height / 2);
+    t.role.assign(blocks, BlockRole::drum);
+    t.column.assign(blocks, 0);
+    for (std::size_t i = 0; i < blocks; ++i)
+        t.name.push_back("drum " + std::to_string(i));
     for (std::size_t s = 0; s < samples; ++s) {
         const double time = 0.01 * static_cast<double>(s);
         t.time_s.push_back(time);

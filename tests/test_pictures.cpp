@@ -251,7 +251,7 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
 {
     NEEDS_GNUPLOT();
     const fs::path file = folder / "a surface's \"picture\" 100%.png";
-    plot_surface(some_surface(), "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
+    plot_surface(some_surface(), "collapse", "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
     const Pixels pixels = decode(file);
     EXPECT_GE(pixels.width, 1600U);
     EXPECT_GE(pixels.height, 1200U);
@@ -262,7 +262,7 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
     SurfaceTable halves = some_surface();
     for (std::size_t cell = 0; cell < halves.probability.size(); ++cell)
         halves.probability[cell] = cell % 12 < 6 ? 0 : 1;
-    plot_surface(halves, "halves", folder / "halves.png");
+    plot_surface(halves, "collapse", "halves", folder / "halves.png");
     const Pixels two = decode(folder / "halves.png");
     const double frame = 0.76 * 0.75;
     EXPECT_NEAR(share(two, 0x440154, 8), frame / 2, 0.03);
@@ -274,13 +274,13 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
     rows.frequency_hz = {1, 2, 3};
     for (std::size_t cell = 0; cell < rows.probability.size(); ++cell)
         rows.probability[cell] = cell < 5 ? 1 : 0;
-    plot_surface(rows, "rows", folder / "rows.png");
+    plot_surface(rows, "collapse", "rows", folder / "rows.png");
     EXPECT_NEAR(share(decode(folder / "rows.png"), 0xfde725, 8), frame / 3, 0.02);
 
     // Without a trial: grey.
     for (std::size_t cell = 0; cell < 96; ++cell)
         halves.probability[cell] = nan_value;
-    plot_surface(halves, "", folder / "grey.png");
+    plot_surface(halves, "collapse", "", folder / "grey.png");
     EXPECT_NEAR(share(decode(folder / "grey.png"), 0xb8b8b8, 1), frame / 2, 0.03);
 }
 
@@ -293,22 +293,22 @@ TEST_F(Pictures, SmallAndOddSurfaces)
     one.trials = {0};
     one.collapses = {0};
     one.probability = one.lower = one.upper = {nan_value};
-    plot_surface(one, "nothing", folder / "nothing.png");
+    plot_surface(one, "collapse", "nothing", folder / "nothing.png");
     EXPECT_GT(decode(folder / "nothing.png").colours, 10U);
-    plot_slice(one, {}, "nothing", folder / "slice.png");
+    plot_slice(one, {}, "collapse", "nothing", folder / "slice.png");
     EXPECT_GT(decode(folder / "slice.png").colours, 10U);
     one.trials = {4};
     one.probability = {0.5};
     one.lower = {0.1};
     one.upper = {0.9};
-    plot_surface(one, "one cell", folder / "one.png");
+    plot_surface(one, "collapse", "one cell", folder / "one.png");
     EXPECT_GT(share(decode(folder / "one.png"), 0x21918c, 8), 0.5);
 }
 
 TEST_F(Pictures, SliceShowsEachCurve)
 {
     NEEDS_GNUPLOT();
-    plot_slice(some_surface(), {1, 2, 5}, "100 % \"slices\"", folder / "s.png");
+    plot_slice(some_surface(), {1, 2, 5}, "collapse", "100 % \"slices\"", folder / "s.png");
     const Pixels pixels = decode(folder / "s.png");
     EXPECT_GE(pixels.width, 1600U);
     EXPECT_GE(pixels.height, 1200U);
@@ -321,7 +321,7 @@ TEST_F(Pictures, SliceShowsEachCurve)
     flat.probability.assign(flat.probability.size(), 0.5);
     flat.lower.assign(flat.lower.size(), 0.25);
     flat.upper.assign(flat.upper.size(), 0.75);
-    plot_slice(flat, {1}, "", folder / "flat.png");
+    plot_slice(flat, {1}, "collapse", "", folder / "flat.png");
     const double frame = 0.87 * 0.725;
     EXPECT_NEAR(share(decode(folder / "flat.png"), 0xcce3f0, 4), frame * 11 / 12 * 0.5 / 1.03, 0.02);
 }
@@ -337,7 +337,7 @@ TEST_F(Pictures, StripDrawsDrumsToScale)
             t.x_m[k] = k % 7 == 0 ? 0 : 1e-9 * static_cast<double>(k);
             t.y_m[k] = (static_cast<double>(k % 7) + 0.5) * 0.029 * size;
         }
-        plot_strip(t, "strip's 100 % \"title\"", folder / "strip.png");
+        plot_strip(t, {}, "strip's 100 % \"title\"", folder / "strip.png");
         const Pixels pixels = decode(folder / "strip.png");
         EXPECT_GE(pixels.width, 1600U);
         EXPECT_GE(pixels.height, 1200U);
@@ -363,7 +363,7 @@ TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
     t.theta_rad = {angle, angle};
     t.x_m = {0, 1e-9};
     t.y_m = {1, 1};
-    plot_strip(t, "", folder / "turned.png");
+    plot_strip(t, {}, "", folder / "turned.png");
     const Extent drums = extent(decode(folder / "turned.png"), 0xead9b5);
     const double scale = (drums.bottom - drums.top) / (width * std::sin(angle) + height * std::cos(angle));
     EXPECT_NEAR(drums.area / (scale * scale), 2 * width * height, 0.08);
@@ -378,14 +378,14 @@ TEST_F(Pictures, StripOfAnyColumn)
 {
     NEEDS_GNUPLOT();
     for (const std::size_t blocks : {1U, 2U, 48U}) {
-        plot_strip(some_trajectory(blocks, 1.2, 0.8), "column", folder / "c.png", 5);
+        plot_strip(some_trajectory(blocks, 1.2, 0.8), {}, "column", folder / "c.png", 5);
         EXPECT_GT(decode(folder / "c.png").colours, 50U);
     }
-    plot_strip(some_trajectory(3, 1, 1, 1), "one sample", folder / "c.png");
+    plot_strip(some_trajectory(3, 1, 1, 1), {}, "one sample", folder / "c.png");
     // A recorded ground far wider than the column does not change its scale.
     Trajectory ground = some_trajectory(1, 0.1, 0.3);
     const double without = [&] {
-        plot_strip(ground, "", folder / "c.png");
+        plot_strip(ground, {}, "", folder / "c.png");
         return share(decode(folder / "c.png"), 0xead9b5, 3);
     }();
     Trajectory with = ground;
@@ -399,7 +399,7 @@ TEST_F(Pictures, StripOfAnyColumn)
         }
         *values = both;
     }
-    plot_strip(with, "", folder / "c.png");
+    plot_strip(with, {}, "", folder / "c.png");
     EXPECT_NEAR(share(decode(folder / "c.png"), 0xead9b5, 3), without, 1e-3 * without);
 }
 
@@ -407,25 +407,25 @@ TEST_F(Pictures, BadInputLeavesNoFile)
 {
     SurfaceTable damaged = some_surface();
     damaged.trials.pop_back();
-    message_of([&] { plot_surface(damaged, "", folder / "a.png"); });
-    message_of([&] { plot_slice(damaged, {1}, "", folder / "a.png"); });
-    message_of([&] { plot_surface(SurfaceTable{}, "", folder / "a.png"); });
-    message_of([&] { plot_slice(SurfaceTable{}, {1}, "", folder / "a.png"); });
+    message_of([&] { plot_surface(damaged, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_slice(damaged, {1}, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_surface(SurfaceTable{}, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_slice(SurfaceTable{}, {1}, "collapse", "", folder / "a.png"); });
     Trajectory flat = some_trajectory(2, 1, 1);
     flat.half_height_m[1] = 0;
-    message_of([&] { plot_strip(flat, "", folder / "a.png"); });
+    message_of([&] { plot_strip(flat, {}, "", folder / "a.png"); });
     EXPECT_EQ(entries(), 0U);
     NEEDS_GNUPLOT();
-    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "", folder / "missing" / "a.png"); }).find("missing"),
+    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "missing" / "a.png"); }).find("missing"),
               std::string::npos);
-    message_of([&] { plot_surface(some_surface(), "", folder); });
+    message_of([&] { plot_surface(some_surface(), "collapse", "", folder); });
     EXPECT_EQ(entries(), 0U);
 }
 
 TEST_F(Pictures, GnuplotMissingOrFailing)
 {
     const fs::path picture = folder / "a.png";
-    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "", picture); }); };
+    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "collapse", "", picture); }); };
     {
         const Environment path("PATH", folder.string());
         const Environment unnamed("STYLOBATE_GNUPLOT", "");
@@ -465,7 +465,7 @@ TEST_F(Pictures, NoFontsIsAnError)
                                          << "</dir><cachedir>" << (folder / "cache").string()
                                          << "</cachedir></fontconfig>\n";
     const Environment fonts("FONTCONFIG_FILE", (folder / "fonts.conf").string());
-    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "", folder / "a.png"); }).find("fonts-dejavu-core"),
+    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "a.png"); }).find("fonts-dejavu-core"),
               std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
