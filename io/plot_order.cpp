@@ -58,11 +58,11 @@ std::string curve(const FallOrder& order, std::size_t block, double end_s)
 
 /// Where the columns of the table are, in parts of the picture's width.
 struct Columns {
-    double line = 0.612;
-    double name = 0.645;
-    double fallen = 0.868;
-    double median = 0.925;
-    double first = 0.985;
+    double line = 0.573;
+    double name = 0.605;
+    double fallen = 0.87;
+    double median = 0.929;
+    double first = 0.987;
 };
 
 std::string cell(const std::string& text, double x, double y, const char* side, double font)
@@ -81,8 +81,7 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
     for (const std::size_t block : shown)
         longest = std::max(longest, order.blocks[block].name.size());
     const double font = std::min({17.0, 17.0 * step / 0.029, 17.0 * 18 / static_cast<double>(longest)});
-    std::string script = cell("in the order of their median time", at.name, top, "left", font) +
-                         cell("fallen", at.fallen - 0.035, top, "right", font) +
+    std::string script = cell("block", at.name, top, "left", font) + cell("fallen", at.fallen, top, "right", font) +
                          cell("median", at.median, top, "right", font) + cell("first", at.first, top, "right", font);
     double y = top - 1.15 * step;
     for (std::size_t k = 0; k < shown.size(); ++k, y -= step) {
@@ -94,7 +93,7 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
         script += cell(fmt::format("{:.1f} % ({:.0f} to {:.0f})", 100 * share(order, block.fall_time_s.size()),
                                    100 * block.lower, 100 * block.upper),
                        at.fallen, y, "right", font);
-        script += cell(fmt::format("{:.3g} s", median(block.fall_time_s)), at.median, y, "right", font);
+        script += cell(fmt::format("{:.2f} s", median(block.fall_time_s)), at.median, y, "right", font);
         script += cell(fmt::format("{:.1f} %", 100 * share(order, block.first)), at.first, y, "right", font);
     }
     if (others > 0) {
@@ -140,9 +139,8 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
             return order.blocks[a].fall_time_s.size() > order.blocks[b].fall_time_s.size();
         });
         others.assign(by_share.begin() + most_curves, by_share.end());
-        std::erase_if(shown, [&](std::size_t block) {
-            return std::find(others.begin(), others.end(), block) != others.end();
-        });
+        std::erase_if(
+            shown, [&](std::size_t block) { return std::find(others.begin(), others.end(), block) != others.end(); });
     }
     std::string data;
     std::string curves;
@@ -167,7 +165,7 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
     if (!note.empty())
         script += fmt::format("set label {} at screen 0.5, screen 0.873 center font ',19' textcolor rgb '#505050'\n",
                               gnuplot_text(note));
-    script += fmt::format("set lmargin at screen 0.085\nset rmargin at screen 0.585\n"
+    script += fmt::format("set lmargin at screen 0.085\nset rmargin at screen 0.55\n"
                           "set bmargin at screen 0.1\nset tmargin at screen 0.845\nunset key\n"
                           "set border 3 linewidth 0.8\nset tics out nomirror\n"
                           "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"

@@ -17,10 +17,10 @@ struct FallOrder {
         double lower = 0;                ///< interval of the probability that it falls
         double upper = 1;
     };
-    std::vector<Block> blocks;   ///< in layout order
-    std::uint64_t trials = 0;    ///< valid realizations
-    double end_time_s = 0;       ///< of the longest of them
-    std::string interval;        ///< name of the interval and its level, for example "jeffreys 0.95"
+    std::vector<Block> blocks; ///< in layout order
+    std::uint64_t trials = 0;  ///< valid realizations
+    double end_time_s = 0;     ///< of the longest of them
+    std::string interval;      ///< name of the interval and its level, for example "jeffreys 0.95"
 };
 
 /// Draws, for every block that fell in any realization, the share of the realizations in which it had fallen by then,

@@ -219,10 +219,10 @@ struct Layout {
         double shift_x = 0; ///< from the trajectory's coordinates
         double ground = 0;  ///< height of the base's top
     };
-    std::vector<Cell> cells;          ///< by snapshot
-    std::vector<std::size_t> row;     ///< by snapshot, from the top
-    std::vector<double> row_ground;   ///< by row
-    std::vector<double> row_height;   ///< by row, above its ground
+    std::vector<Cell> cells;        ///< by snapshot
+    std::vector<std::size_t> row;   ///< by snapshot, from the top
+    std::vector<double> row_ground; ///< by row
+    std::vector<double> row_height; ///< by row, above its ground
     double pixels_per_m = 0;
     double slab = 0; ///< thickness of the base
     double width = 0;
@@ -261,8 +261,7 @@ Layout layout_in_rows(const std::vector<Extent>& extents, double overhang, doubl
     const double pixels_y = rows == 1 ? one_row_pixels : most_rows_pixels;
     const double labels = label_pixels * static_cast<double>(rows - 1);
     layout.pixels_per_m = std::min(pixels_x / widest, (pixels_y - labels) / height);
-    layout.pixels =
-        rows == 1 ? one_row_pixels : std::max(one_row_pixels, height * layout.pixels_per_m + labels);
+    layout.pixels = rows == 1 ? one_row_pixels : std::max(one_row_pixels, height * layout.pixels_per_m + labels);
     layout.width = pixels_x / layout.pixels_per_m;
 
     // From the bottom row up; what is left of the width goes between the snapshots.
@@ -475,8 +474,8 @@ std::vector<std::size_t> falls_in_order(const Drawn& drawn, const std::vector<do
 }
 
 /// The panel of the falls: how many blocks have fallen, with a point for each.
-std::string falls_script(const Panel& panel, const Page& page, const Trajectory& t, const std::vector<std::size_t>& falls,
-                         const std::vector<double>& fall_time_s, double last_s)
+std::string falls_script(const Panel& panel, const Page& page, const Trajectory& t,
+                         const std::vector<std::size_t>& falls, const std::vector<double>& fall_time_s, double last_s)
 {
     std::string steps = fmt::format("$count << EOD\n{} 0\n", t.time_s.front());
     std::string points;
@@ -494,10 +493,10 @@ std::string falls_script(const Panel& panel, const Page& page, const Trajectory&
     // Left of the first fall there is room, unless it comes early: then below the curve on the right.
     const double first = fall_time_s[falls.front()];
     const bool late = first - t.time_s.front() > 0.5 * (last_s - t.time_s.front());
-    script += fmt::format(
-        "set label {} at first {}, graph {} right font ',19' textcolor rgb '#c0271b' front offset -1,0\n",
-        gnuplot_text(fmt::format("first {}, {:.4g} s", t.name[falls.front()], first)), late ? first : last_s,
-        late ? 0.72 : 0.2);
+    script +=
+        fmt::format("set label {} at first {}, graph {} right font ',19' textcolor rgb '#c0271b' front offset -1,0\n",
+                    gnuplot_text(fmt::format("first: {}, {:.2f} s", t.name[falls.front()], first)),
+                    late ? first : last_s, late ? 0.72 : 0.2);
     script += "plot $count with steps linecolor rgb '#c0271b' linewidth 1, $each with points pointtype 7 pointsize 1.0 "
               "linecolor rgb '#c0271b'\n";
     return script;
@@ -506,7 +505,9 @@ std::string falls_script(const Panel& panel, const Page& page, const Trajectory&
 std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t samples, bool falls)
 {
     const auto fixed = std::count(drawn.fixed.begin(), drawn.fixed.end(), true);
-    const auto many = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+    const auto many = [](std::size_t n, const char* what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
     std::string text = many(drawn.blocks.size() - drawn.epistyles, "drum");
     if (drawn.epistyles > 0)
         text += " and " + many(drawn.epistyles, "epistyle");
@@ -535,9 +536,10 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     const std::size_t samples = finite_samples(trajectory);
     const std::size_t blocks = trajectory.blocks();
     if (!fall_time_s.empty() && fall_time_s.size() != blocks)
-        throw InputError(fmt::format("realization {} has fall times of {} blocks and a trajectory of {}: it is damaged.\n"
-                                     "  Replay the realization into a new file.",
-                                     trajectory.index, fall_time_s.size(), blocks));
+        throw InputError(
+            fmt::format("realization {} has fall times of {} blocks and a trajectory of {}: it is damaged.\n"
+                        "  Replay the realization into a new file.",
+                        trajectory.index, fall_time_s.size(), blocks));
     const std::vector<std::size_t> chosen = choose_samples(trajectory, samples, snapshots);
     const Drawn drawn = find_blocks(trajectory, samples);
     const double last_s = trajectory.time_s[samples - 1];
@@ -546,10 +548,10 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     Page page;
     const Layout layout =
         make_layout(trajectory, drawn, chosen, (right_edge - left_edge) * static_cast<double>(page.size.width));
-    const double first_panel = heading_pixels + layout.pixels + label_pixels + 29;
+    const double first_panel = heading_pixels + layout.pixels + label_pixels + 30;
     const double panels = falls.empty() ? 2 : 3;
-    page.size.height = static_cast<int>(std::lround(first_panel + panels * panel_pixels +
-                                                    (panels - 1) * panel_gap_pixels + footing_pixels));
+    page.size.height = static_cast<int>(
+        std::lround(first_panel + panels * panel_pixels + (panels - 1) * panel_gap_pixels + footing_pixels));
 
     std::vector<double> top_m(samples);
     for (std::size_t s = 0; s < samples; ++s)

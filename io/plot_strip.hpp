@@ -13,8 +13,8 @@ namespace stylobate {
 /// Draws a strip of snapshots (1800 pixels wide, 1350 high or more), blocks to scale in the frame of the base, the base
 /// beneath them and the time under each: a column in one row, what is wide in several rows. Fixed blocks are darker,
 /// epistyles blue, those that have fallen by then outlined in red. Below, over time: the number of fallen blocks if any
-/// falls; the displacement of the highest block against the base; that of the base, with marks at the snapshots. Lengths
-/// are in mm, or in m where they are large.
+/// falls; the displacement of the highest block against the base; that of the base, with marks at the snapshots.
+/// Lengths are in mm, or in m where they are large.
 ///
 /// Only samples before the first one that is not finite are drawn. A recorded block whose role is ground, or whose top
 /// lies at or below y = 0, is drawn as the base.
@@ -22,7 +22,8 @@ namespace stylobate {
 /// @param fall_time_s of each block, -1 = never, as in `Outcome`; empty: not known
 /// @param snapshots 2 to 16; fewer are drawn if there are fewer samples
 /// @throws InputError if the trajectory is empty, its arrays do not fit each other or a size is not positive, if the
-///         fall times are not as many as the blocks, if `snapshots` is out of range, if gnuplot is missing or fails, or if the picture cannot be written
+///         fall times are not as many as the blocks, if `snapshots` is out of range, if gnuplot is missing or fails, or
+///         if the picture cannot be written
 void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
                 const std::filesystem::path& png, std::size_t snapshots = 8);
 

@@ -47,7 +47,7 @@ struct SurfaceTable {
     std::vector<double> pga_m_s2;
     std::vector<std::uint64_t> trials;    ///< valid realizations
     std::vector<std::uint64_t> collapses; ///< those that reached the limit state of the table
-    std::vector<double> probability; ///< NaN where there is no trial
+    std::vector<double> probability;      ///< NaN where there is no trial
     std::vector<double> lower;
     std::vector<double> upper;
     std::string interval; ///< name of the interval and its level, for example "wilson 0.95"

@@ -114,8 +114,8 @@ void export_order(const ResultReader& reader, const std::string& results, long l
             throw InputError(fmt::format("--cell {}: {} has the cells 0 to {} (frequency number x {} + PGA number)",
                                          cell, results, cells - 1, np));
         std::erase_if(rows, [&](const ResultRow& row) { return row.cell != wanted; });
-        title += fmt::format(", {:.3g} Hz, {:.3g} m/s²", header.frequency_hz[wanted / np],
-                             header.pga_m_s2[wanted % np]);
+        title +=
+            fmt::format(", {:.3g} Hz, {:.3g} m/s²", header.frequency_hz[wanted / np], header.pga_m_s2[wanted % np]);
     } else if (cells > 1) {
         title += ", all cells";
     }
@@ -129,13 +129,13 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
     const ResultReader reader(results);
     std::string picture = wanted.picture;
     if (picture.empty())
-        picture = wanted.cell >= 0 ? "order"
+        picture = wanted.cell >= 0                                                  ? "order"
                   : reader.header().frequency_hz.empty() || wanted.realization >= 0 ? "strip"
                                                                                     : "surface";
     const bool of_surface = picture == "surface" || picture == "slice";
     if (!wanted.limit.empty() && !of_surface)
-        throw InputError(
-            fmt::format("--limit {}: the picture '{}' shows no limit state; surface and slice do", wanted.limit, picture));
+        throw InputError(fmt::format("--limit {}: the picture '{}' shows no limit state; surface and slice do",
+                                     wanted.limit, picture));
     if (wanted.cell >= 0 && picture != "order")
         throw InputError(fmt::format("--cell {}: only --picture order is of one cell", wanted.cell));
 

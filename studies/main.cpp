@@ -109,8 +109,9 @@ int main(int argc, char** argv)
                      "png: surface, slice, strip or order (default: surface, or strip if there is none)")
         ->check(CLI::IsMember({"surface", "slice", "strip", "order"}));
     exporting
-        ->add_option("--limit", wanted.limit, "surface, slice: collapse, total, unseated, rocked or slid (default: "
-                                              "collapse)")
+        ->add_option("--limit", wanted.limit,
+                     "surface, slice: collapse, total, unseated, rocked or slid (default: "
+                     "collapse)")
         ->check(CLI::IsMember(limit_state_names()));
     exporting->add_option("--realization", wanted.realization, "strip: which one (default: 0)")
         ->check(CLI::Range(0LL, 999999999999LL));

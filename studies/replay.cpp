@@ -33,10 +33,8 @@ Json falls_json(const std::vector<std::size_t>& sequence, const std::vector<std:
 {
     Json list = Json::list();
     for (const std::size_t block : sequence)
-        list.item(Json::object()
-                      .member("block", block)
-                      .member("name", names[block])
-                      .member("time_s", fall_time_s[block]));
+        list.item(
+            Json::object().member("block", block).member("name", names[block]).member("time_s", fall_time_s[block]));
     return list;
 }
 

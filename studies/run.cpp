@@ -107,7 +107,7 @@ Json share_json(const Share& share)
 
 std::string share_text(const Share& share)
 {
-    return fmt::format("{} ({:.2g} %, {:.2g} to {:.2g})", share.count, 100 * share.probability, 100 * share.lower,
+    return fmt::format("{} ({:.3g} %, {:.3g} to {:.3g})", share.count, 100 * share.probability, 100 * share.lower,
                        100 * share.upper);
 }
 
@@ -162,7 +162,7 @@ void print_limits(const LimitCounts& counts, const std::vector<std::string>& nam
     constexpr std::size_t most = 5;
     std::string list;
     for (std::size_t k = 0; k < std::min(most, first.size()); ++k)
-        list += fmt::format("{}{} {}", k > 0 ? ", " : "", names[first[k]],
+        list += fmt::format("{}{}: {}", k > 0 ? ", " : "", names[first[k]],
                             share_text(share_of(counts.trials(), counts.first()[first[k]])));
     if (first.size() > most)
         list += fmt::format(" and {} others", first.size() - most);
