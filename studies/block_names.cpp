@@ -1,14 +1,14 @@
 #include "studies/block_names.hpp"
 
-#include <fmt/format.h>
+#include "ensemble/structure.hpp"
 
 namespace stylobate {
 
 std::vector<std::string> block_names(const Study& study)
 {
     std::vector<std::string> names;
-    for (int i = 0; i < study.structure.blocks; ++i)
-        names.push_back(fmt::format("drum {}", i));
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        names.push_back(block.name);
     return names;
 }
 

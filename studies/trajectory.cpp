@@ -87,7 +87,6 @@ ResultRow result_row(const Study& study, const Realization& realization, const O
     row.pga_m_s2 = realization.pga_m_s2;
     row.inputs = realization.inputs;
     row.outcome = outcome;
-    row.outcome.fall_time_s.resize(static_cast<std::size_t>(realization.drums), -1.0);
     return row;
 }
 
