@@ -2,6 +2,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/result_layout.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -79,6 +80,27 @@ std::string input_column(const std::string& name)
     return "input_" + name;
 }
 
+/// Calls f(name of the column, value) for the scalar outcomes, in the order of the store.
+template <class F>
+void visit_outcome(const ResultRow& row, F&& f)
+{
+    constexpr std::string_view group = "outcome/";
+    visit_fields(row, [&](std::string_view path, const char*, const auto& value) {
+        if (path.starts_with(group))
+            f(path.substr(group.size()), value);
+    });
+}
+
+/// An enumerator as its name, a number as it is.
+template <class Value>
+auto word(const Value& value)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return to_string(value);
+    else
+        return value;
+}
+
 std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows)
 {
     std::string text;
@@ -90,43 +112,38 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
              << "pga_m_s2";
         for (const std::string& name : header.input_names)
             line << input_column(name);
-        line << "state"
-             << "invalid_reason"
-             << "collapse_time_s"
-             << "first_collapse_block"
-             << "peak_top_displacement_m"
-             << "residual_top_displacement_m"
-             << "total_sliding_m"
-             << "total_rocking_rad"
-             << "sliding_path_m"
-             << "max_relative_rotation_rad"
-             << "energy_kinetic_j"
-             << "energy_potential_j"
-             << "energy_spring_j"
-             << "energy_friction_j"
-             << "energy_damping_j"
-             << "energy_base_work_j"
-             << "energy_residual"
-             << "end_time_s"
-             << "step_s"
-             << "steps";
+        visit_outcome(ResultRow{}, [&](std::string_view name, const auto&) { line << name; });
+        for (std::size_t i = 0; i < header.block_names.size(); ++i)
+            line << fmt::format("fall_time_s[{}]", i);
     }
     for (const ResultRow& row : rows) {
         if (row.inputs.size() != header.input_names.size())
             throw InputError(fmt::format("realization {} has {} inputs where {} are named: the results are damaged.\n"
                                          "  Run the study again into a new file.",
                                          row.index, row.inputs.size(), header.input_names.size()));
+        if (row.outcome.fall_time_s.size() != header.block_names.size())
+            throw InputError(fmt::format("realization {} has fall times of {} blocks where {} are named: the results "
+                                         "are damaged.\n  Run the study again into a new file.",
+                                         row.index, row.outcome.fall_time_s.size(), header.block_names.size()));
         Line line(text);
         line << row.index << row.cell << row.frequency_hz << row.pga_m_s2;
         for (const double value : row.inputs)
             line << value;
-        const Outcome& o = row.outcome;
-        line << to_string(o.state) << to_string(o.invalid_reason) << o.collapse_time_s << o.first_collapse_block
-             << o.peak_top_displacement_m << o.residual_top_displacement_m << o.total_sliding_m << o.total_rocking_rad
-             << o.sliding_path_m << o.max_relative_rotation_rad << o.energy_kinetic_j << o.energy_potential_j
-             << o.energy_spring_j << o.energy_friction_j << o.energy_damping_j << o.energy_base_work_j
-             << o.energy_residual << o.end_time_s << o.step_s << o.steps;
+        visit_outcome(row, [&](std::string_view, const auto& value) { line << word(value); });
+        for (const double value : row.outcome.fall_time_s)
+            line << value;
     }
+    return text;
+}
+
+/// Which block is which: the columns of the other tables have their numbers only.
+std::string blocks_text(const ResultHeader& header)
+{
+    std::string text;
+    Line(text) << "block"
+               << "name";
+    for (std::size_t i = 0; i < header.block_names.size(); ++i)
+        Line(text) << i << header.block_names[i];
     return text;
 }
 
@@ -173,11 +190,14 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
                                      folder.string(), error.message()));
     AtomicFile realizations_file(folder / "realizations.csv");
     realizations_file.write(realizations);
+    AtomicFile blocks_file(folder / "blocks.csv");
+    blocks_file.write(blocks_text(header));
     if (has_surface) {
         AtomicFile surface_file(folder / "surface.csv");
         surface_file.write(cells);
         surface_file.commit();
     }
+    blocks_file.commit();
     realizations_file.commit();
 }
 

@@ -9,12 +9,13 @@
 namespace stylobate {
 
 /// Writes `realizations.csv` (one line per row, every field of `ResultRow` and `Outcome`; drawn values in the columns
-/// "input_...") and, if the surface has axes, `surface.csv` (one line per cell, frequency by frequency) into `folder`,
-/// which is made if its parent exists. Numbers are the shortest decimals with the same double, "nan" and "inf" where
-/// they are not finite. Both files appear whole, or neither is touched.
+/// "input_...", fall times in "fall_time_s[i]"), `blocks.csv` (the name of block i) and, if the surface has axes,
+/// `surface.csv` (one line per cell, frequency by frequency) into `folder`, which is made if its parent exists. Numbers
+/// are the shortest decimals with the same double, "nan" and "inf" where they are not finite. Each file appears whole,
+/// and nothing is touched if the input is refused.
 ///
-/// @throws InputError if the folder cannot be made or written, if a row has another number of inputs than the header,
-///         or if the surface's arrays do not fit its axes
+/// @throws InputError if the folder cannot be made or written, if a row has another number of inputs or of fall times
+///         than the header, or if the surface's arrays do not fit its axes
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
                const SurfaceTable& surface);
 

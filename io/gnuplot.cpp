@@ -185,16 +185,18 @@ std::string gnuplot_text(std::string_view text)
     return literal + "'";
 }
 
-std::string gnuplot_heading(std::string_view title, std::string_view subtitle)
+std::string gnuplot_heading(std::string_view title, std::string_view subtitle, PictureSize size)
 {
     const auto points = [](std::string_view text, double largest, double room) {
         const auto letters = static_cast<double>(std::count_if(
             text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
         return std::max(6.0, std::min(largest, largest * room / std::max(letters, 1.0)));
     };
-    return fmt::format("set label {} at screen 0.5, screen 0.957 center font ',{:.1f}'\n"
-                       "set label {} at screen 0.5, screen 0.909 center font ',{:.1f}' textcolor rgb '#505050'\n",
-                       gnuplot_text(title), points(title, 32, 60), gnuplot_text(subtitle), points(subtitle, 21, 98));
+    const auto below_top = [&](double pixels) { return 1 - pixels / size.height; };
+    return fmt::format("set label {} at screen 0.5, screen {} center font ',{:.1f}'\n"
+                       "set label {} at screen 0.5, screen {} center font ',{:.1f}' textcolor rgb '#505050'\n",
+                       gnuplot_text(title), below_top(58), points(title, 32, 60), gnuplot_text(subtitle),
+                       below_top(123), points(subtitle, 21, 98));
 }
 
 void run_gnuplot(const std::string& script, PictureSize size, const fs::path& png)

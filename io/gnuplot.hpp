@@ -1,6 +1,7 @@
 #pragma once
 /// gnuplot as a separate program: finds it, feeds it a script, brings the picture home.
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,6 +14,10 @@ struct PictureSize {
     int height = 1350;
 };
 
+/// viridis (van der Walt and Smith, 2015): even steps look even, to the colour-blind too, and in grey.
+inline constexpr std::array<const char*, 11> viridis{"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c",
+                                                     "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"};
+
 /// Where gnuplot is: the program named by the environment variable STYLOBATE_GNUPLOT if that is set, else the first
 /// one in PATH.
 /// @throws InputError if there is none, with what to install
@@ -23,7 +28,7 @@ std::filesystem::path find_gnuplot();
 std::string gnuplot_text(std::string_view text);
 
 /// Commands for the two lines above a picture: the title (smaller if it is long) and what is said about it.
-std::string gnuplot_heading(std::string_view title, std::string_view subtitle);
+std::string gnuplot_heading(std::string_view title, std::string_view subtitle, PictureSize size = {});
 
 /// Runs a script whose terminal and output are set already (PNG, UTF-8, no markup in texts) and writes the picture to
 /// `png`, whole or not at all. The script and its by-products live in a temporary folder that is removed.

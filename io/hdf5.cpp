@@ -252,6 +252,18 @@ void write_array(hid_t parent, const std::string& path, const std::vector<std::u
     write_new(parent, path, H5T_STD_U64LE, H5T_NATIVE_UINT64, values, dims, unit);
 }
 
+void write_array(hid_t parent, const std::string& path, const std::vector<std::int32_t>& values, const Dims& dims,
+                 const std::string& unit)
+{
+    write_new(parent, path, H5T_STD_I32LE, H5T_NATIVE_INT32, values, dims, unit);
+}
+
+void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::vector<std::uint8_t>& values,
+                 const Dims& dims)
+{
+    write_new(parent, path, type, type, values, dims, "");
+}
+
 std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims)
 {
     return read_whole<double>(parent, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dims);
@@ -260,6 +272,16 @@ std::vector<double> read_doubles(hid_t parent, const std::string& path, const Di
 std::vector<std::uint64_t> read_counts(hid_t parent, const std::string& path, const Dims& dims)
 {
     return read_whole<std::uint64_t>(parent, path, H5T_STD_U64LE, H5T_NATIVE_UINT64, dims);
+}
+
+std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, const Dims& dims)
+{
+    return read_whole<std::int32_t>(parent, path, H5T_STD_I32LE, H5T_NATIVE_INT32, dims);
+}
+
+std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims)
+{
+    return read_whole<std::uint8_t>(parent, path, type, type, dims);
 }
 
 void write_text(hid_t object, const std::string& name, const std::string& text)

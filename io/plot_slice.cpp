@@ -49,8 +49,8 @@ std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vect
     return {rows.begin(), rows.end()};
 }
 
-void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequencies_hz, const std::string& title,
-                const std::filesystem::path& png)
+void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequencies_hz, const std::string& limit,
+                const std::string& title, const std::filesystem::path& png)
 {
     const std::string below_title =
         describe_realizations(surface) + " · bars and bands: " + describe_interval(surface.interval);
@@ -93,7 +93,9 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
         "0.84\n"
         "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
         "set key horizontal center bottom at screen 0.535, screen 0.85 samplen 2\n"
-        "set xlabel 'peak ground acceleration [m/s²]' offset 0,-0.2\nset ylabel 'probability of collapse'\n"
+        "set xlabel 'peak ground acceleration [m/s²]' offset 0,-0.2\nset ylabel " +
+        gnuplot_text("probability of " + limit) +
+        "\n"
         "set yrange [-0.015:1.015]\nset ytics 0,0.1,1 format '%.1f'\n"
         "plot " +
         (bands.empty() ? std::string("1/0 notitle") : bands + curves);

@@ -48,8 +48,9 @@ std::size_t finite_samples(const Trajectory& t)
 {
     const std::size_t blocks = t.blocks();
     const std::size_t samples = t.time_s.size();
-    if (t.half_height_m.size() != blocks || t.base_x_m.size() != samples || t.x_m.size() != samples * blocks ||
-        t.y_m.size() != samples * blocks || t.theta_rad.size() != samples * blocks)
+    if (t.half_height_m.size() != blocks || t.role.size() != blocks || t.name.size() != blocks ||
+        t.base_x_m.size() != samples || t.x_m.size() != samples * blocks || t.y_m.size() != samples * blocks ||
+        t.theta_rad.size() != samples * blocks)
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
                                      "  Replay the realization into a new file.",
                                      t.index));
@@ -76,35 +77,43 @@ std::size_t finite_samples(const Trajectory& t)
     return good;
 }
 
-/// The blocks that are drawn as drums, and which of them are fixed to the base.
-struct Drums {
-    std::vector<std::size_t> drawn; ///< indices of blocks
-    std::vector<bool> fixed;        ///< for each of `drawn`
+/// The blocks that are drawn: all but the ground.
+struct Drawn {
+    std::vector<std::size_t> blocks; ///< indices
+    std::vector<bool> fixed;         ///< for each of them: it moves with the base
+    std::size_t top = 0;             ///< the highest at the start, the last of several
+    std::size_t epistyles = 0;
 };
 
-Drums find_drums(const Trajectory& t, std::size_t samples)
+Drawn find_blocks(const Trajectory& t, std::size_t samples)
 {
     const std::size_t blocks = t.blocks();
-    Drums drums;
+    Drawn drawn;
+    double highest = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
         const double top = t.y_m[i] + t.half_height_m[i];
-        if (top <= 1e-6 * t.half_height_m[i])
-            continue; // the ground
+        if (t.role[i] == BlockRole::ground || top <= 1e-6 * t.half_height_m[i])
+            continue;
         bool moves = false;
         for (std::size_t s = 1; s < samples && !moves; ++s)
             moves = t.x_m[s * blocks + i] != t.x_m[i] || t.y_m[s * blocks + i] != t.y_m[i] ||
                     t.theta_rad[s * blocks + i] != t.theta_rad[i];
-        drums.drawn.push_back(i);
-        drums.fixed.push_back(!moves);
+        drawn.blocks.push_back(i);
+        drawn.fixed.push_back(!moves);
+        drawn.epistyles += t.role[i] == BlockRole::epistyle;
+        if (top >= highest - 1e-3 * t.half_height_m[i]) {
+            highest = std::max(highest, top);
+            drawn.top = i;
+        }
     }
-    if (drums.drawn.empty())
+    if (drawn.blocks.empty())
         throw InputError(fmt::format("the trajectory of realization {} has no block above its base (y = 0).\n"
                                      "  Heights are to be counted from the top of the base, in metres.",
                                      t.index));
-    // In a column where nothing moves nothing can be told.
-    if (std::all_of(drums.fixed.begin(), drums.fixed.end(), [](bool f) { return f; }))
-        drums.fixed.assign(drums.fixed.size(), false);
-    return drums;
+    // In a structure where nothing moves nothing can be told.
+    if (std::all_of(drawn.fixed.begin(), drawn.fixed.end(), [](bool f) { return f; }))
+        drawn.fixed.assign(drawn.fixed.size(), false);
+    return drawn;
 }
 
 struct Corner {
@@ -182,159 +191,333 @@ std::vector<std::size_t> choose_samples(const Trajectory& t, std::size_t samples
     return chosen;
 }
 
-/// The rectangle of the strip in the picture, in parts of it.
-struct Frame {
-    double left = 0.1;
-    double right = 0.985;
-    double bottom = 0.475;
-    double top = 0.865;
-};
+/// Of the picture, in parts of its width.
+constexpr double left_edge = 0.1;
+constexpr double right_edge = 0.985;
+/// Heights in pixels.
+constexpr double heading_pixels = 182;
+constexpr double one_row_pixels = 526;   ///< of the strip if its snapshots stand in one row
+constexpr double most_rows_pixels = 960; ///< of several rows
+constexpr double label_pixels = 52;      ///< below a row, for the times
+constexpr double panel_pixels = 189;
+constexpr double panel_gap_pixels = 54;
+constexpr double footing_pixels = 128; ///< below the last panel
 
-/// Script of the strip: the snapshots side by side, one scale for both axes.
-std::string strip_script(const Trajectory& t, const Drums& drums, const std::vector<std::size_t>& chosen,
-                         PictureSize size)
-{
-    const Frame frame;
-    // What each snapshot needs.
-    std::vector<double> left(chosen.size());
-    std::vector<double> right(chosen.size());
+/// What one snapshot needs [m].
+struct Extent {
+    double left = std::numeric_limits<double>::infinity();
+    double right = -left;
     double low = 0;
     double high = 0;
-    double widest = 0;
-    for (std::size_t n = 0; n < chosen.size(); ++n) {
-        left[n] = std::numeric_limits<double>::infinity();
-        right[n] = -left[n];
-        for (const std::size_t block : drums.drawn) {
-            widest = std::max(widest, 2 * t.half_width_m[block]);
-            for (const Corner& c : corners(t, chosen[n], block)) {
-                left[n] = std::min(left[n], c.x);
-                right[n] = std::max(right[n], c.x);
-                low = std::min(low, c.y);
-                high = std::max(high, c.y);
-            }
-        }
-    }
-    const double overhang = std::max(0.15 * widest, 0.02 * (high - low));
-    double needed = 0;
-    for (std::size_t n = 0; n < chosen.size(); ++n)
-        needed += right[n] - left[n] + 2 * overhang;
-    const auto count = static_cast<double>(chosen.size());
-    const double least_gap = 0.5 * overhang;
-    const double slab = 0.035 * (high - low);
-    const double height = 1.03 * (high - low) + slab;
-
-    // One scale, and what is left of the width goes between the snapshots.
-    const double pixels_x = (frame.right - frame.left) * size.width;
-    const double pixels_y = (frame.top - frame.bottom) * size.height;
-    const double scale = std::min(pixels_x / (needed + least_gap * count), pixels_y / height);
-    const double width = pixels_x / scale;
-    const double gap = (width - needed) / count;
-    const Unit unit = unit_for(pixels_y / scale);
-
-    std::string free_drums = "$free << EOD\n";
-    std::string fixed_drums = "$fixed << EOD\n";
-    std::string base = "$base << EOD\n";
-    std::string labels;
-    const auto rectangle = [&](const std::array<Corner, 4>& c, double shift) {
-        std::string text;
-        for (std::size_t i = 0; i <= 4; ++i)
-            text += fmt::format("{} {}\n", (c[i % 4].x + shift) * unit.per_metre, c[i % 4].y * unit.per_metre);
-        return text + '\n';
-    };
-    const double span = t.time_s[chosen.back()] - t.time_s[chosen.front()];
-    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
-    double narrowest = width;
-    for (std::size_t n = 0; n < chosen.size(); ++n)
-        narrowest = std::min(narrowest, right[n] - left[n] + 2 * overhang + gap);
-    const double label_font = std::min(21.0, 1.4 * narrowest * scale / (decimals + 5));
-    double cursor = gap / 2;
-    for (std::size_t n = 0; n < chosen.size(); ++n) {
-        const double cell = right[n] - left[n] + 2 * overhang;
-        const double shift = cursor + overhang - left[n];
-        for (std::size_t d = 0; d < drums.drawn.size(); ++d)
-            (drums.fixed[d] ? fixed_drums : free_drums) += rectangle(corners(t, chosen[n], drums.drawn[d]), shift);
-        base += rectangle({{{cursor, -slab}, {cursor + cell, -slab}, {cursor + cell, 0}, {cursor, 0}}}, 0);
-        labels +=
-            fmt::format("set label '{:.{}f} s' at first {}, screen {} center font ',{:.1f}'\n", t.time_s[chosen[n]],
-                        decimals, (cursor + cell / 2) * unit.per_metre, frame.bottom - 0.022, label_font);
-        cursor += cell + gap;
-    }
-    std::string script = free_drums + "EOD\n" + fixed_drums + "EOD\n" + base + "EOD\n" + labels;
-    script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
-                          "set tmargin at screen {}\nset xrange [0:{}]\nset yrange [{}:{}]\n",
-                          frame.left, frame.right, frame.bottom, frame.top, width * unit.per_metre,
-                          (low - slab) * unit.per_metre, (low - slab + pixels_y / scale) * unit.per_metre);
-    script += "set border 2 linewidth 0.8\nset ytics out nomirror\nunset xtics\n";
-    script += axis_title("height", unit, frame.bottom, frame.top);
-    script += "plot ";
-    const auto layer = [&](const char* name, const char* fill, const char* line) {
-        script += fmt::format("{0} with filledcurves closed fillcolor rgb '{1}' fillstyle solid 1 noborder, "
-                              "{0} with lines linecolor rgb '{2}' linewidth 0.7",
-                              name, fill, line);
-    };
-    layer("$base", "#6f6f6f", "#6f6f6f");
-    if (std::find(drums.fixed.begin(), drums.fixed.end(), true) != drums.fixed.end()) {
-        script += ", ";
-        layer("$fixed", "#a89a7d", "#4a3b24");
-    }
-    script += ", ";
-    layer("$free", "#ead9b5", "#4a3b24");
-    return script + '\n';
-}
-
-/// A panel of one displacement over time.
-struct Panel {
-    const char* name; ///< of its data
-    const char* label;
-    const char* colour;
-    double bottom; ///< in parts of the picture
-    double top;
-    bool has_time_axis;
 };
 
-std::string panel_script(const Panel& panel, const Trajectory& t, const std::vector<std::size_t>& chosen,
-                         const std::vector<double>& displacement_m)
+/// Where the snapshots are, on one scale; lengths in metres of the structure, (0, 0) at the strip's lower left.
+struct Layout {
+    struct Cell {
+        double left = 0;    ///< of the base beneath it
+        double right = 0;   ///< of the base
+        double shift_x = 0; ///< from the trajectory's coordinates
+        double ground = 0;  ///< height of the base's top
+    };
+    std::vector<Cell> cells;        ///< by snapshot
+    std::vector<std::size_t> row;   ///< by snapshot, from the top
+    std::vector<double> row_ground; ///< by row
+    std::vector<double> row_height; ///< by row, above its ground
+    double pixels_per_m = 0;
+    double slab = 0; ///< thickness of the base
+    double width = 0;
+    double pixels = 0; ///< height of the strip
+};
+
+/// Puts the snapshots into so many rows, as large as they fit.
+Layout layout_in_rows(const std::vector<Extent>& extents, double overhang, double pixels_x, std::size_t rows)
+{
+    const std::size_t count = extents.size();
+    const std::size_t in_row = (count + rows - 1) / rows;
+    rows = (count + in_row - 1) / in_row; // none is left empty
+    const double least_gap = 0.5 * overhang;
+    Layout layout;
+    std::vector<double> needed(rows);
+    std::vector<double> members(rows);
+    std::vector<double> low(rows);
+    layout.row_height.resize(rows);
+    double tallest = 0;
+    double widest = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::size_t r = n / in_row;
+        layout.row.push_back(r);
+        needed[r] += extents[n].right - extents[n].left + 2 * overhang;
+        members[r] += 1;
+        low[r] = std::min(low[r], extents[n].low);
+        layout.row_height[r] = std::max(layout.row_height[r], extents[n].high);
+        tallest = std::max(tallest, layout.row_height[r] - low[r]);
+        widest = std::max(widest, needed[r] + least_gap * members[r]);
+    }
+    layout.slab = 0.035 * tallest;
+    const double headroom = 0.03 * tallest;
+    double height = 0;
+    for (std::size_t r = 0; r < rows; ++r)
+        height += layout.row_height[r] - low[r] + layout.slab + headroom;
+    const double pixels_y = rows == 1 ? one_row_pixels : most_rows_pixels;
+    const double labels = label_pixels * static_cast<double>(rows - 1);
+    layout.pixels_per_m = std::min(pixels_x / widest, (pixels_y - labels) / height);
+    layout.pixels = rows == 1 ? one_row_pixels : std::max(one_row_pixels, height * layout.pixels_per_m + labels);
+    layout.width = pixels_x / layout.pixels_per_m;
+
+    // From the bottom row up; what is left of the width goes between the snapshots.
+    layout.row_ground.resize(rows);
+    double bottom = 0;
+    for (std::size_t r = rows; r-- > 0;) {
+        layout.row_ground[r] = bottom + layout.slab - low[r];
+        bottom = layout.row_ground[r] + layout.row_height[r] + headroom + label_pixels / layout.pixels_per_m;
+    }
+    double cursor = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::size_t r = layout.row[n];
+        const double gap = (layout.width - needed[r]) / members[r];
+        if (n == 0 || layout.row[n - 1] != r)
+            cursor = gap / 2;
+        const double wide = extents[n].right - extents[n].left + 2 * overhang;
+        layout.cells.push_back({cursor, cursor + wide, cursor + overhang - extents[n].left, layout.row_ground[r]});
+        cursor += wide + gap;
+    }
+    return layout;
+}
+
+Layout make_layout(const Trajectory& t, const Drawn& drawn, const std::vector<std::size_t>& chosen, double pixels_x)
+{
+    std::vector<Extent> extents(chosen.size());
+    double widest = 0;
+    double tallest = 0;
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+        for (const std::size_t block : drawn.blocks) {
+            widest = std::max(widest, 2 * t.half_width_m[block]);
+            for (const Corner& c : corners(t, chosen[n], block)) {
+                extents[n].left = std::min(extents[n].left, c.x);
+                extents[n].right = std::max(extents[n].right, c.x);
+                extents[n].low = std::min(extents[n].low, c.y);
+                extents[n].high = std::max(extents[n].high, c.y);
+            }
+        }
+        tallest = std::max(tallest, extents[n].high - extents[n].low);
+    }
+    const double overhang = std::clamp(0.15 * widest, 0.02 * tallest, 0.1 * tallest);
+    // A column's snapshots stand in one row; those of what is wide would be tiny there.
+    Layout best = layout_in_rows(extents, overhang, pixels_x, 1);
+    for (std::size_t rows = 2; rows <= chosen.size(); ++rows) {
+        Layout other = layout_in_rows(extents, overhang, pixels_x, rows);
+        if (other.pixels_per_m > (best.row_height.size() == 1 ? 1.4 : 1.05) * best.pixels_per_m)
+            best = std::move(other);
+    }
+    return best;
+}
+
+/// The vertical places of the picture's parts, in parts of its height.
+struct Page {
+    PictureSize size;
+    double at(double pixels_from_top) const { return 1 - pixels_from_top / size.height; }
+};
+
+/// Polygons of one look, for gnuplot.
+struct Shapes {
+    const char* name;
+    const char* fill; ///< nullptr: the outline alone
+    const char* line;
+    std::string data;
+
+    void add(const std::array<Corner, 4>& c, double dx, double dy, double per_metre)
+    {
+        for (std::size_t i = 0; i <= 4; ++i)
+            fmt::format_to(std::back_inserter(data), "{} {}\n", (c[i % 4].x + dx) * per_metre,
+                           (c[i % 4].y + dy) * per_metre);
+        data += '\n';
+    }
+};
+
+bool has_fallen(const std::vector<double>& fall_time_s, std::size_t block, double time_s)
+{
+    return !fall_time_s.empty() && fall_time_s[block] >= 0 && fall_time_s[block] <= time_s;
+}
+
+/// Script of the strip: the snapshots side by side, one scale for both axes.
+std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vector<double>& fall_time_s,
+                         const std::vector<std::size_t>& chosen, const Layout& layout, const Page& page)
+{
+    const double tallest = *std::max_element(layout.row_height.begin(), layout.row_height.end());
+    const Unit unit = unit_for(tallest);
+    Shapes base{"$base", "#6f6f6f", "#6f6f6f", ""};
+    Shapes fixed{"$fixed", "#a89a7d", "#4a3b24", ""};
+    Shapes drums{"$drums", "#ead9b5", "#4a3b24", ""};
+    Shapes epistyles{"$epistyles", "#b9cddb", "#27475c", ""};
+    Shapes fallen{"$fallen", nullptr, "#c0271b", ""};
+
+    const double top = heading_pixels;
+    const double bottom = heading_pixels + layout.pixels;
+    const double span = t.time_s[chosen.back()] - t.time_s[chosen.front()];
+    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
+    double narrowest = layout.width;
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+        const bool ends_row = n + 1 == chosen.size() || layout.row[n + 1] != layout.row[n];
+        const double next = ends_row ? layout.width : layout.cells[n + 1].left;
+        narrowest = std::min(narrowest, next - layout.cells[n].left);
+    }
+    const double label_font = std::min(21.0, 1.4 * narrowest * layout.pixels_per_m / (decimals + 5));
+    std::string labels;
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+        const Layout::Cell& cell = layout.cells[n];
+        const double time = t.time_s[chosen[n]];
+        for (std::size_t d = 0; d < drawn.blocks.size(); ++d) {
+            const std::size_t block = drawn.blocks[d];
+            const std::array<Corner, 4> c = corners(t, chosen[n], block);
+            Shapes& kind = drawn.fixed[d] ? fixed : t.role[block] == BlockRole::epistyle ? epistyles : drums;
+            kind.add(c, cell.shift_x, cell.ground, unit.per_metre);
+            if (has_fallen(fall_time_s, block, time))
+                fallen.add(c, cell.shift_x, cell.ground, unit.per_metre);
+        }
+        base.add({{{cell.left, -layout.slab}, {cell.right, -layout.slab}, {cell.right, 0}, {cell.left, 0}}}, 0,
+                 cell.ground, unit.per_metre);
+        const double row_bottom = *std::max_element(layout.row.begin(), layout.row.end()) == layout.row[n]
+                                      ? 0
+                                      : layout.row_ground[layout.row[n] + 1] + layout.row_height[layout.row[n] + 1] +
+                                            0.03 * tallest + label_pixels / layout.pixels_per_m;
+        labels += fmt::format("set label '{:.{}f} s' at screen {}, screen {} center font ',{:.1f}'\n", time, decimals,
+                              left_edge + (right_edge - left_edge) * (cell.left + cell.right) / 2 / layout.width,
+                              page.at(bottom - row_bottom * layout.pixels_per_m + 30), label_font);
+    }
+    const double step = round_step(tallest / 2.2);
+    std::string tics;
+    for (std::size_t r = 0; r < layout.row_ground.size(); ++r)
+        for (int k = 0; k * step <= layout.row_height[r] * (1 + 1e-9); ++k)
+            tics += fmt::format("{}'{:g}' {}", tics.empty() ? "" : ", ", k * step * unit.per_metre,
+                                (layout.row_ground[r] + k * step) * unit.per_metre);
+
+    std::string script;
+    std::string fills;
+    std::string lines;
+    for (const Shapes* shapes : {&base, &fixed, &drums, &epistyles, &fallen}) {
+        if (shapes->data.empty())
+            continue;
+        script += fmt::format("{} << EOD\n{}EOD\n", shapes->name, shapes->data);
+        if (shapes->fill)
+            fills += fmt::format("{}{} with filledcurves closed fillcolor rgb '{}' fillstyle solid 1 noborder",
+                                 fills.empty() ? "" : ", ", shapes->name, shapes->fill);
+        lines += fmt::format(", {} with lines linecolor rgb '{}' linewidth {}", shapes->name, shapes->line,
+                             shapes->fill ? 0.7 : 1.0);
+    }
+    script += labels;
+    script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
+                          "set tmargin at screen {}\nset xrange [0:{}]\nset yrange [0:{}]\n",
+                          left_edge, right_edge, page.at(bottom), page.at(top), layout.width * unit.per_metre,
+                          layout.pixels / layout.pixels_per_m * unit.per_metre);
+    script += fmt::format("set border 2 linewidth 0.8\nset ytics out nomirror ({})\nunset xtics\n", tics);
+    script += axis_title("height", unit, page.at(bottom), page.at(top));
+    return script + "plot " + fills + lines + '\n';
+}
+
+/// A panel over time, below the strip.
+struct Panel {
+    double top = 0; ///< pixels from the picture's top
+    bool has_time_axis = false;
+};
+
+/// Its frame and its time axis; the plot itself follows.
+std::string panel_frame(const Panel& panel, const Page& page, double first_s, double last_s)
+{
+    std::string script = fmt::format("unset label\nset lmargin at screen {}\nset rmargin at screen {}\n"
+                                     "set bmargin at screen {}\nset tmargin at screen {}\n",
+                                     left_edge, right_edge, page.at(panel.top + panel_pixels), page.at(panel.top));
+    script += fmt::format("set xrange [{}:{}]\nset border 3 linewidth 0.8\nset xtics out nomirror {}\n"
+                          "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n",
+                          first_s, last_s > first_s ? last_s : first_s + 1,
+                          panel.has_time_axis ? "format '%g'" : "format ''");
+    if (panel.has_time_axis)
+        script += "set xlabel 'time [s]' offset 0,0.3\n";
+    return script;
+}
+
+/// A panel of one displacement.
+std::string displacement_script(const char* name, const char* label, const char* colour, const Panel& panel,
+                                const Page& page, const Trajectory& t, const std::vector<std::size_t>& chosen,
+                                const std::vector<double>& displacement_m)
 {
     const auto [least_m, most_m] = std::minmax_element(displacement_m.begin(), displacement_m.end());
     const Unit unit = unit_for(std::max(std::abs(*least_m), std::abs(*most_m)));
     const double least = *least_m * unit.per_metre;
     const double most = *most_m * unit.per_metre;
     const double span = most > least ? most - least : std::max(1.0, std::abs(most));
-    std::string script = fmt::format("{} << EOD\n", panel.name);
+    std::string script = fmt::format("{} << EOD\n", name);
     for (std::size_t s = 0; s < displacement_m.size(); ++s)
         fmt::format_to(std::back_inserter(script), "{} {}\n", t.time_s[s], displacement_m[s] * unit.per_metre);
-    script += fmt::format("EOD\n{}marks << EOD\n", panel.name);
+    script += fmt::format("EOD\n{}marks << EOD\n", name);
     for (const std::size_t s : chosen)
         script += fmt::format("{} {}\n", t.time_s[s], displacement_m[s] * unit.per_metre);
-    script += "EOD\n";
-
-    const Frame frame;
-    script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
-                          "set tmargin at screen {}\n",
-                          frame.left, frame.right, panel.bottom, panel.top);
-    const double first = t.time_s.front();
-    const double last = t.time_s[displacement_m.size() - 1];
-    script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", first, last > first ? last : first + 1,
-                          least - 0.06 * span, most + 0.06 * span);
-    script += fmt::format("set border 3 linewidth 0.8\nset ytics out nomirror {}\nset xtics out nomirror {}\n"
-                          "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n",
-                          round_step(span / 2.4), panel.has_time_axis ? "format '%g'" : "format ''");
-    script += "unset label\n" + axis_title(panel.label, unit, panel.bottom, panel.top);
-    if (panel.has_time_axis)
-        script += "set xlabel 'time [s]' offset 0,0.3\n";
+    script += "EOD\n" + panel_frame(panel, page, t.time_s.front(), t.time_s[displacement_m.size() - 1]);
+    script += fmt::format("set yrange [{}:{}]\nset ytics out nomirror {}\n", least - 0.06 * span, most + 0.06 * span,
+                          round_step(span / 2.4));
+    script += axis_title(label, unit, page.at(panel.top + panel_pixels), page.at(panel.top));
     script += fmt::format("plot {0} with lines linecolor rgb '{1}' linewidth 1, {0}marks with points pointtype 7 "
                           "pointsize 1.2 linecolor rgb '{1}'\n",
-                          panel.name, panel.colour);
+                          name, colour);
     return script;
 }
 
-std::string subtitle(const Trajectory& t, const Drums& drums, std::size_t samples)
+/// The falls within the drawn time, in their order.
+std::vector<std::size_t> falls_in_order(const Drawn& drawn, const std::vector<double>& fall_time_s, double last_s)
 {
-    const auto fixed = std::count(drums.fixed.begin(), drums.fixed.end(), true);
-    std::string text = fmt::format("{} {}", drums.drawn.size(), drums.drawn.size() == 1 ? "drum" : "drums");
+    std::vector<std::size_t> falls;
+    for (const std::size_t block : drawn.blocks)
+        if (has_fallen(fall_time_s, block, last_s))
+            falls.push_back(block);
+    std::stable_sort(falls.begin(), falls.end(),
+                     [&](std::size_t a, std::size_t b) { return fall_time_s[a] < fall_time_s[b]; });
+    return falls;
+}
+
+/// The panel of the falls: how many blocks have fallen, with a point for each.
+std::string falls_script(const Panel& panel, const Page& page, const Trajectory& t,
+                         const std::vector<std::size_t>& falls, const std::vector<double>& fall_time_s, double last_s)
+{
+    std::string steps = fmt::format("$count << EOD\n{} 0\n", t.time_s.front());
+    std::string points;
+    for (std::size_t k = 0; k < falls.size(); ++k) {
+        steps += fmt::format("{} {}\n", fall_time_s[falls[k]], k + 1);
+        points += fmt::format("{} {}\n", fall_time_s[falls[k]], k + 1);
+    }
+    const auto count = static_cast<double>(falls.size());
+    std::string script = steps + fmt::format("{} {}\nEOD\n$each << EOD\n", last_s, falls.size()) + points + "EOD\n" +
+                         panel_frame(panel, page, t.time_s.front(), last_s);
+    script += fmt::format("set yrange [0:{}]\nset ytics out nomirror {}\n", 1.1 * count,
+                          std::max(1.0, round_step(count / 2.4)));
+    script += fmt::format("set label 'fallen' at screen 0.017, screen {} center rotate by 90\n",
+                          page.at(panel.top + panel_pixels / 2));
+    // Left of the first fall there is room, unless it comes early: then below the curve on the right.
+    const double first = fall_time_s[falls.front()];
+    const bool late = first - t.time_s.front() > 0.5 * (last_s - t.time_s.front());
+    script +=
+        fmt::format("set label {} at first {}, graph {} right font ',19' textcolor rgb '#c0271b' front offset -1,0\n",
+                    gnuplot_text(fmt::format("first: {}, {:.2f} s", t.name[falls.front()], first)),
+                    late ? first : last_s, late ? 0.72 : 0.2);
+    script += "plot $count with steps linecolor rgb '#c0271b' linewidth 1, $each with points pointtype 7 pointsize 1.0 "
+              "linecolor rgb '#c0271b'\n";
+    return script;
+}
+
+std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t samples, bool falls)
+{
+    const auto fixed = std::count(drawn.fixed.begin(), drawn.fixed.end(), true);
+    const auto many = [](std::size_t n, const char* what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    std::string text = many(drawn.blocks.size() - drawn.epistyles, "drum");
+    if (drawn.epistyles > 0)
+        text += " and " + many(drawn.epistyles, "epistyle");
     if (fixed > 0)
         text += fmt::format(", {} fixed (darker)", fixed);
     text += " · drawn to scale in the frame of the base";
+    if (drawn.epistyles > 0)
+        text += " · top: " + t.name[drawn.top];
+    if (falls)
+        text += " · red outlines: fallen";
     if (samples < t.time_s.size())
         text += fmt::format(" · not finite after {:.4g} s", t.time_s[samples - 1]);
     return text;
@@ -347,28 +530,49 @@ std::vector<std::size_t> snapshot_samples(const Trajectory& trajectory, std::siz
     return choose_samples(trajectory, finite_samples(trajectory), snapshots);
 }
 
-void plot_strip(const Trajectory& trajectory, const std::string& title, const std::filesystem::path& png,
-                std::size_t snapshots)
+void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
+                const std::filesystem::path& png, std::size_t snapshots)
 {
     const std::size_t samples = finite_samples(trajectory);
-    const std::vector<std::size_t> chosen = choose_samples(trajectory, samples, snapshots);
-    const Drums drums = find_drums(trajectory, samples);
-    const PictureSize size;
-
     const std::size_t blocks = trajectory.blocks();
-    const std::size_t top = drums.drawn.back();
+    if (!fall_time_s.empty() && fall_time_s.size() != blocks)
+        throw InputError(
+            fmt::format("realization {} has fall times of {} blocks and a trajectory of {}: it is damaged.\n"
+                        "  Replay the realization into a new file.",
+                        trajectory.index, fall_time_s.size(), blocks));
+    const std::vector<std::size_t> chosen = choose_samples(trajectory, samples, snapshots);
+    const Drawn drawn = find_blocks(trajectory, samples);
+    const double last_s = trajectory.time_s[samples - 1];
+    const std::vector<std::size_t> falls = falls_in_order(drawn, fall_time_s, last_s);
+
+    Page page;
+    const Layout layout =
+        make_layout(trajectory, drawn, chosen, (right_edge - left_edge) * static_cast<double>(page.size.width));
+    const double first_panel = heading_pixels + layout.pixels + label_pixels + 30;
+    const double panels = falls.empty() ? 2 : 3;
+    page.size.height = static_cast<int>(
+        std::lround(first_panel + panels * panel_pixels + (panels - 1) * panel_gap_pixels + footing_pixels));
+
     std::vector<double> top_m(samples);
     for (std::size_t s = 0; s < samples; ++s)
-        top_m[s] = trajectory.x_m[s * blocks + top] - trajectory.x_m[top];
+        top_m[s] = trajectory.x_m[s * blocks + drawn.top] - trajectory.x_m[drawn.top];
     const std::vector<double> base_m(trajectory.base_x_m.begin(),
                                      trajectory.base_x_m.begin() + static_cast<std::ptrdiff_t>(samples));
 
-    std::string script = "set multiplot\nunset key\n" + gnuplot_heading(title, subtitle(trajectory, drums, samples)) +
-                         strip_script(trajectory, drums, chosen, size);
-    script += panel_script({"$top", "top", "#0072b2", 0.275, 0.415, false}, trajectory, chosen, top_m);
-    script += panel_script({"$ground", "base", "#d55e00", 0.095, 0.235, true}, trajectory, chosen, base_m);
+    std::string script = "set multiplot\nunset key\n" +
+                         gnuplot_heading(title, subtitle(trajectory, drawn, samples, !falls.empty()), page.size) +
+                         strip_script(trajectory, drawn, fall_time_s, chosen, layout, page);
+    Panel panel{first_panel, false};
+    const double stride = panel_pixels + panel_gap_pixels;
+    if (!falls.empty()) {
+        script += falls_script(panel, page, trajectory, falls, fall_time_s, last_s);
+        panel.top += stride;
+    }
+    script += displacement_script("$top", "top", "#0072b2", panel, page, trajectory, chosen, top_m);
+    panel = {panel.top + stride, true};
+    script += displacement_script("$ground", "base", "#d55e00", panel, page, trajectory, chosen, base_m);
     script += "unset multiplot\n";
-    run_gnuplot(script, size, png);
+    run_gnuplot(script, page.size, png);
 }
 
 } // namespace stylobate

@@ -1,5 +1,5 @@
 #pragma once
-/// The picture of one realization: the column at chosen times, and its displacements.
+/// The picture of one realization: the structure at chosen times, its falls, and its displacements.
 
 #include "io/result_store.hpp"
 
@@ -10,18 +10,22 @@
 
 namespace stylobate {
 
-/// Draws a strip of snapshots (1800 x 1350 pixels), drums to scale in the frame of the base, the base beneath them and
-/// the time under each; fixed drums darker. Below: the top drum's displacement against the base, and the base's
-/// displacement, over time, with marks at the snapshots. Lengths are in mm, or in m where they are large.
+/// Draws a strip of snapshots (1800 pixels wide, 1350 high or more), blocks to scale in the frame of the base, the base
+/// beneath them and the time under each: a column in one row, what is wide in several rows. Fixed blocks are darker,
+/// epistyles blue, those that have fallen by then outlined in red. Below, over time: the number of fallen blocks if any
+/// falls; the displacement of the highest block against the base; that of the base, with marks at the snapshots.
+/// Lengths are in mm, or in m where they are large.
 ///
-/// Only samples before the first one that is not finite are drawn. A recorded block whose top lies at or below y = 0
-/// is the ground itself and is drawn as the base.
+/// Only samples before the first one that is not finite are drawn. A recorded block whose role is ground, or whose top
+/// lies at or below y = 0, is drawn as the base.
 ///
+/// @param fall_time_s of each block, -1 = never, as in `Outcome`; empty: not known
 /// @param snapshots 2 to 16; fewer are drawn if there are fewer samples
-/// @throws InputError if the trajectory is empty, its arrays do not fit each other or a size is not positive, if
-///         `snapshots` is out of range, if gnuplot is missing or fails, or if the picture cannot be written
-void plot_strip(const Trajectory& trajectory, const std::string& title, const std::filesystem::path& png,
-                std::size_t snapshots = 8);
+/// @throws InputError if the trajectory is empty, its arrays do not fit each other or a size is not positive, if the
+///         fall times are not as many as the blocks, if `snapshots` is out of range, if gnuplot is missing or fails, or
+///         if the picture cannot be written
+void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
+                const std::filesystem::path& png, std::size_t snapshots = 8);
 
 /// The samples that the strip shows, ascending: the first, the last, and in each stretch between (short where the
 /// column moves much, long where it does little) the one at which the column is farthest from its start.

@@ -21,10 +21,6 @@ namespace {
 
 constexpr std::array<double, 3> levels{0.05, 0.5, 0.95};
 
-/// viridis (van der Walt and Smith, 2015): even steps look even, to the colour-blind too, and in grey.
-constexpr std::array<const char*, 11> viridis{"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c",
-                                              "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"};
-
 /// A surface in the unit square: (0, 0) and (1, 1) are the corners of the picture's frame.
 struct UnitScale {
     const PlotAxis& axis;
@@ -179,7 +175,8 @@ std::string describe_realizations(const SurfaceTable& surface)
                        *least == *most ? fmt::format("{}", *least) : fmt::format("{} to {}", *least, *most), nf, np);
 }
 
-void plot_surface(const SurfaceTable& surface, const std::string& title, const std::filesystem::path& png)
+void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
+                  const std::filesystem::path& png)
 {
     const std::string below_title = subtitle(surface);
     const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
@@ -212,7 +209,9 @@ void plot_surface(const SurfaceTable& surface, const std::string& title, const s
               "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.8,0.6\n"
               "set border 31 linewidth 0.8\nset tics out nomirror\nunset key\n"
               "set xlabel 'frequency [Hz]' offset 0,-0.2\nset ylabel 'peak ground acceleration [m/s²]'\n"
-              "set cbrange [0:1]\nset cbtics 0.1 format '%.1f'\nset cblabel 'probability of collapse' offset 0.8,0\n"
+              "set cbrange [0:1]\nset cbtics 0.1 format '%.1f'\nset cblabel " +
+              gnuplot_text("probability of " + limit) +
+              " offset 0.8,0\n"
               "set style fill solid 1.0 noborder\n" +
               frequency.commands('x') + pga.commands('y');
     if (empty > 0)

@@ -1,5 +1,5 @@
 #pragma once
-/// The picture of a collapse-probability surface.
+/// The picture of a surface of the probability of a limit state.
 
 #include "io/result_store.hpp"
 
@@ -8,14 +8,16 @@
 
 namespace stylobate {
 
-/// Draws a heat map of the collapse probability over frequency and PGA (1800 x 1350 pixels): each cell at its true
+/// Draws a heat map of the probability over frequency and PGA (1800 x 1350 pixels): each cell at its true
 /// extent, an axis logarithmic where its values are spaced so, cells without a trial grey, contour lines at 0.05, 0.5
 /// and 0.95. Below the title: the number of realizations and the interval.
 ///
+/// @param limit what the probability is one of: "collapse"
 /// @param png the file; its folder must exist
 /// @throws InputError if the table has no axes or its arrays do not fit them, if gnuplot is missing or fails, or if
 ///         the picture cannot be written
-void plot_surface(const SurfaceTable& surface, const std::string& title, const std::filesystem::path& png);
+void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
+                  const std::filesystem::path& png);
 
 /// "wilson 0.95" -> "95 % Wilson interval"; other texts are left as they are.
 std::string describe_interval(const std::string& interval);

@@ -36,6 +36,8 @@ ResultHeader read_header(hid_t file)
     std::istringstream order(hdf5::read_text(input.id(), names::input_order));
     for (std::string name; order >> name;)
         header.input_names.push_back(name);
+    const hdf5::Handle outcome = hdf5::open_group(file, names::outcome);
+    header.block_names = split_names(hdf5::read_text(outcome.id(), names::blocks));
     if (hdf5::exists(file, names::surface)) {
         header.frequency_hz = read_axis(file, names::surface_frequency);
         header.pga_m_s2 = read_axis(file, names::surface_pga);
@@ -78,6 +80,14 @@ hdf5::Handle file_type(Stored stored)
         return copy(H5T_IEEE_F64LE);
     }
     return {};
+}
+
+hdf5::Handle role_type()
+{
+    const auto number = [](BlockRole role) { return static_cast<std::uint8_t>(role); };
+    return hdf5::byte_enumeration({{"drum", number(BlockRole::drum)},
+                                   {"epistyle", number(BlockRole::epistyle)},
+                                   {"ground", number(BlockRole::ground)}});
 }
 
 hdf5::Dims column_dims(const ResultLayout& layout, const Column& column)
@@ -151,7 +161,7 @@ ResultFile open_result(const std::filesystem::path& path, bool writable)
         result.header = read_header(file);
         result.complete = hdf5::read_number(file, "complete") != 0;
         // a row has some bytes in the file, so that a larger number is wrong before anything is allocated for it
-        if (result.header.total > result.handle.size())
+        if (result.header.total > result.handle.size() || result.header.block_names.size() > result.handle.size())
             result.refuse_damaged("it cannot hold the rows that it promises");
         result.layout = ResultLayout(result.header);
         result.places = find_rows(file, result.layout);

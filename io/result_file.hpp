@@ -21,6 +21,8 @@ struct RowPlaces {
 
 /// The HDF5 type of a column, or of a field, in the file.
 hdf5::Handle file_type(Stored stored);
+/// That of a block's role.
+hdf5::Handle role_type();
 /// Shape of a column.
 hdf5::Dims column_dims(const ResultLayout& layout, const Column& column);
 

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace stylobate {
@@ -67,6 +68,26 @@ InputName parse_input_name(const std::string& name)
 
 } // namespace
 
+std::string joined_names(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (const std::string& name : names) {
+        if (name.empty() || name.find('\n') != std::string::npos || name.find('\0') != std::string::npos)
+            throw std::invalid_argument("'" + name + "' cannot be the name of a block");
+        text += (text.empty() ? "" : "\n") + name;
+    }
+    return text;
+}
+
+std::vector<std::string> split_names(const std::string& text)
+{
+    std::vector<std::string> names;
+    std::istringstream lines(text);
+    for (std::string name; std::getline(lines, name);)
+        names.push_back(name);
+    return names;
+}
+
 ResultLayout::ResultLayout(const ResultHeader& header) : first_index_(header.first), rows_(header.total)
 {
     if (rows_ == 0)
@@ -77,6 +98,11 @@ ResultLayout::ResultLayout(const ResultHeader& header) : first_index_(header.fir
     visit_fields(row, [&](const char* path, const char* unit, auto& field) {
         columns_.push_back({path, unit, stored_as<std::remove_cvref_t<decltype(field)>>(), false, 1, 0});
     });
+    if (header.block_names.empty())
+        throw std::invalid_argument("a results file has at least one block");
+    joined_names(header.block_names); // for its refusals
+    fall_time_ = columns_.size();
+    columns_.push_back({result_names::fall_time, "s", Stored::f64, true, header.block_names.size(), 0});
 
     std::map<std::string, std::size_t> column_of;
     std::set<std::pair<std::size_t, std::uint64_t>> taken;
@@ -116,6 +142,8 @@ void ResultLayout::encode(const ResultRow& row, std::span<std::byte> chunk_bytes
         const std::size_t at = place(column++, row.index);
         std::memcpy(chunk_bytes.subspan(at, sizeof field).data(), &field, sizeof field);
     });
+    const std::span falls = std::as_bytes(std::span(row.outcome.fall_time_s));
+    std::memcpy(chunk_bytes.subspan(place(fall_time_, row.index), falls.size()).data(), falls.data(), falls.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const std::size_t at = place(inputs_[i].column, row.index) + inputs_[i].component * sizeof(double);
         std::memcpy(chunk_bytes.subspan(at, sizeof(double)).data(), &row.inputs[i], sizeof(double));
@@ -130,6 +158,9 @@ ResultRow ResultLayout::decode(std::uint64_t index, std::span<const std::byte> c
         const std::size_t at = place(column++, index);
         std::memcpy(&field, chunk_bytes.subspan(at, sizeof field).data(), sizeof field);
     });
+    row.outcome.fall_time_s.resize(blocks());
+    const std::span falls = std::as_writable_bytes(std::span(row.outcome.fall_time_s));
+    std::memcpy(falls.data(), chunk_bytes.subspan(place(fall_time_, index), falls.size()).data(), falls.size());
     row.inputs.resize(inputs_.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const std::size_t at = place(inputs_[i].column, index) + inputs_[i].component * sizeof(double);
@@ -149,8 +180,10 @@ bool same_bits(const ResultRow& a, const ResultRow& b)
             all.insert(all.end(), first, first + sizeof value);
         };
         visit_fields(row, [&](const char*, const char*, const auto& value) { append(value); });
-        for (const double input : row.inputs)
-            append(input);
+        append(row.outcome.fall_time_s.size());
+        for (const auto* list : {&row.outcome.fall_time_s, &row.inputs})
+            for (const double value : *list)
+                append(value);
         return all;
     };
     return bytes(a) == bytes(b);

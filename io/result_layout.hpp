@@ -13,7 +13,7 @@
 
 namespace stylobate {
 
-inline constexpr std::uint64_t result_format_version = 1;
+inline constexpr std::uint64_t result_format_version = 2;
 inline constexpr std::uint8_t state_not_run = 255; ///< state of a row that is not written yet
 
 /// Names in the file. Those of the columns follow from `visit_fields` below.
@@ -23,6 +23,8 @@ inline constexpr char realizations[] = "realizations";
 inline constexpr char input[] = "realizations/input";
 inline constexpr char input_order[] = "order"; ///< attribute of the group: `ResultHeader::input_names`, joined by ' '
 inline constexpr char outcome[] = "realizations/outcome";
+inline constexpr char fall_time[] = "outcome/fall_time_s"; ///< below /realizations
+inline constexpr char blocks[] = "blocks"; ///< attribute of groups with values by block: the names, one on each line
 inline constexpr char checksum[] = "realizations/chunk_checksum";
 inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
 inline constexpr char surface[] = "surface";
@@ -31,7 +33,12 @@ inline constexpr char surface_pga[] = "surface/pga_m_s2";
 inline constexpr char trajectories[] = "trajectories";
 } // namespace result_names
 
-/// Calls f(path below /realizations, unit, member) for every field of a row but the inputs.
+/// Names of blocks as one text, and back.
+/// @throws std::invalid_argument if a name is empty or has a line break
+std::string joined_names(const std::vector<std::string>& names);
+std::vector<std::string> split_names(const std::string& text);
+
+/// Calls f(path below /realizations, unit, member) for every field of a row but the lists: fall times and inputs.
 template <class Row, class F>
 void visit_fields(Row& row, F&& f)
 {
@@ -104,8 +111,8 @@ struct Column {
 class ResultLayout {
 public:
     ResultLayout() = default;
-    /// @throws std::invalid_argument if there is no row, or if an input name is malformed, comes twice or lacks a
-    /// neighbour
+    /// @throws std::invalid_argument if there is no row or no block, if a block's name is malformed, or if an input
+    /// name is malformed, comes twice or lacks a neighbour
     explicit ResultLayout(const ResultHeader& header);
 
     const std::vector<Column>& columns() const { return columns_; }
@@ -117,6 +124,7 @@ public:
     std::uint64_t chunk_of(std::uint64_t index) const { return (index - first_index_) / ResultWriter::rows_per_chunk; }
     std::uint64_t row_bytes() const { return row_bytes_; }
     std::size_t inputs() const { return inputs_.size(); }
+    std::size_t blocks() const { return columns_[fall_time_].width; }
 
     std::uint64_t chunks() const { return (rows_ + ResultWriter::rows_per_chunk - 1) / ResultWriter::rows_per_chunk; }
     std::uint64_t first_row(std::uint64_t chunk) const { return chunk * ResultWriter::rows_per_chunk; }
@@ -134,7 +142,8 @@ public:
         return columns_[column].bytes * rows_in(chunk);
     }
 
-    /// Puts a row into its place in its chunk's bytes. @pre holds(row.index), row.inputs has inputs() values
+    /// Puts a row into its place in its chunk's bytes.
+    /// @pre holds(row.index), row.inputs has inputs() values, row.outcome.fall_time_s has blocks() values
     void encode(const ResultRow& row, std::span<std::byte> chunk_bytes) const;
     /// Takes a realization's row from its chunk's bytes. @pre holds(index)
     /// @throws std::invalid_argument if a value is impossible
@@ -152,6 +161,7 @@ private:
     std::uint64_t row_bytes_ = 0;
     std::vector<Column> columns_;
     std::vector<std::uint64_t> before_; ///< bytes for each row of the columns before this one
+    std::size_t fall_time_ = 0;         ///< column of `Outcome::fall_time_s`
     std::vector<Input> inputs_;         ///< where `ResultRow::inputs` go
 };
 

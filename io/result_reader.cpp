@@ -155,6 +155,16 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
         trajectory.base_x_m = hdf5::read_doubles(file, group + "base_x_m", {both[0]});
         trajectory.half_width_m = hdf5::read_doubles(file, group + "half_width_m", {both[1]});
         trajectory.half_height_m = hdf5::read_doubles(file, group + "half_height_m", {both[1]});
+        for (const std::uint8_t role : hdf5::read_bytes(file, group + "role", role_type().id(), {both[1]})) {
+            if (role > static_cast<std::uint8_t>(BlockRole::ground))
+                throw hdf5::Error("'" + group + "role' holds what no run writes");
+            trajectory.role.push_back(static_cast<BlockRole>(role));
+        }
+        trajectory.column = hdf5::read_integers(file, group + "column", {both[1]});
+        const hdf5::Handle opened = hdf5::open_group(file, group);
+        trajectory.name = split_names(hdf5::read_text(opened.id(), names::blocks));
+        if (trajectory.name.size() != both[1])
+            throw hdf5::Error("'" + group + "' has not a name for each block");
         return trajectory;
     });
 }

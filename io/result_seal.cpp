@@ -125,7 +125,8 @@ std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
         refuse(damaged);
     if (head.version != result_format_version)
         refuse("is of format version " + std::to_string(head.version) + "; this program reads version " +
-               std::to_string(result_format_version));
+               std::to_string(result_format_version) +
+               ". Read it with the version that wrote it, or run its study again into another file.");
     if (size < head.file_size)
         refuse("is truncated: " + std::to_string(size) + " bytes of " + std::to_string(head.file_size));
     if (size > head.file_size || head.extents > (head.block - sizeof head - sizeof crc) / sizeof(Extent))

@@ -2,6 +2,7 @@
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
 #include "ensemble/outcome.hpp"
+#include "ensemble/realization.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,8 @@ struct ResultHeader {
     std::uint64_t total = 0;              ///< rows
     std::vector<std::string> input_names; ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
                                           ///< column 3 of the two-dimensional dataset input/friction
+    std::vector<std::string> block_names; ///< of the blocks but the ground, in layout order; as many values has
+                                          ///< `Outcome::fall_time_s` of every row
     std::vector<double> frequency_hz;     ///< surface axis (nf), empty for other kinds
     std::vector<double> pga_m_s2;         ///< surface axis (np)
 };
@@ -38,13 +41,13 @@ struct ResultRow {
 /// Whether all numbers of two rows have the same bits (NaN equals itself, 0 differs from -0).
 bool same_bits(const ResultRow& a, const ResultRow& b);
 
-/// /surface, each array (nf x np), frequency by frequency.
+/// A table over frequency and PGA, each array (nf x np), frequency by frequency. /surface holds that of the collapse.
 struct SurfaceTable {
     std::vector<double> frequency_hz;
     std::vector<double> pga_m_s2;
-    std::vector<std::uint64_t> trials; ///< valid realizations
-    std::vector<std::uint64_t> collapses;
-    std::vector<double> probability; ///< NaN where there is no trial
+    std::vector<std::uint64_t> trials;    ///< valid realizations
+    std::vector<std::uint64_t> collapses; ///< those that reached the limit state of the table
+    std::vector<double> probability;      ///< NaN where there is no trial
     std::vector<double> lower;
     std::vector<double> upper;
     std::string interval; ///< name of the interval and its level, for example "wilson 0.95"
@@ -59,6 +62,9 @@ struct Trajectory {
     std::vector<double> base_x_m;      ///< (nt) displacement of the base
     std::vector<double> half_width_m;  ///< (n_block)
     std::vector<double> half_height_m; ///< (n_block)
+    std::vector<BlockRole> role;       ///< (n_block)
+    std::vector<std::int32_t> column;  ///< (n_block) of a drum, from the left; -1 for all else
+    std::vector<std::string> name;     ///< (n_block) as in `ResultHeader::block_names`
     std::size_t blocks() const { return half_width_m.size(); }
 };
 

@@ -45,7 +45,8 @@ void write_rows_skeleton(hid_t file, const ResultHeader& header, const ResultLay
     for (const std::string& name : header.input_names)
         order += (order.empty() ? "" : " ") + name;
     hdf5::write_text(input.id(), names::input_order, order);
-    hdf5::create_group(file, names::outcome);
+    const hdf5::Handle outcome = hdf5::create_group(file, names::outcome);
+    hdf5::write_text(outcome.id(), names::blocks, joined_names(header.block_names));
     for (const Column& column : layout.columns()) {
         const auto dataset = hdf5::create_dataset(file, std::string(names::realizations) + "/" + column.path,
                                                   file_type(column.stored).id(), column_dims(layout, column),
@@ -92,7 +93,8 @@ void write_surface(hid_t file, const SurfaceTable& table)
 void write_trajectory(hid_t file, const Trajectory& trajectory)
 {
     const std::string group = std::string(names::trajectories) + "/" + std::to_string(trajectory.index);
-    hdf5::create_group(file, group);
+    const hdf5::Handle made = hdf5::create_group(file, group);
+    hdf5::write_text(made.id(), names::blocks, joined_names(trajectory.name));
     const hdf5::Dims time = {trajectory.time_s.size()};
     const hdf5::Dims block = {trajectory.blocks()};
     const hdf5::Dims both = {trajectory.time_s.size(), trajectory.blocks()};
@@ -103,6 +105,11 @@ void write_trajectory(hid_t file, const Trajectory& trajectory)
     hdf5::write_array(file, group + "/base_x_m", trajectory.base_x_m, time, "m");
     hdf5::write_array(file, group + "/half_width_m", trajectory.half_width_m, block, "m");
     hdf5::write_array(file, group + "/half_height_m", trajectory.half_height_m, block, "m");
+    std::vector<std::uint8_t> roles;
+    for (const BlockRole role : trajectory.role)
+        roles.push_back(static_cast<std::uint8_t>(role));
+    hdf5::write_bytes(file, group + "/role", role_type().id(), roles, block);
+    hdf5::write_array(file, group + "/column", trajectory.column, block, "");
 }
 
 /// Where two study texts part, for a message; empty if they are the same.
@@ -140,6 +147,8 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
             "it begins with realization " + std::to_string(found.first) + " instead of " + std::to_string(asked.first);
     if (other.empty() && found.input_names != asked.input_names)
         other = "its inputs have other names";
+    if (other.empty() && found.block_names != asked.block_names)
+        other = "its blocks have other names";
     if (other.empty() && (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2))
         other = "its surface has other axes";
     if (!other.empty())
@@ -277,7 +286,8 @@ void ResultWriter::add(const ResultRow& row)
 {
     impl_->check_open();
     const ResultLayout& layout = impl_->file.layout;
-    if (!layout.holds(row.index) || row.inputs.size() != layout.inputs())
+    if (!layout.holds(row.index) || row.inputs.size() != layout.inputs() ||
+        row.outcome.fall_time_s.size() != layout.blocks())
         throw std::invalid_argument("row " + std::to_string(row.index) + " does not fit into the results file");
     if (has(row.index))
         return;
@@ -305,10 +315,13 @@ void ResultWriter::add(const Trajectory& trajectory)
 {
     impl_->check_open();
     const std::size_t times = trajectory.time_s.size();
-    const std::size_t values = times * trajectory.blocks();
+    const std::size_t blocks = trajectory.blocks();
+    const std::size_t values = times * blocks;
     if (trajectory.x_m.size() != values || trajectory.y_m.size() != values || trajectory.theta_rad.size() != values ||
-        trajectory.base_x_m.size() != times || trajectory.half_height_m.size() != trajectory.blocks())
+        trajectory.base_x_m.size() != times || trajectory.half_height_m.size() != blocks ||
+        trajectory.role.size() != blocks || trajectory.column.size() != blocks || trajectory.name.size() != blocks)
         throw std::invalid_argument("the arrays of a trajectory do not fit together");
+    joined_names(trajectory.name); // for its refusals
     impl_->trajectories[trajectory.index] = trajectory;
 }
 

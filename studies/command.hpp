@@ -23,15 +23,24 @@ struct CommonOptions {
     int thread_count() const;
 };
 
+/// What `export` is asked for; empty, or -1: not said.
+struct ExportOptions {
+    std::string format;              ///< "csv" or "png"
+    std::string picture;             ///< "surface", "slice", "strip" or "order"
+    std::string output;              ///< file of the picture, folder of the tables
+    std::string limit;               ///< limit state of a surface or slice
+    long long realization = -1;      ///< of a strip
+    long long cell = -1;             ///< of a surface, for the order of falls
+    std::vector<double> frequencies; ///< of a slice [Hz]
+};
+
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
 int replay_command(const CommonOptions& options, const std::string& results, long long realization,
                    const std::string& trajectory);
 int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
                    const std::string& component);
-int export_command(const CommonOptions& options, const std::string& results, const std::string& format,
-                   const std::string& picture, const std::string& output, long long realization,
-                   const std::vector<double>& frequencies);
+int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 int info_command(const CommonOptions& options);
 
 } // namespace stylobate

@@ -4,6 +4,7 @@
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"
 #include "io/study_file.hpp"
+#include "studies/block_names.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -68,6 +69,7 @@ ResultHeader LoadedStudy::result_header() const
     header.code_version = code_version();
     header.total = study_->total();
     header.input_names = sampler_->input_names();
+    header.block_names = block_names(*study_);
     if (study_->surface) {
         const auto values = [](const Axis& axis) {
             std::vector<double> all;

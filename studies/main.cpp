@@ -3,6 +3,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/suggest.hpp"
 #include "studies/command.hpp"
+#include "studies/limit_state.hpp"
 #include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -99,22 +100,28 @@ int main(int argc, char** argv)
     add_common(*record, options);
     record->callback([&] { status = record_command(options, files, unit, component); });
 
-    std::string format, picture, output;
-    std::vector<double> frequencies;
+    ExportOptions wanted;
     auto* exporting = app.add_subcommand("export", "write a result in other formats");
     exporting->add_option("RESULTS", results, "results file (HDF5)")->required();
-    exporting->add_option("--to", format, "csv or png")->required()->check(CLI::IsMember({"csv", "png"}));
+    exporting->add_option("--to", wanted.format, "csv or png")->required()->check(CLI::IsMember({"csv", "png"}));
     exporting
-        ->add_option("--picture", picture, "png: surface, slice or strip (default: surface, or strip if there is none)")
-        ->check(CLI::IsMember({"surface", "slice", "strip"}));
-    exporting->add_option("--realization", realization, "strip: which one (default: 0)")
+        ->add_option("--picture", wanted.picture,
+                     "png: surface, slice, strip or order (default: surface, or strip if there is none)")
+        ->check(CLI::IsMember({"surface", "slice", "strip", "order"}));
+    exporting
+        ->add_option("--limit", wanted.limit,
+                     "surface, slice: collapse, total, unseated, rocked or slid (default: "
+                     "collapse)")
+        ->check(CLI::IsMember(limit_state_names()));
+    exporting->add_option("--realization", wanted.realization, "strip: which one (default: 0)")
         ->check(CLI::Range(0LL, 999999999999LL));
-    exporting->add_option("--frequency", frequencies, "slice: frequencies in Hz (default: three over the axis)")
+    exporting->add_option("--cell", wanted.cell, "order: one cell of a surface (default: all of them)")
+        ->check(CLI::Range(0LL, 999999999999LL));
+    exporting->add_option("--frequency", wanted.frequencies, "slice: frequencies in Hz (default: three over the axis)")
         ->delimiter(',');
-    exporting->add_option("-o,--output", output, "the picture, or the folder of the CSV files");
+    exporting->add_option("-o,--output", wanted.output, "the picture, or the folder of the CSV files");
     add_common(*exporting, options);
-    exporting->callback(
-        [&] { status = export_command(options, results, format, picture, output, realization, frequencies); });
+    exporting->callback([&] { status = export_command(options, results, wanted); });
 
     auto* info = app.add_subcommand("info", "version, instruction sets, threads");
     add_common(*info, options);

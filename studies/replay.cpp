@@ -10,7 +10,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace stylobate {
+
+namespace {
+
+/// The blocks that fell, in the order of their times.
+std::vector<std::size_t> fall_sequence(const std::vector<double>& fall_time_s)
+{
+    std::vector<std::size_t> sequence;
+    for (std::size_t i = 0; i < fall_time_s.size(); ++i)
+        if (fall_time_s[i] >= 0)
+            sequence.push_back(i);
+    std::stable_sort(sequence.begin(), sequence.end(),
+                     [&](std::size_t a, std::size_t b) { return fall_time_s[a] < fall_time_s[b]; });
+    return sequence;
+}
+
+Json falls_json(const std::vector<std::size_t>& sequence, const std::vector<std::string>& names,
+                const std::vector<double>& fall_time_s)
+{
+    Json list = Json::list();
+    for (const std::size_t block : sequence)
+        list.item(
+            Json::object().member("block", block).member("name", names[block]).member("time_s", fall_time_s[block]));
+    return list;
+}
+
+} // namespace
 
 int replay_command(const CommonOptions& options, const std::string& results, long long realization,
                    const std::string& trajectory)
@@ -40,6 +68,8 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
         writer->finish(nullptr);
     }
 
+    const std::vector<std::string>& names = header.block_names;
+    const std::vector<std::size_t> falls = fall_sequence(row.outcome.fall_time_s);
     const bool known = reader.has(index);
     const bool same = known && same_bits(reader.row(index), row);
     const Outcome& o = f.outcome;
@@ -51,6 +81,11 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
             .member("state", to_string(o.state))
             .member("collapse_time_s", o.collapse_time_s)
             .member("first_collapse_block", o.first_collapse_block)
+            .member("fallen_blocks", o.fallen_blocks)
+            .member("unseated_block", o.unseated_block)
+            .member("unseating_time_s", o.unseating_time_s)
+            .member("total_collapse_time_s", o.total_collapse_time_s)
+            .member("falls", falls_json(falls, names, row.outcome.fall_time_s))
             .member("peak_top_displacement_m", o.peak_top_displacement_m)
             .member("residual_top_displacement_m", o.residual_top_displacement_m)
             .member("total_sliding_m", o.total_sliding_m)
@@ -64,14 +99,26 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
             json.member("trajectory", trajectory);
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
+        const auto name = [&](std::int32_t block) { return names.at(static_cast<std::size_t>(block)); };
         fmt::print("realization {} at {:.4g} Hz, {:.4g} m/s2: {}", index, row.frequency_hz, row.pga_m_s2,
                    to_string(o.state));
         if (o.state == State::collapsed)
-            fmt::print(" at {:.4f} s, block {} first", o.collapse_time_s, o.first_collapse_block);
+            fmt::print(" at {:.4f} s, {} first", o.collapse_time_s, name(o.first_collapse_block));
+        if (o.unseated_block >= 0)
+            fmt::print("; {} unseated at {:.4f} s", name(o.unseated_block), o.unseating_time_s);
         if (o.state == State::invalid)
             fmt::print(" ({})", to_string(o.invalid_reason));
         fmt::print("\n  peak top displacement {:.4g} m, residual {:.4g} m, sliding {:.4g} m, rocking {:.4g} rad\n",
                    o.peak_top_displacement_m, o.residual_top_displacement_m, o.total_sliding_m, o.total_rocking_rad);
+        if (falls.size() > 1) {
+            std::string list;
+            for (const std::size_t block : falls)
+                list += fmt::format("{}{} {:.4f} s", list.empty() ? "" : ", ", names[block],
+                                    row.outcome.fall_time_s[block]);
+            fmt::print("  {} of {} blocks fell: {}\n", falls.size(), names.size(), list);
+        }
+        if (o.total_collapse_time_s >= 0)
+            fmt::print("  total collapse at {:.4f} s\n", o.total_collapse_time_s);
         fmt::print("  {}\n", !known ? "not in the results yet"
                              : same ? "the same bits as in the results"
                                     : "NOT the bits of the results");

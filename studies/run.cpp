@@ -3,9 +3,11 @@
 #include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
 #include "io/result_store.hpp"
+#include "studies/block_names.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
 #include "studies/json.hpp"
+#include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
@@ -14,6 +16,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace stylobate {
@@ -37,24 +40,36 @@ void check_realizations(const LoadedStudy& loaded)
     });
 }
 
-/// The cells' counts of what an earlier part of the run has done. (Only while no row is being added.)
-void count_done(const std::string& results, SurfaceCounts& counts)
+/// What is counted of the rows: cell by cell, and over all of them.
+struct Counts {
+    SurfaceCounts cells;
+    LimitCounts limits;
+    void add(const ResultRow& row)
+    {
+        cells.add(row);
+        limits.add(row);
+    }
+};
+
+/// Counts what an earlier part of the run has done. (Only while no row is being added.)
+void count_done(const std::string& results, Counts& counts)
 {
     const ResultReader reader(results);
     for (const ResultRow& row : reader.rows())
         counts.add(row);
 }
 
-Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Observer& observer)
+Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Counts& counts, Observer& observer)
 {
     // trajectories are written with the end of the file: an unfinished one is run again as a whole
     Progress progress;
     progress.total = loaded.study().total();
     for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
         const FollowedRealization f = follow(loaded, index, isa);
-        if (!writer.has(index))
-            writer.add(result_row(loaded.study(), f.realization, f.outcome));
+        const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
+        writer.add(row);
         writer.add(f.trajectory);
+        counts.add(row);
         ++progress.done;
         progress.collapsed += f.outcome.state == State::collapsed;
         progress.invalid += f.outcome.state == State::invalid;
@@ -63,7 +78,7 @@ Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Ob
     return progress;
 }
 
-Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, SurfaceCounts& counts,
+Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, Counts& counts,
                      Observer& observer)
 {
     RunPlan plan;
@@ -81,9 +96,85 @@ Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, Resul
     return run_ensemble(loaded.study(), loaded.sampler(), loaded.record(), options, plan, observer);
 }
 
-void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
-            const RunOptions& run, bool complete)
+Json share_json(const Share& share)
 {
+    return Json::object()
+        .member("count", share.count)
+        .member("probability", share.probability)
+        .member("lower", share.lower)
+        .member("upper", share.upper);
+}
+
+std::string share_text(const Share& share)
+{
+    return fmt::format("{} ({:.3g} %, {:.3g} to {:.3g})", share.count, 100 * share.probability, 100 * share.lower,
+                       100 * share.upper);
+}
+
+/// The blocks that fell first in some realization, those that did so most often before the others.
+std::vector<std::size_t> first_fallen(const LimitCounts& counts)
+{
+    std::vector<std::size_t> blocks;
+    for (std::size_t i = 0; i < counts.first().size(); ++i)
+        if (counts.first()[i] > 0)
+            blocks.push_back(i);
+    std::stable_sort(blocks.begin(), blocks.end(),
+                     [&](std::size_t a, std::size_t b) { return counts.first()[a] > counts.first()[b]; });
+    return blocks;
+}
+
+/// What became of the valid realizations, over all cells of a surface.
+Json limits_json(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest)
+{
+    Json first = Json::list();
+    for (const std::size_t block : first_fallen(counts))
+        first.item(Json::object()
+                       .member("block", block)
+                       .member("name", names[block])
+                       .member("share", share_json(share_of(counts.trials(), counts.first()[block]))));
+    Json json = Json::object();
+    json.member("trials", counts.trials()).member("interval", interval_name());
+    for (std::size_t i = 0; i < limit_state_names().size(); ++i)
+        if (const auto limit = static_cast<LimitState>(i); limit != LimitState::total || to_rest)
+            json.member(limit_state_names()[i], share_json(counts.share(limit)));
+    json.member("first_fallen", first).member("median_collapse_time_s", counts.median_collapse_time_s());
+    if (to_rest)
+        json.member("median_total_collapse_time_s", counts.median_total_collapse_time_s());
+    return json;
+}
+
+void print_limits(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest)
+{
+    const Share collapsed = counts.share(LimitState::collapse);
+    fmt::print("  collapsed {}", share_text(collapsed));
+    if (collapsed.count > 0)
+        fmt::print(", median time {:.3g} s", counts.median_collapse_time_s());
+    if (const Share unseated = counts.share(LimitState::unseated); unseated.count > 0)
+        fmt::print("; unseated {}", share_text(unseated));
+    if (to_rest) {
+        const Share total = counts.share(LimitState::total);
+        fmt::print("; total collapse {}", share_text(total));
+        if (total.count > 0)
+            fmt::print(", median time {:.3g} s", counts.median_total_collapse_time_s());
+    }
+    fmt::print("; in brackets: share and its {:.0f} % interval\n", 100 * interval_level);
+    const std::vector<std::size_t> first = first_fallen(counts);
+    constexpr std::size_t most = 5;
+    std::string list;
+    for (std::size_t k = 0; k < std::min(most, first.size()); ++k)
+        list += fmt::format("{}{}: {}", k > 0 ? ", " : "", names[first[k]],
+                            share_text(share_of(counts.trials(), counts.first()[first[k]])));
+    if (first.size() > most)
+        list += fmt::format(" and {} others", first.size() - most);
+    if (!list.empty())
+        fmt::print("  first to fall: {}\n", list);
+}
+
+void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
+            const LimitCounts& counts, const RunOptions& run, bool complete)
+{
+    const std::vector<std::string> names = block_names(loaded.study());
+    const bool to_rest = loaded.study().outcome.follow == Follow::rest;
     const std::string kind = loaded.study().surface ? "surface" : "single";
     if (options.json) {
         Json json = Json::object();
@@ -94,6 +185,7 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("total", p.total)
             .member("collapsed", p.collapsed)
             .member("invalid", p.invalid)
+            .member("limit_states", limits_json(counts, names, to_rest))
             .member("seconds", p.seconds)
             .member("realizations_per_second", p.rate)
             .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
@@ -108,6 +200,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             fmt::print("; {} with {} threads of {}, {:.0f} realizations/s", duration_text(p.seconds), run.threads,
                        to_string(run.isa), p.rate);
         fmt::print("\n");
+        if (counts.trials() > 0)
+            print_limits(counts, names, to_rest);
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
@@ -123,7 +217,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
     check_realizations(loaded);
     const ResultHeader header = loaded.result_header();
-    SurfaceCounts counts(header.frequency_hz, header.pga_m_s2);
+    Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};
     const bool found = std::filesystem::exists(results);
     std::unique_ptr<ResultWriter> writer;
     Progress progress;
@@ -133,18 +227,18 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         if (found && loaded.study().surface)
             count_done(results, counts); // the file is ours now: no other run adds to it in between
         progress = loaded.study().surface ? run_surface(loaded, run, *writer, counts, console)
-                                          : run_single(loaded, run.isa, *writer, console);
+                                          : run_single(loaded, run.isa, *writer, counts, console);
     }
     const bool complete = progress.done == progress.total;
     if (!complete) {
         writer->flush();
     } else if (loaded.study().surface) {
-        const SurfaceTable table = counts.table();
+        const SurfaceTable table = counts.cells.table();
         writer->finish(&table);
     } else {
         writer->finish(nullptr);
     }
-    report(options, loaded, results, progress, run, complete);
+    report(options, loaded, results, progress, counts.limits, run, complete);
     if (!complete)
         return exit_interrupted;
     const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);

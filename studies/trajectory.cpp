@@ -1,6 +1,7 @@
 #include "studies/trajectory.hpp"
 
 #include "ensemble/lanes.hpp"
+#include "studies/block_names.hpp"
 
 #include <cmath>
 
@@ -53,9 +54,12 @@ FollowedRealization follow(const LoadedStudy& loaded, std::uint64_t index, Isa i
     const Realization& r = followed.realization;
     Trajectory& t = followed.trajectory;
     t.index = index;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(r.drums); ++i) { // the ground is not recorded
+    t.name = block_names(loaded.study());
+    for (std::size_t i = 0; i < t.name.size(); ++i) { // the ground is not recorded
         t.half_width_m.push_back(r.blocks[i].half_width_m);
         t.half_height_m.push_back(r.blocks[i].half_height_m);
+        t.role.push_back(r.blocks[i].role);
+        t.column.push_back(r.blocks[i].column);
     }
 
     constexpr int lane = 0;

@@ -46,6 +46,7 @@ inline ResultHeader sample_header(std::uint64_t total)
     header.code_version = "0.1.0+abc";
     header.total = total;
     header.input_names = {"phase", "friction[0]", "friction[1]", "friction[2]", "normal_stiffness[0]"};
+    header.block_names = {"drum 0 of column 0", "drum 1 of column 0", "epistyle \xc3\xa9, 0"};
     header.frequency_hz = {0.5, 2.25, 10.0};
     header.pga_m_s2 = {1.0, 12.0};
     return header;
@@ -79,12 +80,32 @@ inline ResultRow sample_row(std::uint64_t index)
     o.state = static_cast<State>(random() % 5);
     o.invalid_reason = static_cast<InvalidReason>(random() % 3);
     o.first_collapse_block = static_cast<std::int32_t>(random());
+    o.fallen_blocks = static_cast<std::int32_t>(random());
+    o.unseated_block = static_cast<std::int32_t>(random());
     o.steps = random();
-    for (double* field : {&o.collapse_time_s, &o.peak_top_displacement_m, &o.residual_top_displacement_m,
-                          &o.total_sliding_m, &o.total_rocking_rad, &o.sliding_path_m, &o.max_relative_rotation_rad,
-                          &o.energy_kinetic_j, &o.energy_potential_j, &o.energy_spring_j, &o.energy_friction_j,
-                          &o.energy_damping_j, &o.energy_base_work_j, &o.energy_residual, &o.end_time_s, &o.step_s})
+    for (double* field : {&o.collapse_time_s,
+                          &o.peak_top_displacement_m,
+                          &o.residual_top_displacement_m,
+                          &o.total_sliding_m,
+                          &o.total_rocking_rad,
+                          &o.sliding_path_m,
+                          &o.max_relative_rotation_rad,
+                          &o.energy_kinetic_j,
+                          &o.energy_potential_j,
+                          &o.energy_spring_j,
+                          &o.energy_friction_j,
+                          &o.energy_damping_j,
+                          &o.energy_base_work_j,
+                          &o.energy_residual,
+                          &o.end_time_s,
+                          &o.step_s,
+                          &o.unseating_time_s,
+                          &o.total_collapse_time_s,
+                          &o.top_path_m,
+                          &o.residual_sliding_m,
+                          &o.rocking_path_rad})
         *field = any();
+    o.fall_time_s = {any(), any(), any()};
     return row;
 }
 
@@ -97,6 +118,8 @@ inline std::vector<std::uint64_t> bits(const ResultRow& row)
                                          static_cast<std::uint64_t>(o.state),
                                          static_cast<std::uint64_t>(o.invalid_reason),
                                          static_cast<std::uint32_t>(o.first_collapse_block),
+                                         static_cast<std::uint32_t>(o.fallen_blocks),
+                                         static_cast<std::uint32_t>(o.unseated_block),
                                          o.steps};
     std::vector<double> values = {row.frequency_hz,
                                   row.pga_m_s2,
@@ -115,7 +138,13 @@ inline std::vector<std::uint64_t> bits(const ResultRow& row)
                                   o.energy_base_work_j,
                                   o.energy_residual,
                                   o.end_time_s,
-                                  o.step_s};
+                                  o.step_s,
+                                  o.unseating_time_s,
+                                  o.total_collapse_time_s,
+                                  o.top_path_m,
+                                  o.residual_sliding_m,
+                                  o.rocking_path_rad};
+    values.insert(values.end(), o.fall_time_s.begin(), o.fall_time_s.end());
     values.insert(values.end(), row.inputs.begin(), row.inputs.end());
     for (const double value : values)
         result.push_back(std::bit_cast<std::uint64_t>(value));
@@ -162,6 +191,9 @@ inline Trajectory sample_trajectory(std::uint64_t index, std::size_t times)
     t.base_x_m = list(times);
     t.half_width_m = list(3);
     t.half_height_m = list(3);
+    t.role = {BlockRole::drum, BlockRole::epistyle, BlockRole::ground};
+    t.column = {-2147483647, 2147483647, static_cast<std::int32_t>(index)};
+    t.name = {"drum 0", "the second, \"epistyle\"", std::to_string(index)};
     return t;
 }
 
@@ -218,8 +250,9 @@ inline std::string everything(const ResultReader& reader)
     };
     const ResultHeader& h = reader.header();
     text += h.kind + '|' + h.study_toml + '|' + h.code_version + '|';
-    for (const std::string& name : h.input_names)
-        text += name + '|';
+    for (const auto* list : {&h.input_names, &h.block_names})
+        for (const std::string& name : *list)
+            text += name + '|';
     put_bits({h.seed, h.total, reader.complete()});
     put_bits(bits(h.frequency_hz));
     put_bits(bits(h.pga_m_s2));
@@ -237,6 +270,10 @@ inline std::string everything(const ResultReader& reader)
         for (const auto* list :
              {&t.time_s, &t.x_m, &t.y_m, &t.theta_rad, &t.base_x_m, &t.half_width_m, &t.half_height_m})
             put_bits(bits(*list));
+        for (std::size_t k = 0; k < t.blocks(); ++k) {
+            text += t.name[k] + '|';
+            put_bits({static_cast<std::uint64_t>(t.role[k]), static_cast<std::uint32_t>(t.column[k])});
+        }
     }
     return text;
 }

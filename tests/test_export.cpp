@@ -58,6 +58,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
 {
     ResultHeader header;
     header.input_names = {"friction[0]", "normal_stiffness[1]", "drum_offset[2]", "odd, \"name\""};
+    header.block_names = {"drum 0 of column 0", "odd, \"block\""};
     std::vector<ResultRow> rows(3);
     std::uint64_t bits = 0x3fb999999999999aULL;
     const auto next = [&bits] { // doubles with full mantissas, of either sign
@@ -72,11 +73,31 @@ TEST_F(Export, RealizationsReadBackBitByBit)
         row.pga_m_s2 = next();
         row.inputs = {next(), next(), next(), next()};
         Outcome& o = row.outcome;
-        for (double* field : {&o.collapse_time_s, &o.peak_top_displacement_m, &o.residual_top_displacement_m,
-                              &o.total_sliding_m, &o.total_rocking_rad, &o.sliding_path_m, &o.max_relative_rotation_rad,
-                              &o.energy_kinetic_j, &o.energy_potential_j, &o.energy_spring_j, &o.energy_friction_j,
-                              &o.energy_damping_j, &o.energy_base_work_j, &o.energy_residual, &o.end_time_s, &o.step_s})
+        for (double* field : {&o.collapse_time_s,
+                              &o.peak_top_displacement_m,
+                              &o.residual_top_displacement_m,
+                              &o.total_sliding_m,
+                              &o.total_rocking_rad,
+                              &o.sliding_path_m,
+                              &o.max_relative_rotation_rad,
+                              &o.energy_kinetic_j,
+                              &o.energy_potential_j,
+                              &o.energy_spring_j,
+                              &o.energy_friction_j,
+                              &o.energy_damping_j,
+                              &o.energy_base_work_j,
+                              &o.energy_residual,
+                              &o.end_time_s,
+                              &o.step_s,
+                              &o.unseating_time_s,
+                              &o.total_collapse_time_s,
+                              &o.top_path_m,
+                              &o.residual_sliding_m,
+                              &o.rocking_path_rad})
             *field = next();
+        o.fall_time_s = {next(), -1};
+        o.fallen_blocks = static_cast<std::int32_t>(r) + 5;
+        o.unseated_block = 1 - static_cast<std::int32_t>(r);
         o.first_collapse_block = static_cast<std::int32_t>(r) - 1;
         o.steps = 1234567890123ULL + r;
     }
@@ -91,13 +112,15 @@ TEST_F(Export, RealizationsReadBackBitByBit)
     write_csv(folder / "out put", header, rows, SurfaceTable{});
     EXPECT_FALSE(fs::exists(folder / "out put" / "surface.csv"));
     auto table = read_csv(folder / "out put" / "realizations.csv");
-    ASSERT_EQ(table.size(), 4 + 4 + 20U);
+    ASSERT_EQ(table.size(), 4 + 4 + 27 + 2U);
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const ResultRow& row = rows[r];
         const Outcome& o = row.outcome;
         EXPECT_EQ(table.at("index").at(r), std::to_string(row.index));
         EXPECT_EQ(table.at("cell").at(r), std::to_string(row.cell));
         EXPECT_EQ(table.at("first_collapse_block").at(r), std::to_string(o.first_collapse_block));
+        EXPECT_EQ(table.at("fallen_blocks").at(r), std::to_string(o.fallen_blocks));
+        EXPECT_EQ(table.at("unseated_block").at(r), std::to_string(o.unseated_block));
         EXPECT_EQ(table.at("steps").at(r), std::to_string(o.steps));
         const std::map<std::string, double> want{{"frequency_hz", row.frequency_hz},
                                                  {"pga_m_s2", row.pga_m_s2},
@@ -120,7 +143,14 @@ TEST_F(Export, RealizationsReadBackBitByBit)
                                                  {"energy_base_work_j", o.energy_base_work_j},
                                                  {"energy_residual", o.energy_residual},
                                                  {"end_time_s", o.end_time_s},
-                                                 {"step_s", o.step_s}};
+                                                 {"step_s", o.step_s},
+                                                 {"unseating_time_s", o.unseating_time_s},
+                                                 {"total_collapse_time_s", o.total_collapse_time_s},
+                                                 {"top_path_m", o.top_path_m},
+                                                 {"residual_sliding_m", o.residual_sliding_m},
+                                                 {"rocking_path_rad", o.rocking_path_rad},
+                                                 {"fall_time_s[0]", o.fall_time_s[0]},
+                                                 {"fall_time_s[1]", -1}};
         for (const auto& [column, value] : want) {
             SCOPED_TRACE(column);
             expect_bits(table.at(column).at(r), value);
@@ -128,6 +158,9 @@ TEST_F(Export, RealizationsReadBackBitByBit)
     }
     EXPECT_EQ(table.at("state"), (std::vector<std::string>{"collapsed", "invalid", "stood"}));
     EXPECT_EQ(table.at("invalid_reason"), (std::vector<std::string>{"none", "energy", "none"}));
+    const auto blocks = read_csv(folder / "out put" / "blocks.csv");
+    EXPECT_EQ(blocks.at("block"), (std::vector<std::string>{"0", "1"}));
+    EXPECT_EQ(blocks.at("name"), header.block_names);
 }
 
 TEST_F(Export, SurfaceReadsBackBitByBit)
@@ -151,7 +184,7 @@ TEST_F(Export, SurfaceReadsBackBitByBit)
             expect_bits(table.at("upper")[cell], surface.upper[cell]);
             EXPECT_EQ(table.at("interval")[cell], "wilson 0.95");
         }
-    EXPECT_EQ(entries(), 2U) << "something else was left in the folder";
+    EXPECT_EQ(entries(), 3U) << "something else was left in the folder";
 }
 
 TEST_F(Export, TrajectoryReadsBackBitByBit)
@@ -201,6 +234,11 @@ TEST_F(Export, RefusedCsvChangesNothing)
     SurfaceTable damaged = some_surface(3, 3);
     damaged.lower.pop_back();
     message_of([&] { write_csv(folder / "new", {}, {}, damaged); });
+    ResultHeader blocks;
+    blocks.block_names = {"drum 0"};
+    EXPECT_NE(
+        message_of([&] { write_csv(folder / "new", blocks, std::vector<ResultRow>(1), {}); }).find("fall times of 0"),
+        std::string::npos);
     Trajectory short_one = some_trajectory(2, 1, 1);
     short_one.y_m.pop_back();
     message_of([&] { write_trajectory_csv(folder / "t.csv", short_one); });

@@ -6,12 +6,11 @@
 #include "io/plot_slice.hpp"
 #include "io/plot_strip.hpp"
 #include "io/plot_surface.hpp"
+#include "pixels.hpp"
 
-#include <array>
-#include <map>
+#include <functional>
 #include <set>
 #include <vector>
-#include <zlib.h>
 
 namespace stylobate {
 namespace {
@@ -43,128 +42,6 @@ private:
     const char* name_;
     std::string old_;
 };
-
-struct Pixels {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::size_t colours = 0;
-    std::map<std::uint32_t, std::size_t> count; ///< of each 0xRRGGBB
-    std::vector<std::uint32_t> colour;          ///< 0xRRGGBB (height x width), from the top
-};
-
-/// Decodes a PNG with 8 bits per channel, RGB or RGBA, not interlaced.
-Pixels decode(const fs::path& file)
-{
-    const std::string bytes = read_file(file);
-    Pixels pixels;
-    if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) {
-        ADD_FAILURE() << file << " is no PNG";
-        return pixels;
-    }
-    const auto number = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-        return value;
-    };
-    std::string packed;
-    std::size_t channels = 0;
-    for (std::size_t at = 8; at + 12 <= bytes.size(); at += 12 + number(at)) {
-        const std::string kind = bytes.substr(at + 4, 4);
-        if (kind == "IHDR") {
-            pixels.width = number(at + 8);
-            pixels.height = number(at + 12);
-            EXPECT_EQ(bytes[at + 16], 8);
-            channels = bytes[at + 17] == 2 ? 3 : 4;
-            EXPECT_EQ(bytes[at + 20], 0);
-        } else if (kind == "IDAT") {
-            packed += bytes.substr(at + 8, number(at));
-        }
-    }
-    const std::size_t stride = pixels.width * channels;
-    std::vector<unsigned char> raw((stride + 1) * pixels.height);
-    uLongf length = raw.size();
-    EXPECT_EQ(uncompress(raw.data(), &length, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
-    EXPECT_EQ(length, raw.size());
-    std::vector<unsigned char> above(stride, 0);
-    std::vector<unsigned char> row(stride, 0);
-    for (std::size_t y = 0; y < pixels.height; ++y) {
-        const unsigned char* line = raw.data() + y * (stride + 1);
-        for (std::size_t k = 0; k < stride; ++k) {
-            const int a = k < channels ? 0 : row[k - channels];
-            const int b = above[k];
-            const int c = k < channels ? 0 : above[k - channels];
-            const int p = a + b - c;
-            const int paeth = std::abs(p - a) <= std::abs(p - b) && std::abs(p - a) <= std::abs(p - c) ? a
-                              : std::abs(p - b) <= std::abs(p - c)                                     ? b
-                                                                                                       : c;
-            const std::array<int, 5> predicted{0, a, b, (a + b) / 2, paeth};
-            row[k] = static_cast<unsigned char>(line[k + 1] + predicted.at(line[0]));
-        }
-        for (std::size_t k = 0; k < stride; k += channels)
-            pixels.colour.push_back(static_cast<std::uint32_t>(row[k] << 16 | row[k + 1] << 8 | row[k + 2]));
-        above = row;
-    }
-    for (const std::uint32_t colour : pixels.colour)
-        ++pixels.count[colour];
-    pixels.colours = pixels.count.size();
-    return pixels;
-}
-
-bool similar(std::uint32_t a, std::uint32_t b, int tolerance)
-{
-    for (const int shift : {0, 8, 16})
-        if (std::abs(static_cast<int>(a >> shift & 255U) - static_cast<int>(b >> shift & 255U)) > tolerance)
-            return false;
-    return true;
-}
-
-/// Share of the picture in colours within `tolerance` of one.
-double share(const Pixels& pixels, std::uint32_t colour, int tolerance)
-{
-    std::size_t sum = 0;
-    for (const auto& [found, count] : pixels.count)
-        sum += similar(found, colour, tolerance) ? count : 0;
-    return static_cast<double>(sum) / (static_cast<double>(pixels.width) * static_cast<double>(pixels.height));
-}
-
-/// Where one colour is in a picture, in pixels.
-struct Extent {
-    double left = 1e9;
-    double right = 0;
-    double top = 1e9;
-    double bottom = 0;
-    double lowest_x = 0; ///< where it reaches lowest
-    double area = 0;
-};
-
-Extent extent(const Pixels& pixels, std::uint32_t colour)
-{
-    Extent e;
-    for (std::size_t k = 0; k < pixels.colour.size(); ++k) {
-        if (!similar(pixels.colour[k], colour, 3))
-            continue;
-        const auto x = static_cast<double>(k % pixels.width);
-        const auto y = static_cast<double>(k / pixels.width);
-        e.left = std::min(e.left, x);
-        e.right = std::max(e.right, x + 1);
-        e.top = std::min(e.top, y);
-        if (y + 1 > e.bottom)
-            e.lowest_x = x;
-        e.bottom = std::max(e.bottom, y + 1);
-        e.area += 1;
-    }
-    return e;
-}
-
-/// Skips the pictures' tests where there is no gnuplot.
-#define NEEDS_GNUPLOT()                                                                                                \
-    try {                                                                                                              \
-        find_gnuplot();                                                                                                \
-    } catch (const InputError& missing) {                                                                              \
-        GTEST_SKIP() << missing.what();                                                                                \
-    }                                                                                                                  \
-    static_assert(true)
 
 TEST(PlotAxis, ScaleAndCells)
 {
@@ -251,7 +128,7 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
 {
     NEEDS_GNUPLOT();
     const fs::path file = folder / "a surface's \"picture\" 100%.png";
-    plot_surface(some_surface(), "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
+    plot_surface(some_surface(), "collapse", "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
     const Pixels pixels = decode(file);
     EXPECT_GE(pixels.width, 1600U);
     EXPECT_GE(pixels.height, 1200U);
@@ -262,7 +139,7 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
     SurfaceTable halves = some_surface();
     for (std::size_t cell = 0; cell < halves.probability.size(); ++cell)
         halves.probability[cell] = cell % 12 < 6 ? 0 : 1;
-    plot_surface(halves, "halves", folder / "halves.png");
+    plot_surface(halves, "collapse", "halves", folder / "halves.png");
     const Pixels two = decode(folder / "halves.png");
     const double frame = 0.76 * 0.75;
     EXPECT_NEAR(share(two, 0x440154, 8), frame / 2, 0.03);
@@ -274,13 +151,13 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
     rows.frequency_hz = {1, 2, 3};
     for (std::size_t cell = 0; cell < rows.probability.size(); ++cell)
         rows.probability[cell] = cell < 5 ? 1 : 0;
-    plot_surface(rows, "rows", folder / "rows.png");
+    plot_surface(rows, "collapse", "rows", folder / "rows.png");
     EXPECT_NEAR(share(decode(folder / "rows.png"), 0xfde725, 8), frame / 3, 0.02);
 
     // Without a trial: grey.
     for (std::size_t cell = 0; cell < 96; ++cell)
         halves.probability[cell] = nan_value;
-    plot_surface(halves, "", folder / "grey.png");
+    plot_surface(halves, "collapse", "", folder / "grey.png");
     EXPECT_NEAR(share(decode(folder / "grey.png"), 0xb8b8b8, 1), frame / 2, 0.03);
 }
 
@@ -293,22 +170,22 @@ TEST_F(Pictures, SmallAndOddSurfaces)
     one.trials = {0};
     one.collapses = {0};
     one.probability = one.lower = one.upper = {nan_value};
-    plot_surface(one, "nothing", folder / "nothing.png");
+    plot_surface(one, "collapse", "nothing", folder / "nothing.png");
     EXPECT_GT(decode(folder / "nothing.png").colours, 10U);
-    plot_slice(one, {}, "nothing", folder / "slice.png");
+    plot_slice(one, {}, "collapse", "nothing", folder / "slice.png");
     EXPECT_GT(decode(folder / "slice.png").colours, 10U);
     one.trials = {4};
     one.probability = {0.5};
     one.lower = {0.1};
     one.upper = {0.9};
-    plot_surface(one, "one cell", folder / "one.png");
+    plot_surface(one, "collapse", "one cell", folder / "one.png");
     EXPECT_GT(share(decode(folder / "one.png"), 0x21918c, 8), 0.5);
 }
 
 TEST_F(Pictures, SliceShowsEachCurve)
 {
     NEEDS_GNUPLOT();
-    plot_slice(some_surface(), {1, 2, 5}, "100 % \"slices\"", folder / "s.png");
+    plot_slice(some_surface(), {1, 2, 5}, "collapse", "100 % \"slices\"", folder / "s.png");
     const Pixels pixels = decode(folder / "s.png");
     EXPECT_GE(pixels.width, 1600U);
     EXPECT_GE(pixels.height, 1200U);
@@ -321,7 +198,7 @@ TEST_F(Pictures, SliceShowsEachCurve)
     flat.probability.assign(flat.probability.size(), 0.5);
     flat.lower.assign(flat.lower.size(), 0.25);
     flat.upper.assign(flat.upper.size(), 0.75);
-    plot_slice(flat, {1}, "", folder / "flat.png");
+    plot_slice(flat, {1}, "collapse", "", folder / "flat.png");
     const double frame = 0.87 * 0.725;
     EXPECT_NEAR(share(decode(folder / "flat.png"), 0xcce3f0, 4), frame * 11 / 12 * 0.5 / 1.03, 0.02);
 }
@@ -337,7 +214,7 @@ TEST_F(Pictures, StripDrawsDrumsToScale)
             t.x_m[k] = k % 7 == 0 ? 0 : 1e-9 * static_cast<double>(k);
             t.y_m[k] = (static_cast<double>(k % 7) + 0.5) * 0.029 * size;
         }
-        plot_strip(t, "strip's 100 % \"title\"", folder / "strip.png");
+        plot_strip(t, {}, "strip's 100 % \"title\"", folder / "strip.png");
         const Pixels pixels = decode(folder / "strip.png");
         EXPECT_GE(pixels.width, 1600U);
         EXPECT_GE(pixels.height, 1200U);
@@ -363,7 +240,7 @@ TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
     t.theta_rad = {angle, angle};
     t.x_m = {0, 1e-9};
     t.y_m = {1, 1};
-    plot_strip(t, "", folder / "turned.png");
+    plot_strip(t, {}, "", folder / "turned.png");
     const Extent drums = extent(decode(folder / "turned.png"), 0xead9b5);
     const double scale = (drums.bottom - drums.top) / (width * std::sin(angle) + height * std::cos(angle));
     EXPECT_NEAR(drums.area / (scale * scale), 2 * width * height, 0.08);
@@ -378,19 +255,21 @@ TEST_F(Pictures, StripOfAnyColumn)
 {
     NEEDS_GNUPLOT();
     for (const std::size_t blocks : {1U, 2U, 48U}) {
-        plot_strip(some_trajectory(blocks, 1.2, 0.8), "column", folder / "c.png", 5);
+        plot_strip(some_trajectory(blocks, 1.2, 0.8), {}, "column", folder / "c.png", 5);
         EXPECT_GT(decode(folder / "c.png").colours, 50U);
     }
-    plot_strip(some_trajectory(3, 1, 1, 1), "one sample", folder / "c.png");
+    plot_strip(some_trajectory(3, 1, 1, 1), {}, "one sample", folder / "c.png");
     // A recorded ground far wider than the column does not change its scale.
     Trajectory ground = some_trajectory(1, 0.1, 0.3);
     const double without = [&] {
-        plot_strip(ground, "", folder / "c.png");
+        plot_strip(ground, {}, "", folder / "c.png");
         return share(decode(folder / "c.png"), 0xead9b5, 3);
     }();
     Trajectory with = ground;
     with.half_width_m = {0.05, 50};
     with.half_height_m = {0.15, 0.5};
+    with.role.push_back(BlockRole::drum); // to be told by its place
+    with.name.emplace_back("ground");
     for (auto* values : {&with.x_m, &with.y_m, &with.theta_rad}) {
         std::vector<double> both;
         for (const double v : *values) {
@@ -399,33 +278,120 @@ TEST_F(Pictures, StripOfAnyColumn)
         }
         *values = both;
     }
-    plot_strip(with, "", folder / "c.png");
+    plot_strip(with, {}, "", folder / "c.png");
     EXPECT_NEAR(share(decode(folder / "c.png"), 0xead9b5, 3), without, 1e-3 * without);
+}
+
+/// Of the first and the last sample alone, so that two snapshots are drawn, in which no block covers another.
+FallingColonnade before_and_after()
+{
+    FallingColonnade c = falling_colonnade(2);
+    const FallingColonnade all = falling_colonnade();
+    const std::size_t blocks = all.trajectory.blocks();
+    Trajectory& t = c.trajectory;
+    t.time_s.back() = all.trajectory.time_s.back();
+    for (std::vector<double> Trajectory::*values : {&Trajectory::x_m, &Trajectory::y_m, &Trajectory::theta_rad}) {
+        const std::vector<double>& from = all.trajectory.*values;
+        std::copy(from.end() - static_cast<std::ptrdiff_t>(blocks), from.end(),
+                  (t.*values).begin() + static_cast<std::ptrdiff_t>(blocks));
+    }
+    return c;
+}
+
+TEST_F(Pictures, StripOfAFallenColonnadeHoldsEveryBlock)
+{
+    NEEDS_GNUPLOT();
+    const FallingColonnade c = before_and_after();
+    plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png");
+    const Pixels pixels = decode(folder / "c.png");
+    const Extent drums = extent(pixels, 0xead9b5);
+    const Extent fixed = extent(pixels, 0xa89a7d);
+    const Extent epistyles = extent(pixels, 0xb9cddb);
+    // areas: 12 free drums and 3 fixed ones of 1.2 x 1, two epistyles of 3 x 0.8; outlines take a little from each
+    EXPECT_NEAR(drums.area / fixed.area, 4, 0.12);
+    EXPECT_NEAR(drums.area / epistyles.area, 3, 0.09);
+    // One scale for both axes: from the left edge of the first fixed drum to the right edge of the third are 7.2 m,
+    // from their lower edge to the epistyles' upper one 5.8 m.
+    const auto row = static_cast<std::size_t>(fixed.bottom) - 10;
+    double right = 0;
+    int runs = 0;
+    for (std::size_t k = 1; k < pixels.width && runs < 3; ++k) {
+        const auto is_fixed = [&](std::size_t i) {
+            return similar(pixels.colour[row * pixels.width + i], 0xa89a7d, 3);
+        };
+        if (is_fixed(k - 1) && !is_fixed(k)) {
+            ++runs;
+            right = static_cast<double>(k);
+        }
+    }
+    EXPECT_NEAR((right - fixed.left) / 7.2, (fixed.bottom - epistyles.top) / 5.8, 0.5);
+    EXPECT_GT(share(pixels, 0xc0271b, 3), 0.001) << "outlines of the fallen, and their panel";
+
+    // what is not known to have fallen is not said to have
+    plot_strip(c.trajectory, {}, "colonnade", folder / "unknown.png");
+    const Pixels unknown = decode(folder / "unknown.png");
+    EXPECT_EQ(share(unknown, 0xc0271b, 3), 0);
+    EXPECT_EQ(unknown.height + 243, pixels.height) << "a panel less";
+    EXPECT_NEAR(extent(unknown, 0xead9b5).area, drums.area, 0.02 * drums.area);
+    // a fall after the last sample is none yet
+    std::vector<double> later(17, -1);
+    later[3] = 8.5;
+    plot_strip(c.trajectory, later, "colonnade", folder / "later.png");
+    EXPECT_EQ(share(decode(folder / "later.png"), 0xc0271b, 3), 0);
+}
+
+TEST_F(Pictures, StripOfWhatIsWideTakesSeveralRows)
+{
+    NEEDS_GNUPLOT();
+    const FallingColonnade c = falling_colonnade();
+    plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png");
+    const Pixels pixels = decode(folder / "c.png");
+    EXPECT_GT(pixels.height, 1350U + 243U);
+    // In one row of 1593 pixels eight snapshots of at least 7.2 m leave less than 28 pixels for each metre. The fixed
+    // drums are never covered: 3 of 1.2 m2 in each snapshot.
+    const double pixels_per_m = std::sqrt(extent(pixels, 0xa89a7d).area / (8 * 3.6));
+    EXPECT_GT(pixels_per_m, 1.1 * 1593 / (8 * 7.2));
+    for (const std::size_t snapshots : {2U, 3U, 5U, 16U}) {
+        plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png", snapshots);
+        EXPECT_GT(extent(decode(folder / "c.png"), 0xb9cddb).area, 1000) << snapshots;
+    }
 }
 
 TEST_F(Pictures, BadInputLeavesNoFile)
 {
+    const FallingColonnade c = falling_colonnade(3);
+    EXPECT_NE(message_of([&] {
+                  plot_strip(c.trajectory, {1.0, 2.0}, "", folder / "a.png");
+              }).find("fall times of 2 blocks and a trajectory of 17"),
+              std::string::npos);
+    for (const auto& change : std::vector<std::function<void(Trajectory&)>>{[](Trajectory& t) { t.role.pop_back(); },
+                                                                            [](Trajectory& t) { t.name.pop_back(); }}) {
+        Trajectory t = c.trajectory;
+        change(t);
+        message_of([&] { plot_strip(t, {}, "", folder / "a.png"); });
+    }
     SurfaceTable damaged = some_surface();
     damaged.trials.pop_back();
-    message_of([&] { plot_surface(damaged, "", folder / "a.png"); });
-    message_of([&] { plot_slice(damaged, {1}, "", folder / "a.png"); });
-    message_of([&] { plot_surface(SurfaceTable{}, "", folder / "a.png"); });
-    message_of([&] { plot_slice(SurfaceTable{}, {1}, "", folder / "a.png"); });
+    message_of([&] { plot_surface(damaged, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_slice(damaged, {1}, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_surface(SurfaceTable{}, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_slice(SurfaceTable{}, {1}, "collapse", "", folder / "a.png"); });
     Trajectory flat = some_trajectory(2, 1, 1);
     flat.half_height_m[1] = 0;
-    message_of([&] { plot_strip(flat, "", folder / "a.png"); });
+    message_of([&] { plot_strip(flat, {}, "", folder / "a.png"); });
     EXPECT_EQ(entries(), 0U);
     NEEDS_GNUPLOT();
-    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "", folder / "missing" / "a.png"); }).find("missing"),
-              std::string::npos);
-    message_of([&] { plot_surface(some_surface(), "", folder); });
+    EXPECT_NE(
+        message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "missing" / "a.png"); }).find("missing"),
+        std::string::npos);
+    message_of([&] { plot_surface(some_surface(), "collapse", "", folder); });
     EXPECT_EQ(entries(), 0U);
 }
 
 TEST_F(Pictures, GnuplotMissingOrFailing)
 {
     const fs::path picture = folder / "a.png";
-    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "", picture); }); };
+    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "collapse", "", picture); }); };
     {
         const Environment path("PATH", folder.string());
         const Environment unnamed("STYLOBATE_GNUPLOT", "");
@@ -465,8 +431,9 @@ TEST_F(Pictures, NoFontsIsAnError)
                                          << "</dir><cachedir>" << (folder / "cache").string()
                                          << "</cachedir></fontconfig>\n";
     const Environment fonts("FONTCONFIG_FILE", (folder / "fonts.conf").string());
-    EXPECT_NE(message_of([&] { plot_surface(some_surface(), "", folder / "a.png"); }).find("fonts-dejavu-core"),
-              std::string::npos);
+    EXPECT_NE(
+        message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "a.png"); }).find("fonts-dejavu-core"),
+        std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 

@@ -1,5 +1,6 @@
 /// Faults around the result store: nothing lost to a kill, every damage noticed, nothing changed by a refusal.
 
+#include "io/result_seal.hpp"
 #include "result_samples.hpp"
 
 #include <algorithm>
@@ -188,6 +189,22 @@ struct Snapshot {
     std::map<fs::path, std::tuple<std::string, long, long, ino_t>> files;
 };
 
+/// The file with another version in its seal, which is whole: as an earlier version of the program sealed it.
+std::string as_version_1(std::string bytes)
+{
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return value;
+    };
+    const auto set = [&](std::size_t at, std::uint32_t value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
+    EXPECT_EQ(number(16), 2U);
+    set(16, 1);
+    const std::size_t end = number(20) - 4;
+    set(end, crc32_of(std::as_bytes(std::span(bytes)).first(end)));
+    return bytes;
+}
+
 TEST_F(ResultStore, RefusesAndChangesNothing)
 {
     const fs::path complete = folder / "complete.h5";
@@ -207,6 +224,8 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     put(cut, contents(file).substr(0, contents(file).size() - 1));
     const fs::path longer = folder / "longer.h5";
     put(longer, contents(file) + "x");
+    const fs::path old = folder / "old.h5";
+    put(old, as_version_1(contents(file)));
     const fs::path pipe = folder / "pipe.h5";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     fs::create_directory(folder / "folder.h5");
@@ -234,6 +253,9 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     both(empty, "is empty");
     both(cut, "is truncated");
     both(longer, "is damaged");
+    both(old,
+         "is of format version 1; this program reads version 2. Read it with the version that wrote it, or run its "
+         "study again into another file.");
 
     std::string message =
         resume(file, [](ResultHeader& h) { h.study_toml.replace(h.study_toml.find("0.68"), 4, "0.7"); });
@@ -254,6 +276,8 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     expect_part(resume(file, [](ResultHeader& h) { h.total = 301; }), "300 realizations instead of 301");
     expect_part(resume(file, [](ResultHeader& h) { h.first = 5; }), "begins with realization 0 instead of 5");
     expect_part(resume(file, [](ResultHeader& h) { h.input_names.pop_back(); }), "inputs");
+    expect_part(resume(file, [](ResultHeader& h) { h.block_names[2] = "epistyle 1"; }), "blocks have other names");
+    expect_part(resume(file, [](ResultHeader& h) { h.block_names.pop_back(); }), "blocks have other names");
     expect_part(resume(file, [](ResultHeader& h) { h.frequency_hz[1] = 3; }), "axes");
     expect_part(resume(complete), "complete already");
 

@@ -54,6 +54,7 @@ TEST_F(ResultStore, GivesEveryBitBackWhateverTheOrder)
     EXPECT_EQ(got.code_version, want.code_version);
     EXPECT_EQ(got.total, want.total);
     EXPECT_EQ(got.input_names, want.input_names);
+    EXPECT_EQ(got.block_names, want.block_names);
     EXPECT_EQ(got.frequency_hz, want.frequency_hz);
     EXPECT_EQ(got.pga_m_s2, want.pga_m_s2);
     const auto rows = reader.rows();
@@ -83,6 +84,9 @@ TEST_F(ResultStore, GivesEveryBitBackWhateverTheOrder)
     EXPECT_EQ(bits(t.base_x_m), bits(want_t.base_x_m));
     EXPECT_EQ(bits(t.half_width_m), bits(want_t.half_width_m));
     EXPECT_EQ(bits(t.half_height_m), bits(want_t.half_height_m));
+    EXPECT_EQ(t.role, want_t.role);
+    EXPECT_EQ(t.column, want_t.column);
+    EXPECT_EQ(t.name, want_t.name);
     expect_part(refusal([&] { reader.trajectory(4); }), "no trajectory of realization 4");
 }
 
@@ -98,6 +102,11 @@ TEST_F(ResultStore, HasNoSurfaceNorInputsWhereTheStudyHasNone)
         ResultRow row = sample_row(i);
         EXPECT_THROW(writer->add(row), std::invalid_argument) << "five inputs where there are none";
         row.inputs.clear();
+        for (const std::size_t blocks : {0U, 2U, 4U}) {
+            ResultRow other = row;
+            other.outcome.fall_time_s.resize(blocks);
+            EXPECT_THROW(writer->add(other), std::invalid_argument) << blocks << " fall times of three blocks";
+        }
         writer->add(row);
     }
     writer->finish(nullptr);
@@ -243,7 +252,7 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     const Plain plain(file);
     ASSERT_GE(plain.id, 0);
     EXPECT_EQ(plain.attribute("/", "format"), "stylobate");
-    EXPECT_EQ(plain.attribute("/", "format_version"), "1");
+    EXPECT_EQ(plain.attribute("/", "format_version"), "2");
     EXPECT_EQ(plain.attribute("/", "kind"), "surface");
     EXPECT_EQ(plain.attribute("/", "study_toml"), sample_header(1).study_toml);
     EXPECT_EQ(plain.attribute("/", "seed"), "18364758544493064720");
@@ -252,6 +261,9 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     EXPECT_EQ(plain.attribute("/", "realizations"), "300");
     EXPECT_EQ(plain.attribute("/", "first_realization"), "0");
     EXPECT_EQ(plain.attribute("/surface", "interval"), "wilson 0.95");
+    EXPECT_EQ(plain.attribute("/realizations/outcome", "blocks"),
+              "drum 0 of column 0\ndrum 1 of column 0\nepistyle \xc3\xa9, 0");
+    EXPECT_EQ(plain.attribute("/trajectories/3", "blocks"), "drum 0\nthe second, \"epistyle\"\n3");
 
     const std::map<std::string, std::string> want = {
         {"index", "int64 (300)"},
@@ -265,6 +277,14 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
         {"outcome/invalid_reason", "enum8 (300)"},
         {"outcome/collapse_time_s", "float64 (300) s"},
         {"outcome/first_collapse_block", "int32 (300)"},
+        {"outcome/fallen_blocks", "int32 (300)"},
+        {"outcome/unseated_block", "int32 (300)"},
+        {"outcome/unseating_time_s", "float64 (300) s"},
+        {"outcome/total_collapse_time_s", "float64 (300) s"},
+        {"outcome/fall_time_s", "float64 (300 x 3) s"},
+        {"outcome/top_path_m", "float64 (300) m"},
+        {"outcome/residual_sliding_m", "float64 (300) m"},
+        {"outcome/rocking_path_rad", "float64 (300) rad"},
         {"outcome/peak_top_displacement_m", "float64 (300) m"},
         {"outcome/residual_top_displacement_m", "float64 (300) m"},
         {"outcome/total_sliding_m", "float64 (300) m"},
@@ -298,11 +318,14 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     EXPECT_EQ(plain.describe("/trajectories/3/base_x_m"), "float64 (4) m");
     EXPECT_EQ(plain.describe("/trajectories/3/half_width_m"), "float64 (3) m");
     EXPECT_EQ(plain.describe("/trajectories/3/half_height_m"), "float64 (3) m");
+    EXPECT_EQ(plain.describe("/trajectories/3/role"), "enum8 (3)");
+    EXPECT_EQ(plain.describe("/trajectories/3/column"), "int32 (3)");
 
     // values through the library, which finds them by the structure and not by the writer's offsets
     const auto index = plain.values<std::uint64_t>("/realizations/index", H5T_NATIVE_UINT64, 300);
     const auto steps = plain.values<std::uint64_t>("/realizations/outcome/steps", H5T_NATIVE_UINT64, 300);
     const auto friction = plain.values<double>("/realizations/input/friction", H5T_NATIVE_DOUBLE, 900);
+    const auto falls = plain.values<double>("/realizations/outcome/fall_time_s", H5T_NATIVE_DOUBLE, 900);
     const auto block = plain.values<std::int32_t>("/realizations/outcome/first_collapse_block", H5T_NATIVE_INT32, 300);
     const hid_t dataset = H5Dopen2(plain.id, "/realizations/outcome/state", H5P_DEFAULT);
     const hid_t names = H5Dget_type(dataset);
@@ -315,6 +338,9 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
         for (std::size_t k = 0; k < 3; ++k)
             EXPECT_EQ(std::bit_cast<std::uint64_t>(friction[3 * i + k]),
                       std::bit_cast<std::uint64_t>(row.inputs[1 + k]));
+        EXPECT_EQ(bits({falls.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                        falls.begin() + static_cast<std::ptrdiff_t>(3 * i + 3)}),
+                  bits(row.outcome.fall_time_s));
         char name[32] = {};
         H5Tenum_nameof(names, &state[i], name, sizeof name);
         EXPECT_STREQ(name, to_string(row.outcome.state));
@@ -355,14 +381,34 @@ TEST_F(ResultStore, ChecksumIsTheDocumentedOne)
     column([&](const ResultRow& r) { append(r.outcome.invalid_reason); });
     column([&](const ResultRow& r) { append(r.outcome.collapse_time_s); });
     column([&](const ResultRow& r) { append(r.outcome.first_collapse_block); });
-    for (double Outcome::*field :
-         {&Outcome::peak_top_displacement_m, &Outcome::residual_top_displacement_m, &Outcome::total_sliding_m,
-          &Outcome::total_rocking_rad, &Outcome::sliding_path_m, &Outcome::max_relative_rotation_rad,
-          &Outcome::energy_kinetic_j, &Outcome::energy_potential_j, &Outcome::energy_spring_j,
-          &Outcome::energy_friction_j, &Outcome::energy_damping_j, &Outcome::energy_base_work_j,
-          &Outcome::energy_residual, &Outcome::end_time_s, &Outcome::step_s})
+    column([&](const ResultRow& r) { append(r.outcome.fallen_blocks); });
+    column([&](const ResultRow& r) { append(r.outcome.unseated_block); });
+    for (double Outcome::*field : {&Outcome::unseating_time_s,
+                                   &Outcome::total_collapse_time_s,
+                                   &Outcome::peak_top_displacement_m,
+                                   &Outcome::residual_top_displacement_m,
+                                   &Outcome::top_path_m,
+                                   &Outcome::total_sliding_m,
+                                   &Outcome::sliding_path_m,
+                                   &Outcome::residual_sliding_m,
+                                   &Outcome::total_rocking_rad,
+                                   &Outcome::rocking_path_rad,
+                                   &Outcome::max_relative_rotation_rad,
+                                   &Outcome::energy_kinetic_j,
+                                   &Outcome::energy_potential_j,
+                                   &Outcome::energy_spring_j,
+                                   &Outcome::energy_friction_j,
+                                   &Outcome::energy_damping_j,
+                                   &Outcome::energy_base_work_j,
+                                   &Outcome::energy_residual,
+                                   &Outcome::end_time_s,
+                                   &Outcome::step_s})
         column([&](const ResultRow& r) { append(r.outcome.*field); });
     column([&](const ResultRow& r) { append(r.outcome.steps); });
+    column([&](const ResultRow& r) {
+        for (const double time : r.outcome.fall_time_s)
+            append(time);
+    });
     column([&](const ResultRow& r) { append(r.inputs[0]); });
     column([&](const ResultRow& r) {
         for (std::size_t k = 1; k < 4; ++k)
@@ -425,6 +471,39 @@ TEST_F(ResultStore, ContinuesToTheSameFile)
     EXPECT_EQ(left.size(), 2U) << "no other file remains";
 }
 
+TEST_F(ResultStore, SameBitsSeesEveryFallTime)
+{
+    const ResultRow row = sample_row(4);
+    EXPECT_TRUE(same_bits(row, sample_row(4)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        ResultRow other = row;
+        other.outcome.fall_time_s[i] =
+            std::bit_cast<double>(std::bit_cast<std::uint64_t>(row.outcome.fall_time_s[i]) ^ 1U);
+        EXPECT_FALSE(same_bits(row, other)) << i;
+    }
+    // a fall time that became an input would be the same bytes in the same order
+    ResultRow moved = row;
+    moved.inputs.insert(moved.inputs.begin(), moved.outcome.fall_time_s.back());
+    moved.outcome.fall_time_s.pop_back();
+    EXPECT_FALSE(same_bits(row, moved));
+}
+
+TEST_F(ResultStore, RefusesTrajectoriesWhoseBlocksDoNotFit)
+{
+    const auto writer = ResultWriter::create(file, sample_header(1));
+    const auto bad = [&](const std::function<void(Trajectory&)>& change) {
+        Trajectory t = sample_trajectory(0, 4);
+        change(t);
+        EXPECT_THROW(writer->add(t), std::invalid_argument);
+    };
+    bad([](Trajectory& t) { t.role.pop_back(); });
+    bad([](Trajectory& t) { t.column.push_back(0); });
+    bad([](Trajectory& t) { t.name.pop_back(); });
+    bad([](Trajectory& t) { t.name[0] = ""; });
+    bad([](Trajectory& t) { t.name[0] = "a\nb"; });
+    writer->add(sample_trajectory(0, 4));
+}
+
 TEST_F(ResultStore, RefusesHeadersThatMakeNoSense)
 {
     const auto bad = [&](const std::function<void(ResultHeader&)>& change) {
@@ -436,6 +515,9 @@ TEST_F(ResultStore, RefusesHeadersThatMakeNoSense)
     bad([](ResultHeader& h) { h.total = 0; });
     bad([](ResultHeader& h) { h.first = ~std::uint64_t{0}; });
     bad([](ResultHeader& h) { h.pga_m_s2.clear(); });
+    bad([](ResultHeader& h) { h.block_names.clear(); });
+    bad([](ResultHeader& h) { h.block_names[1] = ""; });
+    bad([](ResultHeader& h) { h.block_names[1] = "two\nlines"; });
     for (const char* name : {"", "a b", "a/b", "a[", "a[]", "a[1", "a[-1]", "a[x]", "[0]", "a[9999999]", "phase",
                              "friction", "friction[4]", "friction[0]", "other[1]"})
         bad([&](ResultHeader& h) { h.input_names.push_back(name); });
@@ -449,7 +531,7 @@ TEST_F(ResultStore, IsAsLargeAsItsRows)
         add_rows(*writer, 0, total);
         writer->finish(nullptr);
     }
-    const std::uint64_t row = 4 * 8 + 5 * 8 + 2 + 4 + 16 * 8 + 8;
+    const std::uint64_t row = 4 * 8 + 5 * 8 + 2 + 3 * 4 + 21 * 8 + 8 + 3 * 8; // 32 + inputs + outcome + fall times
     EXPECT_GE(fs::file_size(file), row * total);
     EXPECT_LE(fs::file_size(file), row * total + 40000);
 }

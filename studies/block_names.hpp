@@ -1,0 +1,14 @@
+#pragma once
+/// What the blocks of a study's structure are called in results and pictures.
+
+#include "ensemble/study.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Of the blocks but the ground, in layout order.
+std::vector<std::string> block_names(const Study& study);
+
+} // namespace stylobate

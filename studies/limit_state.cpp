@@ -1,0 +1,148 @@
+#include "studies/limit_state.hpp"
+
+#include "ensemble/interval.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+/// The mean of the two middle ones where they are even in number.
+double median(std::vector<double> values)
+{
+    if (values.empty())
+        return std::numeric_limits<double>::quiet_NaN();
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    const double upper = *middle;
+    return values.size() % 2 == 1 ? upper : (upper + *std::max_element(values.begin(), middle)) / 2;
+}
+
+} // namespace
+
+std::string interval_name()
+{
+    return fmt::format("jeffreys {}", interval_level);
+}
+
+const std::vector<std::string>& limit_state_names()
+{
+    static const std::vector<std::string> names = {"collapse", "total", "unseated", "rocked", "slid"};
+    return names;
+}
+
+LimitState limit_state_of(std::string_view name)
+{
+    const auto found = std::find(limit_state_names().begin(), limit_state_names().end(), name);
+    assert(found != limit_state_names().end() && "the command line lets no other word pass");
+    return static_cast<LimitState>(found - limit_state_names().begin());
+}
+
+const char* describe(LimitState limit)
+{
+    switch (limit) {
+    case LimitState::collapse:
+        return "collapse";
+    case LimitState::total:
+        return "total collapse";
+    case LimitState::unseated:
+        return "an unseated epistyle";
+    case LimitState::rocked:
+        return "rocking without collapse";
+    case LimitState::slid:
+        return "sliding without collapse";
+    }
+    return "unknown";
+}
+
+bool reached(LimitState limit, const Outcome& outcome)
+{
+    switch (limit) {
+    case LimitState::collapse:
+        return outcome.state == State::collapsed;
+    case LimitState::total:
+        return outcome.total_collapse_time_s >= 0;
+    case LimitState::unseated:
+        return outcome.unseated_block >= 0;
+    case LimitState::rocked:
+        return outcome.state == State::rocked;
+    case LimitState::slid:
+        return outcome.state == State::slid;
+    }
+    return false;
+}
+
+Share share_of(std::uint64_t trials, std::uint64_t count)
+{
+    const BinomialInterval interval = jeffreys(trials, count, interval_level);
+    const double probability = trials > 0 ? static_cast<double>(count) / static_cast<double>(trials)
+                                          : std::numeric_limits<double>::quiet_NaN();
+    return {trials, count, probability, interval.lower, interval.upper};
+}
+
+void LimitCounts::add(const ResultRow& row)
+{
+    const Outcome& o = row.outcome;
+    if (o.state == State::invalid)
+        return;
+    ++trials_;
+    for (std::size_t limit = 0; limit < reached_.size(); ++limit)
+        reached_[limit] += reached(static_cast<LimitState>(limit), o);
+    if (reached(LimitState::collapse, o)) {
+        collapse_time_s_.push_back(o.collapse_time_s);
+        if (o.first_collapse_block >= 0 && static_cast<std::size_t>(o.first_collapse_block) < first_.size())
+            ++first_[static_cast<std::size_t>(o.first_collapse_block)];
+    }
+    if (reached(LimitState::total, o))
+        total_collapse_time_s_.push_back(o.total_collapse_time_s);
+}
+
+Share LimitCounts::share(LimitState limit) const
+{
+    return share_of(trials_, reached_[static_cast<std::size_t>(limit)]);
+}
+
+double LimitCounts::median_collapse_time_s() const
+{
+    return median(collapse_time_s_);
+}
+
+double LimitCounts::median_total_collapse_time_s() const
+{
+    return median(total_collapse_time_s_);
+}
+
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows)
+{
+    FallOrder order;
+    order.interval = interval_name();
+    for (const std::string& name : names)
+        order.blocks.push_back({name, 0, {}, 0, 1});
+    LimitCounts counts(names.size());
+    for (const ResultRow& row : rows) {
+        counts.add(row);
+        if (row.outcome.state == State::invalid)
+            continue;
+        order.end_time_s = std::max(order.end_time_s, row.outcome.end_time_s);
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (row.outcome.fall_time_s[i] >= 0)
+                order.blocks[i].fall_time_s.push_back(row.outcome.fall_time_s[i]);
+    }
+    order.trials = counts.trials();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        FallOrder::Block& block = order.blocks[i];
+        std::sort(block.fall_time_s.begin(), block.fall_time_s.end());
+        block.first = counts.first()[i];
+        const Share share = share_of(order.trials, block.fall_time_s.size());
+        block.lower = share.lower;
+        block.upper = share.upper;
+    }
+    return order;
+}
+
+} // namespace stylobate

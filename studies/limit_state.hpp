@@ -1,0 +1,73 @@
+#pragma once
+/// Limit states of a structure: which a realization has reached, and how often that happened.
+
+#include "io/plot_order.hpp"
+#include "io/result_store.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stylobate {
+
+/// Confidence of the intervals of all probabilities.
+inline constexpr double interval_level = 0.95;
+/// "jeffreys 0.95", as results and pictures name it.
+std::string interval_name();
+
+enum class LimitState {
+    collapse, ///< a block has fallen
+    total,    ///< every column and every epistyle has fallen
+    unseated, ///< an epistyle has lost a seat
+    rocked,   ///< ended as `State::rocked`: without a fall, and more by rocking than by sliding
+    slid      ///< ended as `State::slid`: without a fall, and more by sliding than by rocking
+};
+
+/// The words of the command line, in the order of the enumeration.
+const std::vector<std::string>& limit_state_names();
+/// @pre the name is one of them
+LimitState limit_state_of(std::string_view name);
+/// "collapse", "total collapse", ...: what the probability is one of.
+const char* describe(LimitState limit);
+
+/// Whether a valid realization reached it.
+bool reached(LimitState limit, const Outcome& outcome);
+
+/// How often, with its interval.
+struct Share {
+    std::uint64_t trials = 0;
+    std::uint64_t count = 0;
+    double probability = 0; ///< NaN without trials
+    double lower = 0;       ///< Jeffreys' interval
+    double upper = 1;
+};
+Share share_of(std::uint64_t trials, std::uint64_t count);
+
+/// Counts what became of the realizations of a study; those that are invalid are no trials.
+class LimitCounts {
+public:
+    explicit LimitCounts(std::size_t blocks) : first_(blocks) {}
+    void add(const ResultRow& row);
+
+    Share share(LimitState limit) const;
+    /// How often each block fell before all others. (blocks)
+    const std::vector<std::uint64_t>& first() const { return first_; }
+    std::uint64_t trials() const { return trials_; }
+    /// Median over the realizations that collapsed [s]; NaN if there is none.
+    double median_collapse_time_s() const;
+    /// Median over those that collapsed in all [s]; NaN if there is none.
+    double median_total_collapse_time_s() const;
+
+private:
+    std::uint64_t trials_ = 0;
+    std::vector<std::uint64_t> reached_ = std::vector<std::uint64_t>(limit_state_names().size());
+    std::vector<std::uint64_t> first_;
+    std::vector<double> collapse_time_s_;
+    std::vector<double> total_collapse_time_s_;
+};
+
+/// Which blocks fell, in which order and when, for its picture.
+/// @param names of the blocks, as many as each row has fall times
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows);
+
+} // namespace stylobate
