@@ -39,6 +39,10 @@ Stream stream_of(Quantity quantity)
         return Stream::tilt;
     case Quantity::phase:
         return Stream::phase;
+    case Quantity::pulse_frequency:
+        return Stream::pulse_frequency;
+    case Quantity::pulse_gamma:
+        return Stream::pulse_gamma;
     }
     throw std::invalid_argument("a quantity that is not in the enumeration");
 }
@@ -85,7 +89,7 @@ Sampler::Sampler(const Study& study, const Motion* record)
         if (is_of_beds(quantity) && perturbation.per != Per::structure)
             about.pop_back(); // what meets elsewhere keeps its nominal value
         if (is_positive(quantity))
-            perturbation.min = std::max(perturbation.min.value_or(0), 0.0);
+            perturbation.min = std::max(perturbation.min.value_or(0), quantity == Quantity::pulse_gamma ? 1.0 : 0.0);
         Drawn drawn{quantity, stream_of(quantity), perturbation.per == Per::structure ? 1 : about.size(), {}};
         for (const double value : about)
             drawn.distributions.emplace_back(perturbation, value);
@@ -112,7 +116,10 @@ Realization Sampler::realization(std::uint64_t index) const
         realization.blocks.push_back(ground());
     join(values, realization);
     watch(values, realization);
-    shaking_.apply(study_, {values[Quantity::tilt][0], values[Quantity::phase][0]}, realization);
+    shaking_.apply(study_,
+                   {values[Quantity::tilt][0], values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
+                    values[Quantity::pulse_gamma][0]},
+                   realization);
     realization.step_s = step(realization);
     return realization;
 }

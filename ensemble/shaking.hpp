@@ -5,12 +5,16 @@
 #include "ensemble/realization.hpp"
 #include "ensemble/study.hpp"
 
+#include <vector>
+
 namespace stylobate {
 
 /// What is drawn of the shaking, or its nominal value.
 struct DrawnShaking {
     double base_tilt_rad = 0;
     double phase_rad = 0;
+    double pulse_frequency_hz = 0; ///< of a study that is no surface
+    double pulse_gamma = 0;
 };
 
 /// The part of a realization that says how it is shaken: a pure function of (study, index) and what was drawn.
@@ -26,8 +30,12 @@ public:
     void apply(const Study& study, const DrawnShaking& drawn, Realization& realization) const;
 
 private:
+    void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const;
+
     double record_frequency_hz_ = 0;
     double record_pga_m_s2_ = 0;
+    std::vector<double>
+        mean_peak_; ///< noise with the PGA of the mean: of unit noise, a surface's frequency by frequency
 };
 
 } // namespace stylobate
