@@ -68,9 +68,9 @@ private:
 ///   + 6x5
 ///
 /// with f going from `from_hz` to `to_hz` linearly or as an exponential (equal times for equal ratios). It is the
-/// displacement that is given, so that the motion is at rest at both ends exactly; in between, the amplitude of the
-/// acceleration differs from 1 in the second order of f' / f2 (below 0.5 % where f changes by less than a tenth of
-/// itself in 1 / (2 pi f), and more only in a sweep too fast to be one).
+/// displacement that is given, so that the motion is at rest at both ends exactly. Its acceleration overshoots in the
+/// ramps as that of `harmonic` does (1.7 % for two cycles); on the plateau its amplitude differs from 1 in the second
+/// order of f' / f2 (less than 1 % in a sweep over four octaves in a minute, which the tests look at).
 struct SineSweep {
     SineSweep(double from_hz, double to_hz, Spacing spacing, double duration_s, double ramp_cycles);
 
