@@ -3,6 +3,7 @@
 ///
 /// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
+#include "ensemble/motion.hpp"
 #include "ensemble/structure.hpp"
 
 #include <cmath>
@@ -50,12 +51,6 @@ enum class HarmonicEdge { smooth, abrupt };
 enum class PgaOf {
     realization, ///< each realization's own peak: all are scaled to it
     mean         ///< the mean of the peaks: one scale for all realizations of a cell, whose peaks differ
-};
-
-/// Corners of a Butterworth filter.
-struct BandPass {
-    double low_hz = 0;
-    double high_hz = 0;
 };
 
 enum class Spacing { linear, log };

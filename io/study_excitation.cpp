@@ -120,7 +120,7 @@ void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
         e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
     }
     e.baseline = keys.boolean_or("baseline", e.baseline);
-    if (const auto corners = keys.maybe_interval("band_pass_hz", frequency_range)) {
+    if (const auto corners = keys.maybe_interval("band_pass_hz", corner_range)) {
         if (!e.baseline)
             keys.refuse("band_pass_hz", "is not used by excitation.baseline = false",
                         "The filter is a part of the correction: remove it, or give baseline = true.");
