@@ -35,12 +35,19 @@ BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Moti
         return;
     }
     if (e.kind == ExcitationKind::record) {
-        record_ = record;
         // a surface's frequency axis is the record's predominant frequency, moved by stretching its time
-        const double stretch = record->predominant_frequency_hz / r.frequency_hz;
-        spacing_s_ = record->dt_s * stretch;
-        scale_ = r.pga_m_s2 > 0 ? r.pga_m_s2 / record->pga_m_s2 : 1;
-        duration_s_ = record->duration_s() * stretch;
+        follow(*record, record->predominant_frequency_hz / r.frequency_hz,
+               r.pga_m_s2 > 0 ? r.pga_m_s2 / record->pga_m_s2 : 1);
+        return;
+    }
+    if (e.kind == ExcitationKind::noise) {
+        own_ = r.motion;
+        follow(*own_, 1, 1);
+        return;
+    }
+    if (SyntheticMotion::covers(e.kind)) {
+        synthetic_.emplace(e, r);
+        duration_s_ = synthetic_->duration_s();
         return;
     }
     const double w = 2 * std::numbers::pi * r.frequency_hz;
@@ -61,6 +68,19 @@ BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Moti
     duration_s_ = cycles_ / rate_hz_;
 }
 
+bool BaseMotion::on_host(ExcitationKind kind)
+{
+    return kind == ExcitationKind::record || kind == ExcitationKind::noise || SyntheticMotion::covers(kind);
+}
+
+void BaseMotion::follow(const Motion& motion, double stretch, double scale)
+{
+    record_ = &motion;
+    spacing_s_ = motion.dt_s * stretch;
+    scale_ = scale;
+    duration_s_ = motion.duration_s() * stretch;
+}
+
 void BaseMotion::store(const FormulaParameters& p, int lane) const
 {
     p.cycles_per_step[lane] = rate_hz_ * step_s_;
@@ -74,6 +94,31 @@ void BaseMotion::store(const FormulaParameters& p, int lane) const
 }
 
 void BaseMotion::fill(double first_step, double* table, int lanes) const
+{
+    if (synthetic_)
+        fill_synthetic(first_step, table, lanes);
+    else
+        fill_sampled(first_step, table, lanes);
+}
+
+void BaseMotion::fill_synthetic(double first_step, double* table, int lanes) const
+{
+    const auto at = [&](double step) { return synthetic_->displacement_m(step * step_s_); };
+    double before = at(first_step - 1), now = at(first_step);
+    for (int k = 0; k < chunk_steps; ++k) {
+        const double n = first_step + k;
+        if ((n - 1) * step_s_ >= duration_s_) { // nothing but rounding is left of the difference
+            table[k * lanes] = 0;
+            continue;
+        }
+        const double next = at(n + 1);
+        table[k * lanes] = (next - now) - (now - before);
+        before = now;
+        now = next;
+    }
+}
+
+void BaseMotion::fill_sampled(double first_step, double* table, int lanes) const
 {
     // The second difference of a displacement with piecewise linear acceleration is dt2 times the acceleration, plus
     // what the bend at the nearest sample adds within one step of it: (change of slope) x (dt - distance)^3 / 6.
@@ -104,6 +149,8 @@ double BaseMotion::displacement_m(double time_s) const
 {
     if (time_s <= 0)
         return 0;
+    if (synthetic_)
+        return synthetic_->displacement_m(time_s);
     if (record_ != nullptr) {
         // the acceleration goes to 0 within one sample after the last one, as in `fill`; then the velocity stays
         const std::vector<double>& a = record_->acceleration_m_s2;

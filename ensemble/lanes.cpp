@@ -227,7 +227,7 @@ void LaneSet::advance()
 void LaneSet::advance(int first, int last)
 {
     if (first == 0) {
-        if (study_.excitation.kind == ExcitationKind::record) {
+        if (BaseMotion::on_host(study_.excitation.kind)) {
             for (int lane = 0; lane < kernels_.lanes; ++lane)
                 if (!free(lane))
                     motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);

@@ -1,10 +1,31 @@
 #pragma once
 /// The base motion of a record as plain data, ready to drive a structure.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// Corners of a Butterworth filter of order 4 (io/band_pass.hpp) [Hz].
+struct BandPass {
+    double low_hz = 0;
+    double high_hz = 0;
+};
+
+/// What the correction of a record's baseline has done. What is left at the end is that of a motion that starts at
+/// rest with the record's first sample.
+struct BaselineReport {
+    double residual_velocity_before_m_s = 0; ///< at the end of the record as it stands
+    double residual_displacement_before_m = 0;
+    double residual_velocity_m_s = 0; ///< at the end of the corrected one
+    double residual_displacement_m = 0;
+    double pga_before_m_s2 = 0;
+    double pga_m_s2 = 0;
+    double pgv_m_s = 0; ///< of the corrected one
+    double pgd_m = 0;
+    double pga_change() const { return pga_m_s2 / pga_before_m_s2 - 1; }
+};
 
 /// Acceleration that is linear between equally spaced samples, with the velocity and displacement that follow from it
 /// exactly (v += d (a0 + a1) / 2, u += v d + d2 (a0 / 3 + a1 / 6)); at rest before the first sample.
@@ -15,6 +36,9 @@ struct Motion {
     std::vector<double> displacement_m;    ///< (n)
     double pga_m_s2 = 0;                   ///< largest |acceleration|
     double predominant_frequency_hz = 0;   ///< peak of the smoothed Fourier amplitude
+    bool corrected = false;                ///< whether the baseline was corrected
+    std::optional<BandPass> band_pass;     ///< the filter that was part of it
+    BaselineReport baseline;               ///< of a record, corrected or not
     std::string source;                    ///< file and component, for messages and results
 
     bool empty() const { return acceleration_m_s2.empty(); }

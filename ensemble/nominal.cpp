@@ -49,6 +49,10 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
         return {0};
     case Quantity::phase:
         return {study.excitation.phase_rad};
+    case Quantity::pulse_frequency:
+        return {study.excitation.frequency_hz};
+    case Quantity::pulse_gamma:
+        return {study.excitation.gamma};
     }
     return {0};
 }

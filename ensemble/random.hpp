@@ -21,7 +21,11 @@ enum class Stream : std::uint64_t {
     drum_offset = 6,          ///< horizontal offset of a drum; element = block
     density = 7,              ///< mass at given sizes; element = block
     tilt = 8,                 ///< base out of level; element = 0
-    phase = 9                 ///< phase of the harmonic; element = 0
+    phase = 9,                ///< phase of the harmonic or pulse; element = 0
+    pulse_frequency = 10,     ///< of a velocity pulse; element = 0
+    pulse_gamma = 11,         ///< oscillatory character of a velocity pulse; element = 0
+    base_noise = 64,          ///< white noise of a synthetic earthquake; element = sample
+    mean_peak = 65            ///< white noise of the motions by which a mean peak is found; index = motion, from 0
 };
 
 /// 64 random bits. What belongs to the structure as a whole uses element 0.

@@ -1,7 +1,10 @@
 #pragma once
 /// One perturbed structure and its base motion: a pure function of (study, seed, index). Plain data, SI units.
 
+#include "ensemble/motion.hpp"
+
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace stylobate {
@@ -50,9 +53,11 @@ struct Realization {
     double base_tilt_rad = 0;    ///< base out of level
     double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
     int initial_tilt_block = 0;  ///< of each column, from the bottom: it and what stands on it lean
-    double frequency_hz = 0;     ///< of the harmonic or pulse; of a record the predominant one
+    double frequency_hz = 0;     ///< of the sine or pulse; of noise the ground's; of a record the predominant one
     double pga_m_s2 = 0;
     double phase_rad = 0;
+    double pulse_gamma = 0;               ///< oscillatory character of a velocity pulse
+    std::shared_ptr<const Motion> motion; ///< the base motion that is this realization's own (noise), else null
     double step_s = 0;
     std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`
 };

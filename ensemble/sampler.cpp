@@ -39,6 +39,10 @@ Stream stream_of(Quantity quantity)
         return Stream::tilt;
     case Quantity::phase:
         return Stream::phase;
+    case Quantity::pulse_frequency:
+        return Stream::pulse_frequency;
+    case Quantity::pulse_gamma:
+        return Stream::pulse_gamma;
     }
     throw std::invalid_argument("a quantity that is not in the enumeration");
 }
@@ -65,7 +69,8 @@ bool replaces(const Perturbation& perturbation)
 
 } // namespace
 
-Sampler::Sampler(const Study& study, const Motion* record) : study_(study), layout_(lay_out(study.structure))
+Sampler::Sampler(const Study& study, const Motion* record)
+    : study_(study), layout_(lay_out(study.structure)), shaking_(study, record)
 {
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
@@ -78,19 +83,13 @@ Sampler::Sampler(const Study& study, const Motion* record) : study_(study), layo
                                           {Quantity::normal_stiffness, study.contact.normal_stiffness_n_m2},
                                           {Quantity::tangential_stiffness, study.contact.tangential_stiffness_n_m}})
         nominal_.of[static_cast<std::size_t>(quantity)].push_back(value);
-    if (study.excitation.kind == ExcitationKind::record) {
-        if (record == nullptr || record->empty())
-            throw std::invalid_argument("a study with a record was given no base motion");
-        record_frequency_hz_ = record->predominant_frequency_hz / study.excitation.time_scale;
-        record_pga_m_s2_ = record->pga_m_s2;
-    }
     for (Perturbation perturbation : study.perturbations) {
         const Quantity quantity = perturbation.quantity;
         std::vector<double> about = nominal_[quantity];
         if (is_of_beds(quantity) && perturbation.per != Per::structure)
             about.pop_back(); // what meets elsewhere keeps its nominal value
         if (is_positive(quantity))
-            perturbation.min = std::max(perturbation.min.value_or(0), 0.0);
+            perturbation.min = std::max(perturbation.min.value_or(0), quantity == Quantity::pulse_gamma ? 1.0 : 0.0);
         Drawn drawn{quantity, stream_of(quantity), perturbation.per == Per::structure ? 1 : about.size(), {}};
         for (const double value : about)
             drawn.distributions.emplace_back(perturbation, value);
@@ -117,7 +116,10 @@ Realization Sampler::realization(std::uint64_t index) const
         realization.blocks.push_back(ground());
     join(values, realization);
     watch(values, realization);
-    shake(values, realization);
+    shaking_.apply(study_,
+                   {values[Quantity::tilt][0], values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
+                    values[Quantity::pulse_gamma][0]},
+                   realization);
     realization.step_s = step(realization);
     return realization;
 }
@@ -345,33 +347,6 @@ void Sampler::watch(const Values& values, Realization& realization) const
         realization.joints.push_back(met);
     }
     realization.watched = static_cast<int>(watched_.size());
-}
-
-void Sampler::shake(const Values& values, Realization& realization) const
-{
-    const ExcitationSpec& excitation = study_.excitation;
-    realization.base_tilt_rad = values[Quantity::tilt][0];
-    realization.phase_rad = values[Quantity::phase][0];
-    if (study_.surface) {
-        const auto cell = static_cast<int>(study_.cell(realization.index));
-        realization.frequency_hz = study_.surface->frequency_hz.value(cell / study_.surface->pga_m_s2.count);
-        realization.pga_m_s2 = study_.surface->pga_m_s2.value(cell % study_.surface->pga_m_s2.count);
-        return;
-    }
-    switch (excitation.kind) {
-    case ExcitationKind::none:
-        break;
-    case ExcitationKind::harmonic:
-    case ExcitationKind::half_sine:
-    case ExcitationKind::full_sine:
-        realization.frequency_hz = excitation.frequency_hz;
-        realization.pga_m_s2 = excitation.pga_m_s2;
-        break;
-    case ExcitationKind::record:
-        realization.frequency_hz = record_frequency_hz_;
-        realization.pga_m_s2 = excitation.pga_m_s2 > 0 ? excitation.pga_m_s2 : record_pga_m_s2_;
-        break;
-    }
 }
 
 double Sampler::step(const Realization& realization) const

@@ -5,6 +5,7 @@
 #include "ensemble/motion.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
+#include "ensemble/shaking.hpp"
 #include "ensemble/structure.hpp"
 #include "ensemble/study.hpp"
 
@@ -68,7 +69,6 @@ private:
                 double chord_m) const;
     void join(const Values& values, Realization& realization) const;
     void watch(const Values& values, Realization& realization) const;
-    void shake(const Values& values, Realization& realization) const;
     double step(const Realization& realization) const;
     std::string name(int block) const;
 
@@ -77,8 +77,7 @@ private:
     bool has_ground_ = false;
     std::vector<std::pair<int, int>> watched_; ///< lower and upper block
     Values nominal_;
-    double record_frequency_hz_ = 0;
-    double record_pga_m_s2_ = 0;
+    Shaking shaking_;
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
 };

@@ -27,6 +27,10 @@ const char* to_string(Quantity quantity)
         return "tilt";
     case Quantity::phase:
         return "phase";
+    case Quantity::pulse_frequency:
+        return "pulse_frequency";
+    case Quantity::pulse_gamma:
+        return "pulse_gamma";
     }
     return "?";
 }

@@ -3,8 +3,10 @@
 ///
 /// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
+#include "ensemble/motion.hpp"
 #include "ensemble/structure.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,23 +33,61 @@ struct ContactSpec {
     double friction = 0; ///< mu
 };
 
-enum class ExcitationKind { none, harmonic, half_sine, full_sine, record };
+enum class ExcitationKind {
+    none,
+    harmonic,  ///< ramped displacement (kernels/base_motion.hpp)
+    half_sine, ///< of acceleration
+    full_sine, ///< of acceleration
+    ricker,    ///< Ricker's wavelet (synthetic_pulse.hpp)
+    pulse,     ///< velocity pulse of Mavroeidis and Papageorgiou (synthetic_pulse.hpp)
+    tapered,   ///< harmonic of tapered acceleration (synthetic_sine.hpp)
+    sweep,     ///< sine sweep (synthetic_sine.hpp)
+    noise,     ///< filtered noise, each realization's own (synthetic_noise.hpp)
+    record
+};
 enum class HarmonicEdge { smooth, abrupt };
+
+/// What the PGA of a synthetic earthquake is.
+enum class PgaOf {
+    realization, ///< each realization's own peak: all are scaled to it
+    mean         ///< the mean of the peaks: one scale for all realizations of a cell, whose peaks differ
+};
+
+enum class Spacing { linear, log };
 
 struct ExcitationSpec {
     ExcitationKind kind = ExcitationKind::none;
-    double duration_s = 0; ///< `none` only: the simulated time
+    double duration_s = 0; ///< `none`: the simulated time; `sweep`: its length
 
-    // harmonic, half_sine, full_sine; for a surface these two come from the cell
-    double frequency_hz = 0; ///< of the sine; for a pulse, 1 / the full sine's period
-    double pga_m_s2 = 0;     ///< amplitude of the acceleration; for a record, the scaled PGA (0: as recorded)
+    // all but none; for a surface these two come from the cell
+    double frequency_hz =
+        0;               ///< of the sine or pulse; of a half sine, 1 / the full one's period; of noise, the ground's
+    double pga_m_s2 = 0; ///< largest acceleration (harmonic: on the plateau); for a record 0 says 'as recorded'
 
-    // harmonic
+    // harmonic; ramps, cycles and phase of a tapered one too, ramps of a sweep, phase nu of a pulse
     HarmonicEdge start = HarmonicEdge::smooth;
     HarmonicEdge end = HarmonicEdge::smooth;
     double ramp_cycles = 2; ///< length of a smooth start, and of a smooth end
     double cycles = 10;     ///< in all, ramps included
     double phase_rad = 0;
+
+    // pulse
+    double gamma = 2; ///< oscillatory character: cycles under the bell
+
+    // sweep (and duration_s); a surface's frequency axis stretches its time
+    double from_hz = 0;
+    double to_hz = 0;
+    Spacing spacing = Spacing::log; ///< equal times for equal differences, or for equal ratios
+    double central_frequency_hz() const { return std::sqrt(from_hz * to_hz); }
+
+    // noise
+    PgaOf pga_of = PgaOf::realization;
+    double ground_damping_ratio = 0.6;  ///< z_g
+    double low_cut_ratio = 0.1;         ///< w_f / w_g
+    double low_cut_damping_ratio = 0.6; ///< z_f
+    double rise_s = 2;
+    double strong_s = 8;
+    double decay_s = 3; ///< in which the envelope falls to 1/e
 
     // record
     std::string file;      ///< as given in the study; relative to the study file's folder, else to the working folder
@@ -55,11 +95,10 @@ struct ExcitationSpec {
     std::string unit;      ///< "m/s2", "cm/s2", "mm/s2", "g" or empty (the file says it)
     double time_scale = 1; ///< stretches the record's time; in a surface the frequency axis does this
     bool baseline = true;  ///< correct the record's baseline
+    std::optional<BandPass> band_pass; ///< filter it too
 
     std::optional<double> tail_s; ///< simulated at most after the shaking; default: see `tail_after_shaking()`
 };
-
-enum class Spacing { linear, log };
 
 struct Axis {
     double from = 0;
@@ -88,9 +127,11 @@ enum class Quantity {
     drum_offset,          ///< of a drum from its column's axis, of an epistyle from its place; per block
     density,              ///< mass at given sizes; per block or structure
     tilt,                 ///< of the base, out of level; per structure [rad]
-    phase                 ///< of the harmonic; per structure [rad]
+    phase,                ///< of the harmonic or pulse; per structure [rad]
+    pulse_frequency,      ///< of a velocity pulse; per structure [Hz]
+    pulse_gamma           ///< oscillatory character of a velocity pulse; per structure
 };
-inline constexpr int quantity_count = 10;
+inline constexpr int quantity_count = 12;
 const char* to_string(Quantity quantity);
 
 enum class DistributionKind { normal, lognormal, uniform, log_uniform };

@@ -63,7 +63,7 @@ private:
 /// "normal_stiffness[3]" -> "input_normal_stiffness_n_m2[3]".
 std::string input_column(const std::string& name)
 {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> units{{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> units{{
         {"normal_stiffness", "_n_m2"},
         {"tangential_stiffness", "_n_m"},
         {"drum_width", "_m"},
@@ -72,6 +72,7 @@ std::string input_column(const std::string& name)
         {"density", "_kg_m3"},
         {"tilt", "_rad"},
         {"phase", "_rad"},
+        {"pulse_frequency", "_hz"},
     }};
     const std::string_view quantity = std::string_view(name).substr(0, name.find('['));
     for (const auto& [known, unit] : units)

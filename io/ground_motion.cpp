@@ -1,6 +1,7 @@
 #include "io/ground_motion.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "io/band_pass.hpp"
 
 #include <fmt/format.h>
 
@@ -121,7 +122,7 @@ double peak(const std::vector<double>& values)
 
 } // namespace
 
-Motion make_motion(const Record& record, bool correct_baseline)
+Motion make_motion(const Record& record, bool correct_baseline, const std::optional<BandPass>& filter)
 {
     const std::vector<double>& recorded = record.acceleration_m_s2;
     if (recorded.size() < fewest_samples)
@@ -135,7 +136,14 @@ Motion make_motion(const Record& record, bool correct_baseline)
                          fmt::format("{}: the acceleration is {} m/s2 at all times: nothing shakes. Take another "
                                      "component.",
                                      record.component, *least));
+    if (filter && !(filter->high_hz < 0.5 / record.dt_s))
+        throw InputError(record.file, 0,
+                         fmt::format("{}: a band-pass up to {} Hz needs more than {} samples a second; the record has "
+                                     "{}. Lower excitation.band_pass_hz.",
+                                     record.component, filter->high_hz, 2 * filter->high_hz, 1 / record.dt_s));
     Motion motion;
+    motion.corrected = correct_baseline;
+    motion.band_pass = filter;
     motion.dt_s = record.dt_s;
     motion.source = fmt::format("{}, {}", record.file, record.component);
     motion.predominant_frequency_hz = predominant_frequency(recorded, record.dt_s);
@@ -146,12 +154,20 @@ Motion make_motion(const Record& record, bool correct_baseline)
         const std::vector<double> w = taper(a.size(), record.dt_s);
         for (std::size_t i = 0; i < a.size(); ++i)
             a[i] = w[i] * (a[i] - mean);
+        if (filter) {
+            band_pass(a, record.dt_s, *filter);
+            for (std::size_t i = 0; i < a.size(); ++i)
+                a[i] *= w[i];
+        }
         remove_trend(a, w, record.dt_s);
     }
     Integrated moved = integrate(motion.acceleration_m_s2, record.dt_s);
     motion.velocity_m_s = std::move(moved.v);
     motion.displacement_m = std::move(moved.u);
     motion.pga_m_s2 = peak(motion.acceleration_m_s2);
+    const Integrated before = integrate(recorded, record.dt_s);
+    motion.baseline = {before.v.back(), before.u.back(), motion.velocity_m_s.back(), motion.displacement_m.back(),
+                       peak(recorded),  motion.pga_m_s2, peak(motion.velocity_m_s),  peak(motion.displacement_m)};
     return motion;
 }
 

@@ -5,6 +5,7 @@
 #include "io/record.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -16,11 +17,27 @@ struct IntensityMeasures {
     double pga_m_s2 = 0;
     double pgv_m_s = 0;
     double pgd_m = 0;
-    double arias_m_s = 0;                ///< pi / (2 g) times the integral of a2, g = 9.80665 m/s2
-    double d5_95_s = 0;                  ///< from 5 to 95 % of it
+    double arias_m_s = 0; ///< pi / (2 g) times the integral of a2, g = 9.80665 m/s2
+    double d5_95_s = 0;   ///< from 5 to 95 % of it
+    double cav_m_s = 0;   ///< cumulative absolute velocity: integral of |a|
+    double pgv_per_pga_s = 0;
     double predominant_frequency_hz = 0; ///< peak of the Fourier amplitude smoothed with a Konno-Ohmachi window, b = 40
     double mean_frequency_hz = 0;        ///< inverse of the mean period of Rathje et al. (2004), 0.25 to 20 Hz
 };
+
+/// What a ground motion is to a rigid block of half width b and half height h that rocks: R = sqrt(b2 + h2),
+/// tan alpha = b / h, p = sqrt(3 g / (4 R)).
+struct RockingMeasures {
+    double tan_alpha = 0;
+    double p_rad_s = 0;
+    double pga_over_g_tan_alpha = 0;   ///< PGA / (g tan alpha): above 1 the block uplifts
+    double p_pgv_over_g_tan_alpha = 0; ///< p PGV / (g tan alpha)
+    double omega_p_over_p = 0;         ///< 2 pi predominant frequency / p
+};
+
+/// @pre all > 0
+RockingMeasures rocking_measures(const IntensityMeasures& measures, double half_width_m, double half_height_m,
+                                 double g_m_s2 = 9.81);
 
 /// Drives a structure with the record: corrects the baseline where asked, integrates consistently.
 ///
@@ -33,14 +50,24 @@ struct IntensityMeasures {
 ///      trend of the velocity (a parabola and its like, from an instrument's drifting zero) with as little change to
 ///      the acceleration as it needs. The PGA moves by less than 0.2 % where the record's zero line is right; where it
 ///      is off (a mean of some per cent of the PGA), it moves by about as much as the line was off.
-/// There is no filter: what a record has of long-period noise above the order of the polynomial stays. A permanent
-/// displacement of the ground is taken out with the drift, which it cannot be told from.
+///
+/// Where the study asks for it (`excitation.band_pass_hz`), a band-pass filter comes between 2 and 3 (io/band_pass.hpp:
+/// Butterworth of order 4, in the frequency domain, acausal, with padding), and the ends are tapered once more, since
+/// it rings into them. Without it, what a record has of long-period noise above the order of the polynomial stays. A
+/// permanent displacement of the ground is taken out with the drift, which it cannot be told from.
 ///
 /// Velocity and displacement follow exactly from an acceleration that is linear between its samples.
 /// The predominant frequency is that of the record as it stands, with or without the correction.
 ///
-/// @throws InputError if the record is too short or all zero (constant, where the baseline is corrected)
-Motion make_motion(const Record& record, bool correct_baseline);
+/// A record that was cut while the ground still moved cannot be told from one whose zero line is off either: it is
+/// brought to rest all the same, and its PGA may move by some per cent (`Motion::baseline` says by how much). An
+/// example is an 18 s record of Spitak 1988 that begins and ends with 5 % of its PGA: the PGA grows by 3.5 %, one half
+/// of it the mean, the other the polynomial. A band-pass from 0.05 Hz leaves 1.6 %. Such records want the filter.
+///
+/// @param filter part of the correction. @pre absent where there is none
+/// @throws InputError if the record is too short or all zero (constant, where the baseline is corrected), or its
+///         sampling is too coarse for the filter's high corner
+Motion make_motion(const Record& record, bool correct_baseline, const std::optional<BandPass>& filter = {});
 
 /// Acceleration measures of the record as it stands; velocity and displacement after the baseline correction.
 /// @throws InputError as `make_motion`

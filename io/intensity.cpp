@@ -1,5 +1,6 @@
 /// Intensity measures of a record: peaks, Arias intensity, Fourier amplitude, response spectrum.
 
+#include "io/fourier.hpp"
 #include "io/ground_motion.hpp"
 
 #include <algorithm>
@@ -24,33 +25,6 @@ double peak(const std::vector<double>& values)
     return largest;
 }
 
-/// Discrete Fourier transform in place, decimation in time.
-/// @pre the size is a power of two
-void transform(std::vector<std::complex<double>>& z)
-{
-    const std::size_t n = z.size();
-    for (std::size_t i = 1, j = 0; i < n; ++i) { // into the order of reversed bits
-        std::size_t bit = n / 2;
-        for (; j & bit; bit /= 2)
-            j ^= bit;
-        j ^= bit;
-        if (i < j)
-            std::swap(z[i], z[j]);
-    }
-    std::vector<std::complex<double>> turn(n / 2);
-    for (std::size_t k = 0; k < n / 2; ++k)
-        turn[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(n));
-    for (std::size_t half = 1; half < n; half *= 2)
-        for (std::size_t start = 0; start < n; start += 2 * half)
-            for (std::size_t k = 0; k < half; ++k) {
-                const std::complex<double> w = turn[k * (n / (2 * half))], odd = z[start + half + k];
-                const std::complex<double> t(w.real() * odd.real() - w.imag() * odd.imag(),
-                                             w.real() * odd.imag() + w.imag() * odd.real());
-                z[start + half + k] = z[start + k] - t;
-                z[start + k] += t;
-            }
-}
-
 struct Spectrum {
     std::vector<double> amplitude; ///< at k df, from 0 to the Nyquist frequency
     double df_hz = 0;
@@ -62,14 +36,6 @@ std::vector<std::complex<double>> without_mean(const std::vector<double>& a, std
     std::vector<std::complex<double>> z(size);
     std::transform(a.begin(), a.end(), z.begin(), [mean](double x) { return x - mean; });
     return z;
-}
-
-std::size_t power_of_two_from(std::size_t n)
-{
-    std::size_t size = 2;
-    while (size < n)
-        size *= 2;
-    return size;
 }
 
 Spectrum amplitudes(const std::vector<std::complex<double>>& transformed, std::size_t n, double dt_s)
@@ -187,6 +153,17 @@ Husid husid(const std::vector<double>& a, double d)
     return {sum.back(), time_of(0.95 * sum.back()) - time_of(0.05 * sum.back())};
 }
 
+/// Integral of |a| for an acceleration that is linear between its samples, and may change its sign between them.
+double cumulative_absolute_velocity(const std::vector<double>& a, double d)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+        const double before = std::fabs(a[i]), after = std::fabs(a[i + 1]);
+        sum += a[i] * a[i + 1] < 0 ? (before * before + after * after) / (before + after) : before + after;
+    }
+    return d * sum / 2;
+}
+
 /// The oscillator u'' + 2 z w u' + w2 u = -a(t), exactly over steps in which a is linear.
 class Oscillator {
 public:
@@ -261,6 +238,17 @@ double predominant_frequency(const std::vector<double>& acceleration_m_s2, doubl
     return frequency;
 }
 
+RockingMeasures rocking_measures(const IntensityMeasures& im, double half_width_m, double half_height_m, double g_m_s2)
+{
+    RockingMeasures m;
+    m.tan_alpha = half_width_m / half_height_m;
+    m.p_rad_s = std::sqrt(0.75 * g_m_s2 / std::hypot(half_width_m, half_height_m));
+    m.pga_over_g_tan_alpha = im.pga_m_s2 / (g_m_s2 * m.tan_alpha);
+    m.p_pgv_over_g_tan_alpha = m.p_rad_s * im.pgv_m_s / (g_m_s2 * m.tan_alpha);
+    m.omega_p_over_p = 2 * pi * im.predominant_frequency_hz / m.p_rad_s;
+    return m;
+}
+
 IntensityMeasures intensity_measures(const Record& record)
 {
     const Motion motion = make_motion(record, true);
@@ -272,6 +260,8 @@ IntensityMeasures intensity_measures(const Record& record)
     im.pgd_m = peak(motion.displacement_m);
     im.arias_m_s = pi / (2 * standard_gravity) * arias.total;
     im.d5_95_s = arias.d5_95_s;
+    im.cav_m_s = cumulative_absolute_velocity(a, record.dt_s);
+    im.pgv_per_pga_s = im.pgv_m_s / im.pga_m_s2;
     im.predominant_frequency_hz = motion.predominant_frequency_hz;
     im.mean_frequency_hz = mean_frequency(own_spectrum(a, record.dt_s));
     return im;

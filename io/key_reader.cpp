@@ -172,6 +172,29 @@ std::optional<double> KeyReader::maybe_number(std::string_view key, const Range&
     return has(key) ? std::optional<double>(number(key, range)) : std::nullopt;
 }
 
+std::optional<std::array<double, 2>> KeyReader::maybe_interval(std::string_view key, const Range& range) const
+{
+    if (!has(key))
+        return std::nullopt;
+    const auto& value = *find(key);
+    const auto todo = fmt::format("Give two numbers in {}, the smaller one first: {} = [LOW, HIGH]. {}", range.text(),
+                                  key, range.hint);
+    if (value.type != TomlValue::Type::array || value.entries.size() != 2)
+        refuse(key, "is not two numbers in brackets", todo);
+    std::array<double, 2> ends{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto& end = value.entries[i];
+        if (end.type != TomlValue::Type::number && end.type != TomlValue::Type::integer)
+            refuse(key, fmt::format("has {} in it, which is {}, not a number", end.shown(), end.type_name()), todo);
+        if (!range.contains(end.number))
+            refuse(key, fmt::format("has {} in it, which is outside {}", end.shown(), range.text()), todo);
+        ends[i] = end.number + 0.0;
+    }
+    if (!(ends[0] < ends[1]))
+        refuse(key, fmt::format("has {} before {}", value.entries[0].shown(), value.entries[1].shown()), todo);
+    return ends;
+}
+
 std::uint64_t KeyReader::whole(std::string_view key, std::uint64_t low, std::uint64_t high,
                                const std::string& hint) const
 {

@@ -4,6 +4,7 @@
 
 #include "io/toml_document.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -50,6 +51,9 @@ public:
     double number(std::string_view key, const Range& range) const;
     double number_or(std::string_view key, const Range& range, double absent) const;
     std::optional<double> maybe_number(std::string_view key, const Range& range) const;
+
+    /// [low, high], two numbers of which the first is the smaller one.
+    std::optional<std::array<double, 2>> maybe_interval(std::string_view key, const Range& range) const;
 
     /// A whole number; 1e6 counts as one. @pre high is at most 2^63 - 1
     std::uint64_t whole(std::string_view key, std::uint64_t low, std::uint64_t high,

@@ -34,7 +34,8 @@ std::string unit_of_input(const std::string& name)
                                                              {"drum_offset", "m"},
                                                              {"density", "kg/m3"},
                                                              {"tilt", "rad"},
-                                                             {"phase", "rad"}};
+                                                             {"phase", "rad"},
+                                                             {"pulse_frequency", "Hz"}};
     const auto found = units.find(name);
     return found == units.end() ? std::string() : found->second;
 }

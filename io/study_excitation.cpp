@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace stylobate {
 
 namespace {
@@ -18,11 +21,39 @@ std::vector<std::string> excitation_keys(ExcitationKind kind)
         return {"kind", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles", "phase_rad", "tail_s"};
     case ExcitationKind::half_sine:
     case ExcitationKind::full_sine:
+    case ExcitationKind::ricker:
         return {"kind", "frequency_hz", "pga_m_s2", "tail_s"};
+    case ExcitationKind::pulse:
+        return {"kind", "frequency_hz", "pga_m_s2", "phase_rad", "gamma", "tail_s"};
+    case ExcitationKind::tapered:
+        return {"kind", "frequency_hz", "pga_m_s2", "ramp_cycles", "cycles", "phase_rad", "tail_s"};
+    case ExcitationKind::sweep:
+        return {"kind", "from_hz", "to_hz", "spacing", "duration_s", "pga_m_s2", "ramp_cycles", "tail_s"};
+    case ExcitationKind::noise:
+        return {"kind",          "frequency_hz",          "pga_m_s2", "pga_of",   "ground_damping_ratio",
+                "low_cut_ratio", "low_cut_damping_ratio", "rise_s",   "strong_s", "decay_s",
+                "tail_s"};
     case ExcitationKind::record:
         break;
     }
-    return {"kind", "file", "component", "unit", "scale_to_pga_m_s2", "time_scale", "baseline", "tail_s"};
+    return {"kind",       "file",     "component",    "unit",  "scale_to_pga_m_s2",
+            "time_scale", "baseline", "band_pass_hz", "tail_s"};
+}
+
+/// @param ramps that must fit into the cycles
+void check_ramps(const KeyReader& keys, int ramps, const ExcitationSpec& e, double cycles)
+{
+    if (ramps * e.ramp_cycles <= cycles)
+        return;
+    const auto what = fmt::format("does not fit: {} of {} cycles each in {} cycles",
+                                  ramps == 2 ? "two ramps" : "a ramp", e.ramp_cycles, cycles);
+    const char* todo = e.kind == ExcitationKind::harmonic
+                           ? "Give more cycles or shorter ramps, or start or end = \"abrupt\"."
+                       : e.kind == ExcitationKind::sweep ? "Give a longer duration_s or shorter ramps."
+                                                         : "Give more cycles or shorter ramps.";
+    for (const char* key : {"ramp_cycles", "cycles", "duration_s"})
+        if (keys.has(key))
+            keys.refuse(key, what, todo);
 }
 
 void read_harmonic(const KeyReader& keys, ExcitationSpec& e)
@@ -32,15 +63,44 @@ void read_harmonic(const KeyReader& keys, ExcitationSpec& e)
     e.ramp_cycles = keys.number_or("ramp_cycles", cycles_range, e.ramp_cycles);
     e.cycles = keys.number_or("cycles", cycles_range, e.cycles);
     e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
-    const int ramps = (e.start == HarmonicEdge::smooth ? 1 : 0) + (e.end == HarmonicEdge::smooth ? 1 : 0);
-    if (ramps * e.ramp_cycles > e.cycles) {
-        const auto what = fmt::format("does not fit: {} of {} cycles each in {} cycles",
-                                      ramps == 2 ? "two ramps" : "a ramp", e.ramp_cycles, e.cycles);
-        const char* todo = "Give more cycles or shorter ramps, or start or end = \"abrupt\".";
-        for (const char* key : {"ramp_cycles", "cycles"})
-            if (keys.has(key))
-                keys.refuse(key, what, todo);
-    }
+    check_ramps(keys, (e.start == HarmonicEdge::smooth ? 1 : 0) + (e.end == HarmonicEdge::smooth ? 1 : 0), e, e.cycles);
+}
+
+void read_tapered(const KeyReader& keys, ExcitationSpec& e)
+{
+    e.ramp_cycles = keys.number_or("ramp_cycles", taper_range, e.ramp_cycles);
+    e.cycles = keys.number_or("cycles", cycles_range, e.cycles);
+    e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
+    check_ramps(keys, 2, e, e.cycles);
+}
+
+void read_sweep(const KeyReader& keys, ExcitationSpec& e)
+{
+    e.from_hz = keys.number("from_hz", frequency_range);
+    e.to_hz = keys.number("to_hz", frequency_range);
+    if (e.from_hz == e.to_hz)
+        keys.refuse("to_hz", "is from_hz too", "Give two frequencies, or excitation.kind = \"harmonic\".");
+    e.spacing = keys.choice_or("spacing", spacing_names, e.spacing);
+    e.duration_s = keys.number("duration_s", duration_range);
+    e.ramp_cycles = keys.number_or("ramp_cycles", cycles_range, e.ramp_cycles);
+    const double cycles =
+        e.duration_s *
+        (e.spacing == Spacing::log ? (e.to_hz - e.from_hz) / std::log(e.to_hz / e.from_hz) : (e.from_hz + e.to_hz) / 2);
+    if (!cycles_range.contains(cycles))
+        keys.refuse("duration_s", fmt::format("makes {:.0f} cycles, more than {:.0f}", cycles, cycles_range.high),
+                    "Give a shorter sweep or lower frequencies.");
+    check_ramps(keys, 2, e, cycles);
+}
+
+void read_noise(const KeyReader& keys, ExcitationSpec& e)
+{
+    e.pga_of = keys.choice_or("pga_of", pga_of_names, e.pga_of);
+    e.ground_damping_ratio = keys.number_or("ground_damping_ratio", filter_damping_range, e.ground_damping_ratio);
+    e.low_cut_ratio = keys.number_or("low_cut_ratio", low_cut_ratio_range, e.low_cut_ratio);
+    e.low_cut_damping_ratio = keys.number_or("low_cut_damping_ratio", filter_damping_range, e.low_cut_damping_ratio);
+    e.rise_s = keys.number_or("rise_s", rise_range, e.rise_s);
+    e.strong_s = keys.number_or("strong_s", strong_range, e.strong_s);
+    e.decay_s = keys.number_or("decay_s", rise_range, e.decay_s);
 }
 
 void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
@@ -60,15 +120,24 @@ void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
         e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
     }
     e.baseline = keys.boolean_or("baseline", e.baseline);
+    if (const auto corners = keys.maybe_interval("band_pass_hz", corner_range)) {
+        if (!e.baseline)
+            keys.refuse("band_pass_hz", "is not used by excitation.baseline = false",
+                        "The filter is a part of the correction: remove it, or give baseline = true.");
+        e.band_pass = BandPass{(*corners)[0], (*corners)[1]};
+    }
 }
 
 } // namespace
 
 ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
 {
-    keys.allow_only({"kind", "duration_s", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles",
-                     "phase_rad", "file", "component", "unit", "scale_to_pga_m_s2", "time_scale", "baseline",
-                     "tail_s"});
+    std::vector<std::string> known;
+    for (const auto& name : excitation_kind_names)
+        for (std::string& key : excitation_keys(name.value))
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                known.push_back(std::move(key));
+    keys.allow_only(known);
     ExcitationSpec e;
     e.kind = keys.choice("kind", excitation_kind_names);
     keys.refuse_unused(excitation_keys(e.kind),
@@ -82,26 +151,56 @@ ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
                 keys.refuse(key, "is not used by study.kind = \"surface\"",
                             "Remove it: frequency and PGA come from the axes of [surface].");
     }
-    switch (e.kind) {
-    case ExcitationKind::none:
+    if (e.kind == ExcitationKind::none) {
         e.duration_s = keys.number("duration_s", duration_range);
         return e;
-    case ExcitationKind::record:
-        read_record(keys, in_surface, e);
-        break;
-    case ExcitationKind::harmonic:
+    }
+    if (e.kind != ExcitationKind::record && !in_surface) {
+        if (e.kind != ExcitationKind::sweep)
+            e.frequency_hz =
+                keys.number("frequency_hz", e.kind == ExcitationKind::noise ? noise_frequency_range : frequency_range);
+        e.pga_m_s2 = keys.number("pga_m_s2", acceleration_range);
+    }
+    switch (e.kind) {
+    case ExcitationKind::none:
     case ExcitationKind::half_sine:
     case ExcitationKind::full_sine:
-        if (!in_surface) {
-            e.frequency_hz = keys.number("frequency_hz", frequency_range);
-            e.pga_m_s2 = keys.number("pga_m_s2", acceleration_range);
-        }
-        if (e.kind == ExcitationKind::harmonic)
-            read_harmonic(keys, e);
+    case ExcitationKind::ricker:
+        break;
+    case ExcitationKind::harmonic:
+        read_harmonic(keys, e);
+        break;
+    case ExcitationKind::pulse:
+        e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
+        e.gamma = keys.number_or("gamma", gamma_range, e.gamma);
+        break;
+    case ExcitationKind::tapered:
+        read_tapered(keys, e);
+        break;
+    case ExcitationKind::sweep:
+        read_sweep(keys, e);
+        break;
+    case ExcitationKind::noise:
+        read_noise(keys, e);
+        break;
+    case ExcitationKind::record:
+        read_record(keys, in_surface, e);
         break;
     }
     e.tail_s = keys.maybe_number("tail_s", tail_range);
     return e;
+}
+
+void check_axes(const KeyReader& surface, const ExcitationSpec& excitation, const SurfaceSpec& axes)
+{
+    const Axis& frequency = axes.frequency_hz;
+    if (excitation.kind != ExcitationKind::noise ||
+        (noise_frequency_range.contains(frequency.from) && noise_frequency_range.contains(frequency.to)))
+        return;
+    surface.refuse(
+        "frequency_hz",
+        fmt::format("is outside {}, which excitation.kind = \"noise\" can have", noise_frequency_range.text()),
+        noise_frequency_range.hint);
 }
 
 } // namespace stylobate

@@ -10,4 +10,8 @@ namespace stylobate {
 /// @throws InputError naming the key
 ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface);
 
+/// What an excitation asks of the axes of a surface beyond what any axis may be.
+/// @param surface the table [surface]
+void check_axes(const KeyReader& surface, const ExcitationSpec& excitation, const SurfaceSpec& axes);
+
 } // namespace stylobate

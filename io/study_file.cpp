@@ -167,6 +167,7 @@ Study read_tree(const TomlValue& root)
         if (!top.has("surface"))
             top.missing("surface", "study.kind = \"surface\" needs the axes frequency_hz and pga_m_s2 in [surface].");
         study.surface = read_surface(top.table("surface"));
+        check_axes(top.table("surface"), study.excitation, *study.surface);
         if (study.total() > most_realizations)
             keys.refuse("realizations",
                         fmt::format("in each of {} cells is {} in all, more than {}", study.surface->cells(),

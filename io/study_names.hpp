@@ -23,9 +23,16 @@ inline constexpr std::array excitation_kind_names = {Name<ExcitationKind>{"none"
                                                      Name<ExcitationKind>{"harmonic", ExcitationKind::harmonic},
                                                      Name<ExcitationKind>{"half_sine", ExcitationKind::half_sine},
                                                      Name<ExcitationKind>{"full_sine", ExcitationKind::full_sine},
+                                                     Name<ExcitationKind>{"ricker", ExcitationKind::ricker},
+                                                     Name<ExcitationKind>{"pulse", ExcitationKind::pulse},
+                                                     Name<ExcitationKind>{"tapered", ExcitationKind::tapered},
+                                                     Name<ExcitationKind>{"sweep", ExcitationKind::sweep},
+                                                     Name<ExcitationKind>{"noise", ExcitationKind::noise},
                                                      Name<ExcitationKind>{"record", ExcitationKind::record}};
 inline constexpr std::array edge_names = {Name<HarmonicEdge>{"smooth", HarmonicEdge::smooth},
                                           Name<HarmonicEdge>{"abrupt", HarmonicEdge::abrupt}};
+inline constexpr std::array pga_of_names = {Name<PgaOf>{"realization", PgaOf::realization},
+                                            Name<PgaOf>{"mean", PgaOf::mean}};
 inline constexpr std::array damping_per_names = {Name<DampingPer>{"contact", DampingPer::contact},
                                                  Name<DampingPer>{"chord", DampingPer::chord}};
 inline constexpr std::array spacing_names = {Name<Spacing>{"linear", Spacing::linear},
@@ -64,8 +71,11 @@ constexpr const char* sd_key(Quantity quantity)
     case Quantity::tilt:
     case Quantity::phase:
         return "sd_rad";
+    case Quantity::pulse_frequency:
+        return "sd_hz";
     case Quantity::friction:
     case Quantity::damping_ratio:
+    case Quantity::pulse_gamma:
         break;
     }
     return "sd";

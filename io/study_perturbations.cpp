@@ -82,6 +82,10 @@ Rule rule_for(Quantity quantity, const Study& study, std::vector<double> nominal
         return {std::move(nominal), density_range, below(density_range, least), true, {block, structure}};
     case Quantity::tilt:
         return {std::move(nominal), tilt_range, below(tilt_range, tilt_range.high), false, {structure}};
+    case Quantity::pulse_frequency:
+        return {std::move(nominal), frequency_range, below(frequency_range, least), true, {structure}};
+    case Quantity::pulse_gamma:
+        return {std::move(nominal), gamma_range, below(gamma_range, least), true, {structure}};
     case Quantity::phase:
         break;
     }
@@ -214,6 +218,23 @@ Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& stu
     return p;
 }
 
+/// Refuses what the excitation has not.
+void check_used(const KeyReader& section, Quantity quantity, const Study& study)
+{
+    const ExcitationKind kind = study.excitation.kind;
+    const bool pulse = kind == ExcitationKind::pulse;
+    const bool phase = pulse || kind == ExcitationKind::harmonic || kind == ExcitationKind::tapered;
+    const auto unused = fmt::format("is not used by excitation.kind = \"{}\"", word_for(excitation_kind_names, kind));
+    if (quantity == Quantity::phase && !phase)
+        section.refuse(to_string(quantity), unused,
+                       "Remove it: only a harmonic, a tapered and a pulse excitation have a phase.");
+    if ((quantity == Quantity::pulse_frequency || quantity == Quantity::pulse_gamma) && !pulse)
+        section.refuse(to_string(quantity), unused, "Remove it, or give excitation.kind = \"pulse\".");
+    if (quantity == Quantity::pulse_frequency && study.surface)
+        section.refuse(to_string(quantity), "is not used by study.kind = \"surface\"",
+                       "Remove it: the frequency comes from the axis of [surface].");
+}
+
 } // namespace
 
 std::vector<Perturbation> read_perturbations(const KeyReader& section, const Study& study)
@@ -230,11 +251,7 @@ std::vector<Perturbation> read_perturbations(const KeyReader& section, const Stu
         if (!section.has(to_string(quantity)))
             continue;
         const KeyReader keys = section.table(to_string(quantity));
-        if (quantity == Quantity::phase && study.excitation.kind != ExcitationKind::harmonic)
-            section.refuse("phase",
-                           fmt::format("is not used by excitation.kind = \"{}\"",
-                                       word_for(excitation_kind_names, study.excitation.kind)),
-                           "Remove it: only a harmonic excitation has a phase.");
+        check_used(section, quantity, study);
         if (quantity == Quantity::damping_ratio &&
             (study.contact.normal_damping_n_s_m || study.contact.tangential_damping_n_s_m))
             section.refuse("damping_ratio", "is not used where [contact] gives a damping coefficient",

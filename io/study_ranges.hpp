@@ -23,6 +23,15 @@ inline const Range damping_range{0, 1e12, false, "Damping coefficients are in N 
 inline const Range friction_range{0, 10, true, "Stone on stone has about 0.4 to 0.8.", 0.01};
 inline const Range frequency_range{0.001, 1000, false, "Frequencies are in Hz.", 0};
 inline const Range acceleration_range{0, 10000, true, "Accelerations are in m/s2.", 0.01};
+inline const Range corner_range{0.01, 1000, false, "Frequencies are in Hz.", 0};
+inline const Range noise_frequency_range{0.05, 25, false, "The frequency of the ground, in Hz; firm soil has 2 to 3.",
+                                         0};
+inline const Range filter_damping_range{0.05, 0.95, false, "A part of the critical damping; 60 % is 0.6.", 0.01};
+inline const Range low_cut_ratio_range{0.01, 0.5, false, "The low cut's frequency as a part of the ground's.", 0};
+inline const Range rise_range{0, 60, true, "Times are in seconds.", 1e-3};
+inline const Range strong_range{0, 300, false, "Times are in seconds.", 1e-3};
+inline const Range gamma_range{1, 20, false, "The cycles under a pulse's bell; near faults mostly 1 to 3.", 0};
+inline const Range taper_range{1, 5000, false, "A shorter one is a jerk, not a start.", 0};
 inline const Range cycles_range{0, 10000, true, "", 0};
 inline const Range duration_range{0, 10000, true, "Times are in seconds.", 0};
 inline const Range tail_range{0, 10000, false, "Times are in seconds.", 0};

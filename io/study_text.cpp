@@ -4,6 +4,8 @@
 #include "io/study_names.hpp"
 #include "io/toml_document.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -176,6 +178,7 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
         out.number("duration_s", excitation.duration_s);
         return;
     }
+    const auto is = [&](ExcitationKind kind) { return excitation.kind == kind; };
     if (excitation.kind == ExcitationKind::record) {
         out.word("file", excitation.file);
         if (!excitation.component.empty())
@@ -188,16 +191,40 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
             out.number("time_scale", excitation.time_scale);
         }
         out.boolean("baseline", excitation.baseline);
+        if (excitation.band_pass)
+            out.line("band_pass_hz", fmt::format("[{}, {}]", toml_number(excitation.band_pass->low_hz),
+                                                 toml_number(excitation.band_pass->high_hz)));
     } else if (!in_surface) {
-        out.number("frequency_hz", excitation.frequency_hz);
+        if (!is(ExcitationKind::sweep))
+            out.number("frequency_hz", excitation.frequency_hz);
         out.number("pga_m_s2", excitation.pga_m_s2);
     }
-    if (excitation.kind == ExcitationKind::harmonic) {
+    if (is(ExcitationKind::harmonic)) {
         out.word("start", word_for(edge_names, excitation.start));
         out.word("end", word_for(edge_names, excitation.end));
+    }
+    if (is(ExcitationKind::sweep)) {
+        out.number("from_hz", excitation.from_hz);
+        out.number("to_hz", excitation.to_hz);
+        out.word("spacing", word_for(spacing_names, excitation.spacing));
+        out.number("duration_s", excitation.duration_s);
+    }
+    if (is(ExcitationKind::harmonic) || is(ExcitationKind::tapered) || is(ExcitationKind::sweep))
         out.number("ramp_cycles", excitation.ramp_cycles);
+    if (is(ExcitationKind::harmonic) || is(ExcitationKind::tapered))
         out.number("cycles", excitation.cycles);
+    if (is(ExcitationKind::harmonic) || is(ExcitationKind::tapered) || is(ExcitationKind::pulse))
         out.number("phase_rad", excitation.phase_rad);
+    if (is(ExcitationKind::pulse))
+        out.number("gamma", excitation.gamma);
+    if (is(ExcitationKind::noise)) {
+        out.word("pga_of", word_for(pga_of_names, excitation.pga_of));
+        out.number("ground_damping_ratio", excitation.ground_damping_ratio);
+        out.number("low_cut_ratio", excitation.low_cut_ratio);
+        out.number("low_cut_damping_ratio", excitation.low_cut_damping_ratio);
+        out.number("rise_s", excitation.rise_s);
+        out.number("strong_s", excitation.strong_s);
+        out.number("decay_s", excitation.decay_s);
     }
     out.number("tail_s", excitation.tail_s);
 }

@@ -31,7 +31,8 @@ LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move
     text_ = study_->text;
     const ExcitationSpec& excitation = study_->excitation;
     if (excitation.kind == ExcitationKind::record) {
-        motion_ = make_motion(read_record(excitation.file, excitation.component, excitation.unit), excitation.baseline);
+        motion_ = make_motion(read_record(excitation.file, excitation.component, excitation.unit), excitation.baseline,
+                              excitation.band_pass);
         text_ += fingerprint(*motion_);
     }
     sampler_ = std::make_unique<Sampler>(*study_, record());

@@ -176,6 +176,114 @@ TEST(StudyFile, ReadsTheOtherKindsOfExcitation)
     EXPECT_FALSE(record.baseline);
 }
 
+TEST(StudyFile, ReadsTheSyntheticExcitations)
+{
+    const std::string at = "frequency_hz = 2\npga_m_s2 = 3\n";
+    const auto e = [&](const std::string& text) { return read(single_lines(text)).excitation; };
+    EXPECT_EQ(e("kind = \"ricker\"\n" + at).kind, ExcitationKind::ricker);
+
+    const auto pulse = e("kind = \"pulse\"\n" + at + "gamma = 1.7\nphase_rad = 1.2");
+    EXPECT_EQ(pulse.kind, ExcitationKind::pulse);
+    EXPECT_EQ(pulse.frequency_hz, 2);
+    EXPECT_EQ(pulse.pga_m_s2, 3);
+    EXPECT_EQ(pulse.gamma, 1.7);
+    EXPECT_EQ(pulse.phase_rad, 1.2);
+    EXPECT_EQ(e("kind = \"pulse\"\n" + at).gamma, 2);
+
+    const auto tapered = e("kind = \"tapered\"\n" + at + "ramp_cycles = 1.5\ncycles = 3");
+    EXPECT_EQ(tapered.kind, ExcitationKind::tapered);
+    EXPECT_EQ(tapered.ramp_cycles, 1.5);
+    EXPECT_EQ(tapered.cycles, 3);
+
+    const auto sweep =
+        e("kind = \"sweep\"\nfrom_hz = 1\nto_hz = 16\nduration_s = 30\npga_m_s2 = 3\nspacing = \"linear\"");
+    EXPECT_EQ(sweep.from_hz, 1);
+    EXPECT_EQ(sweep.to_hz, 16);
+    EXPECT_EQ(sweep.duration_s, 30);
+    EXPECT_EQ(sweep.spacing, Spacing::linear);
+    EXPECT_EQ(sweep.central_frequency_hz(), 4);
+
+    const auto noise = e("kind = \"noise\"\n" + at +
+                         "pga_of = \"mean\"\nground_damping_ratio = 0.4\nlow_cut_ratio = 0.2\n"
+                         "low_cut_damping_ratio = 0.5\nrise_s = 1\nstrong_s = 0\ndecay_s = 2");
+    EXPECT_EQ(noise.pga_of, PgaOf::mean);
+    EXPECT_EQ(noise.ground_damping_ratio, 0.4);
+    EXPECT_EQ(noise.low_cut_ratio, 0.2);
+    EXPECT_EQ(noise.low_cut_damping_ratio, 0.5);
+    EXPECT_EQ(noise.rise_s, 1);
+    EXPECT_EQ(noise.strong_s, 0);
+    EXPECT_EQ(noise.decay_s, 2);
+    EXPECT_EQ(e("kind = \"noise\"\n" + at).pga_of, PgaOf::realization);
+
+    const auto record = e("kind = \"record\"\nfile = \"a\"\nband_pass_hz = [0.1, 25]");
+    ASSERT_TRUE(record.band_pass);
+    EXPECT_EQ(record.band_pass->low_hz, 0.1);
+    EXPECT_EQ(record.band_pass->high_hz, 25);
+    EXPECT_FALSE(e("kind = \"record\"\nfile = \"a\"").band_pass);
+    EXPECT_EQ(read(single_lines("kind = \"record\"\nfile = \"a\""), {"excitation.band_pass_hz=[0.2, 30.5]"})
+                  .excitation.band_pass->high_hz,
+              30.5);
+}
+
+TEST(StudyFile, RefusesSyntheticExcitationsThatMakeNoSense)
+{
+    const auto refused = [](const std::string& excitation, int line, const std::vector<std::string>& words) {
+        expect_refused(joined(single_lines(excitation)), "temple.toml:" + std::to_string(14 + line), words);
+    };
+    const std::string at = "frequency_hz = 2\npga_m_s2 = 3\n"; // lines 2 and 3
+    const std::string pulse = "kind = \"pulse\"\n" + at, tapered = "kind = \"tapered\"\n" + at,
+                      noise = "kind = \"noise\"\n" + at, record = "kind = \"record\"\nfile = \"a\"\n",
+                      sweep = "kind = \"sweep\"\npga_m_s2 = 3\n";
+    refused("kind = \"ricker\"\npga_m_s2 = 3", 0, {"excitation.frequency_hz is missing"});
+    refused("kind = \"ricker\"\n" + at + "cycles = 3", 4, {"not used by excitation.kind = \"ricker\""});
+    refused(pulse + "gamma = 0.5", 4, {"excitation.gamma = 0.5 is outside [1, 20]", "bell"});
+    refused(pulse + "gama = 2", 4, {"unknown key excitation.gama", "Did you mean gamma?"});
+    refused(tapered + "ramp_cycles = 0.5", 4, {"outside [1, 5000]", "jerk"});
+    refused(tapered + "cycles = 3", 4, {"two ramps of 2 cycles each in 3 cycles", "shorter ramps."});
+    refused(tapered + "start = \"smooth\"", 4, {"not used by excitation.kind = \"tapered\""});
+    refused(sweep + "from_hz = 1\nduration_s = 9", 0, {"excitation.to_hz is missing"});
+    refused(sweep + "from_hz = 2\nto_hz = 2\nduration_s = 9", 4, {"is from_hz too", "harmonic"});
+    refused(sweep + "from_hz = 1\nto_hz = 2\nduration_s = 2", 5, {"does not fit", "longer duration_s"});
+    refused(sweep + "from_hz = 100\nto_hz = 900\nduration_s = 100", 5, {"cycles, more than 10000"});
+    refused(sweep + "frequency_hz = 1", 3, {"not used by excitation.kind = \"sweep\"", "from_hz"});
+    refused("kind = \"noise\"\nfrequency_hz = 40\npga_m_s2 = 1", 2, {"outside [0.05, 25]", "ground"});
+    refused(noise + "ground_damping_ratio = 60", 4, {"outside [0.05, 0.95]", "Did you mean 0.600?"});
+    refused(noise + "rise_s = 0", 4, {"outside (0, 60]"});
+    refused(noise + "pga_of = \"median\"", 4, {"\"realization\", \"mean\""});
+    refused(noise + "phase_rad = 1", 4, {"not used by excitation.kind = \"noise\""});
+    refused(record + "band_pass_hz = 0.1", 3, {"is not two numbers in brackets", "[LOW, HIGH]"});
+    refused(record + "band_pass_hz = [0.1]", 3, {"is not two numbers in brackets"});
+    refused(record + "band_pass_hz = [0.1, \"x\"]", 3, {"has \"x\" in it, which is a string, not a number"});
+    refused(record + "band_pass_hz = [0, 20]", 3, {"has 0 in it, which is outside [0.01, 1000]"});
+    refused(record + "band_pass_hz = [20, 0.1]", 3, {"has 20 before 0.1", "the smaller one first"});
+    refused(record + "band_pass_hz = [0.1, 20]\nbaseline = false", 3, {"excitation.baseline = false"});
+
+    auto lines = surface_lines();
+    lines[15] = "kind = \"noise\"";
+    lines[16] = "frequency_hz = 2";
+    expect_refused(joined(lines), "temple.toml:16", {"[surface]"});
+    lines[16] = "";
+    lines[18] = "frequency_hz = { from = 0.5, to = 80, count = 5 }";
+    expect_refused(joined(lines), "temple.toml:18", {"surface.frequency_hz", "outside [0.05, 25]", "noise"});
+
+    lines = surface_lines();
+    lines[21] = "pulse_gamma = { distribution = \"uniform\", from = 1, to = 3 }";
+    expect_refused(joined(lines), "temple.toml:21", {"perturbation.pulse_gamma", "\"harmonic\"", "\"pulse\""});
+    lines[15] = "kind = \"pulse\"";
+    lines[16] = "";
+    EXPECT_EQ(read(lines).perturbations.at(0).quantity, Quantity::pulse_gamma);
+    lines[21] = "pulse_frequency = { distribution = \"lognormal\", sigma_ln = 0.2 }";
+    expect_refused(joined(lines), "temple.toml:21", {"perturbation.pulse_frequency", "axis"});
+    auto single = single_lines("kind = \"pulse\"\nfrequency_hz = 2\npga_m_s2 = 3");
+    single[21] = "pulse_gamma = { distribution = \"normal\", sd = 0.5 }";
+    expect_refused(joined(single), "temple.toml:23", {"perturbation.pulse_gamma.min is missing"});
+    single[21] = "pulse_frequency = { distribution = \"normal\", sd_hz = 0.1 }";
+    EXPECT_EQ(read(single).perturbations.at(0).sd, 0.1);
+    single[15] = "kind = \"tapered\"\nfrequency_hz = 2\npga_m_s2 = 3";
+    single[21] = "phase = { distribution = \"uniform\" }";
+    EXPECT_EQ(read(single).perturbations.at(0).quantity, Quantity::phase);
+}
+
 TEST(StudyFile, ReadsEveryPerturbation)
 {
     auto lines = surface_lines();
@@ -313,7 +421,7 @@ TEST(StudyFile, RefusesWordsThatAreNotAllowed)
     expect_line_refused(2, "kind = \"Surface\"", {"Did you mean \"surface\"?"});
     expect_line_refused(5, "kind = \"colonade\"\nblocks = 7",
                         {"structure.kind = \"colonade\"", "\"column\"", "Did you mean \"colonnade\"?"});
-    expect_line_refused(15, "kind = \"ricker\"", {"excitation.kind", "\"half_sine\"", "\"record\""});
+    expect_line_refused(15, "kind = \"earthquake\"", {"excitation.kind", "\"half_sine\"", "\"record\""});
     expect_line_refused(15, "kind = \"harmonc\"", {"Did you mean \"harmonic\"?"});
     expect_line_refused(16, "start = \"smoth\"", {"excitation.start", "Did you mean \"smooth\"?"});
     expect_line_refused(13, "form = \"two_corner\"", {"contact.form", "Allowed: \"area\"."});
@@ -522,6 +630,13 @@ TEST(StudyFile, TheStudiesOfTheProjectAreRead)
     EXPECT_EQ(record.excitation.file, "quake.at2");
     EXPECT_EQ(record.surface->cells(), 36);
     EXPECT_THROW(read_study(inputs / "record.toml"), InputError);
+
+    const auto pulse = read_study(inputs / "near_fault_pulse.toml");
+    EXPECT_EQ(pulse.excitation.kind, ExcitationKind::pulse);
+    EXPECT_EQ(pulse.perturbations.back().quantity, Quantity::pulse_gamma);
+    const auto noise = read_study(inputs / "synthetic_earthquake.toml");
+    EXPECT_EQ(noise.excitation.kind, ExcitationKind::noise);
+    EXPECT_EQ(noise.total(), 36u * 32u);
 
     const auto rocking = read_study(inputs / "free_rocking.toml");
     EXPECT_EQ(rocking.excitation.kind, ExcitationKind::none);

@@ -66,7 +66,13 @@ std::vector<Study> all_sorts()
     for (const std::string excitation :
          {"kind = \"harmonic\"\nfrequency_hz = 0.1\npga_m_s2 = 0.3\nphase_rad = -0.0\nend = \"abrupt\"",
           "kind = \"full_sine\"\nfrequency_hz = 0.7\npga_m_s2 = 3.3\ntail_s = 1.5",
-          "kind = \"record\"\nfile = 'C:\\quakes\\\"a\".at2'\nunit = \"g\"\ncomponent = \"NS\"\ntime_scale = 1.1"})
+          "kind = \"record\"\nfile = 'C:\\quakes\\\"a\".at2'\nunit = \"g\"\ncomponent = \"NS\"\ntime_scale = 1.1",
+          "kind = \"record\"\nfile = \"a\"\nband_pass_hz = [0.1, 25]",
+          "kind = \"ricker\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3",
+          "kind = \"pulse\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3\ngamma = 1.1\nphase_rad = 0.3",
+          "kind = \"tapered\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3\nramp_cycles = 1.1\ncycles = 9.9",
+          "kind = \"sweep\"\nfrom_hz = 0.3\nto_hz = 7.7\nduration_s = 41.3\npga_m_s2 = 3.3",
+          "kind = \"noise\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3\nrise_s = 0.7"})
         studies.push_back(single(excitation));
     studies.push_back(single(still, {"contact.normal_damping_n_s_m=0.1", "contact.tangential_damping_n_s_m=0",
                                      "run.step_s=1e-7", "contact.damping_per=chord"}));
@@ -238,6 +244,48 @@ TEST(StudyText, DiffersWhereverAColonnadeDoes)
                                  [](Study& s) { s.structure.epistyles[0].bed.normal_stiffness_n_m2 = 1e8; },
                                  [](Study& s) { s.structure.epistyles[0].bed.tangential_stiffness_n_m = 1e8; },
                              });
+}
+
+TEST(StudyText, DiffersWhereverAnExcitationDoes)
+{
+    const auto up = [](double& x) { x = std::nextafter(x, 1e300); };
+    const auto with = [](const std::string& kind) {
+        return single("kind = \"" + kind + "\"\nfrequency_hz = 0.7\npga_m_s2 = 3.3");
+    };
+    const Study pulse = with("pulse"), tapered = with("tapered"), noise = with("noise");
+    const Study sweep = single("kind = \"sweep\"\nfrom_hz = 0.3\nto_hz = 7.7\nduration_s = 41.3\npga_m_s2 = 3.3");
+    const Study record = single("kind = \"record\"\nfile = \"a\"\nband_pass_hz = [0.1, 25]");
+    const std::vector<std::pair<Study, std::function<void(ExcitationSpec&)>>> of_kinds = {
+        {pulse, [&](ExcitationSpec& e) { up(e.gamma); }},
+        {pulse, [&](ExcitationSpec& e) { up(e.phase_rad); }},
+        {pulse, [&](ExcitationSpec& e) { up(e.frequency_hz); }},
+        {pulse, [&](ExcitationSpec& e) { up(e.pga_m_s2); }},
+        {tapered, [&](ExcitationSpec& e) { up(e.ramp_cycles); }},
+        {tapered, [&](ExcitationSpec& e) { up(e.cycles); }},
+        {tapered, [&](ExcitationSpec& e) { up(e.phase_rad); }},
+        {sweep, [&](ExcitationSpec& e) { up(e.from_hz); }},
+        {sweep, [&](ExcitationSpec& e) { up(e.to_hz); }},
+        {sweep, [&](ExcitationSpec& e) { up(e.duration_s); }},
+        {sweep, [&](ExcitationSpec& e) { up(e.ramp_cycles); }},
+        {sweep, [&](ExcitationSpec& e) { up(e.pga_m_s2); }},
+        {sweep, [](ExcitationSpec& e) { e.spacing = Spacing::linear; }},
+        {noise, [](ExcitationSpec& e) { e.pga_of = PgaOf::mean; }},
+        {noise, [&](ExcitationSpec& e) { up(e.ground_damping_ratio); }},
+        {noise, [&](ExcitationSpec& e) { up(e.low_cut_ratio); }},
+        {noise, [&](ExcitationSpec& e) { up(e.low_cut_damping_ratio); }},
+        {noise, [&](ExcitationSpec& e) { up(e.rise_s); }},
+        {noise, [&](ExcitationSpec& e) { up(e.strong_s); }},
+        {noise, [&](ExcitationSpec& e) { up(e.decay_s); }},
+        {noise, [&](ExcitationSpec& e) { up(e.frequency_hz); }},
+        {record, [&](ExcitationSpec& e) { up(e.band_pass->low_hz); }},
+        {record, [&](ExcitationSpec& e) { up(e.band_pass->high_hz); }},
+        {record, [](ExcitationSpec& e) { e.band_pass.reset(); }},
+    };
+    for (std::size_t i = 0; i < of_kinds.size(); ++i) {
+        Study changed = of_kinds[i].first;
+        of_kinds[i].second(changed.excitation);
+        EXPECT_NE(study_text(changed), of_kinds[i].first.text) << "change of a kind " << i;
+    }
 }
 
 } // namespace

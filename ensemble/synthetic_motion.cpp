@@ -1,0 +1,92 @@
+#include "ensemble/synthetic_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace stylobate {
+
+template <class Shape>
+double peak_acceleration(const Shape& shape)
+{
+    constexpr double looks_per_cycle = 32, near = 0.98, golden = 0.6180339887498949;
+    const auto looks = static_cast<std::size_t>(std::ceil(looks_per_cycle * shape.duration_s() * shape.fastest_hz()));
+    const double d = shape.duration_s() / static_cast<double>(looks);
+    const auto size = [&](double t) { return std::fabs(shape.acceleration(t)); };
+    std::vector<double> seen(looks + 1);
+    for (std::size_t i = 0; i <= looks; ++i)
+        seen[i] = size(d * static_cast<double>(i));
+    const double largest_seen = *std::max_element(seen.begin(), seen.end());
+    double largest = largest_seen;
+    for (std::size_t i = 1; i < looks; ++i) {
+        if (seen[i] < near * largest_seen || seen[i] < seen[i - 1] || seen[i] < seen[i + 1])
+            continue;
+        double low = d * static_cast<double>(i - 1), high = d * static_cast<double>(i + 1);
+        while (high - low > 1e-7 * d) { // the square of which is far below rounding
+            const double a = high - golden * (high - low), b = low + golden * (high - low);
+            (size(a) < size(b) ? low : high) = size(a) < size(b) ? a : b;
+        }
+        largest = std::max(largest, size((low + high) / 2));
+    }
+    return largest;
+}
+
+template double peak_acceleration(const RickerWavelet&);
+template double peak_acceleration(const VelocityPulse&);
+template double peak_acceleration(const TaperedSine&);
+template double peak_acceleration(const SineSweep&);
+
+bool SyntheticMotion::covers(ExcitationKind kind)
+{
+    return kind == ExcitationKind::ricker || kind == ExcitationKind::pulse || kind == ExcitationKind::tapered ||
+           kind == ExcitationKind::sweep;
+}
+
+SyntheticMotion::Shape SyntheticMotion::shape_of(const ExcitationSpec& e, const Realization& r)
+{
+    const double phase_cycles = r.phase_rad / (2 * std::numbers::pi);
+    switch (e.kind) {
+    case ExcitationKind::ricker:
+        return RickerWavelet{r.frequency_hz};
+    case ExcitationKind::pulse:
+        return VelocityPulse{r.frequency_hz, phase_cycles, r.pulse_gamma};
+    case ExcitationKind::tapered:
+        return TaperedSine(r.frequency_hz, e.cycles, e.ramp_cycles, phase_cycles);
+    case ExcitationKind::sweep: {
+        // its time is stretched until its central frequency is the realization's
+        const double squeeze = r.frequency_hz / e.central_frequency_hz();
+        return SineSweep(e.from_hz * squeeze, e.to_hz * squeeze, e.spacing, e.duration_s / squeeze, e.ramp_cycles);
+    }
+    default:
+        throw std::invalid_argument("an excitation that is not in closed form on the host");
+    }
+}
+
+SyntheticMotion::SyntheticMotion(const ExcitationSpec& e, const Realization& r) : shape_(shape_of(e, r))
+{
+    scale_ = r.pga_m_s2 / std::visit([](const auto& shape) { return peak_acceleration(shape); }, shape_);
+}
+
+double SyntheticMotion::duration_s() const
+{
+    return std::visit([](const auto& shape) { return shape.duration_s(); }, shape_);
+}
+
+double SyntheticMotion::displacement_m(double time_s) const
+{
+    if (time_s <= 0)
+        return 0;
+    const double t = std::min(time_s, duration_s());
+    return scale_ * std::visit([t](const auto& shape) { return shape.displacement(t); }, shape_);
+}
+
+double SyntheticMotion::acceleration_m_s2(double time_s) const
+{
+    if (time_s <= 0 || time_s >= duration_s())
+        return 0;
+    return scale_ * std::visit([time_s](const auto& shape) { return shape.acceleration(time_s); }, shape_);
+}
+
+} // namespace stylobate

@@ -1,0 +1,38 @@
+#pragma once
+/// A base motion in closed form that the host evaluates: pulses and sines, scaled to a PGA.
+
+#include "ensemble/realization.hpp"
+#include "ensemble/study.hpp"
+#include "ensemble/synthetic_pulse.hpp"
+#include "ensemble/synthetic_sine.hpp"
+
+#include <variant>
+
+namespace stylobate {
+
+/// Starts at rest at t = 0 and is at rest from `duration_s()` on.
+class SyntheticMotion {
+public:
+    /// @pre `covers(excitation.kind)`
+    SyntheticMotion(const ExcitationSpec& excitation, const Realization& realization);
+
+    static bool covers(ExcitationKind kind);
+
+    double duration_s() const;
+    double displacement_m(double time_s) const;
+    double acceleration_m_s2(double time_s) const;
+
+private:
+    using Shape = std::variant<RickerWavelet, VelocityPulse, TaperedSine, SineSweep>;
+    static Shape shape_of(const ExcitationSpec& excitation, const Realization& realization);
+
+    Shape shape_;
+    double scale_ = 1;
+};
+
+/// Largest |acceleration| of a shape of unit amplitude, to 1e-12 of it: looked for at 32 times a cycle of its fastest
+/// component, and around every peak that comes near the largest one by bisection (golden section).
+template <class Shape>
+double peak_acceleration(const Shape& shape);
+
+} // namespace stylobate

@@ -1,0 +1,40 @@
+#pragma once
+/// Near-fault pulses in closed form: Ricker's wavelet, and the velocity pulse of Mavroeidis and Papageorgiou.
+///
+/// Each is for a unit amplitude and begins at t = 0; times outside [0, duration_s] are the caller's to hold back.
+/// The bits of the values are the same on every machine (`elementary.hpp`).
+
+namespace stylobate {
+
+/// Ricker (1953): a = (1 - 2 q) exp(-q), q = (pi f (t - t0))2, f the peak of its Fourier amplitude; |a| is largest at
+/// t0, where it is 1. Its displacement, u = -exp(-q) / (2 pi2 f2), comes back to zero, and so does its velocity.
+/// t0 = 2 / f and the motion lasts 4 / f: what is cut off at both ends is 7e-18 of the largest displacement.
+struct RickerWavelet {
+    double frequency_hz = 1;
+
+    double duration_s() const { return 4 / frequency_hz; }
+    double fastest_hz() const { return frequency_hz; }
+    double displacement(double t) const; ///< [m] for 1 m/s2
+    double acceleration(double t) const;
+};
+
+/// Mavroeidis and Papageorgiou, "A mathematical representation of near-fault ground motions" (2003), Eq. 3:
+///
+///   v = 1/2 [1 + cos(2 pi f s / gamma)] cos(2 pi f s + nu),   |s| <= gamma / (2 f),   s = t - gamma / (2 f)
+///
+/// f is the pulse's frequency, nu its phase, gamma >= 1 its oscillatory character: cycles under the bell. Velocity and
+/// acceleration are zero at both ends. The displacement ends at cos(nu) sin(pi gamma) / (2 pi f (1 - gamma2)), which
+/// is zero for nu = +-pi/2 and for whole gamma > 1 only: what remains is the fault's own (fling) and is kept. Nothing
+/// but the second difference drives a structure, so that it does no harm.
+struct VelocityPulse {
+    double frequency_hz = 1;
+    double phase_cycles = 0; ///< nu / 2 pi
+    double gamma = 1;
+
+    double duration_s() const { return gamma / frequency_hz; }
+    double fastest_hz() const { return frequency_hz * (1 + 1 / gamma); }
+    double displacement(double t) const; ///< [m] for a velocity of 1 m/s
+    double acceleration(double t) const;
+};
+
+} // namespace stylobate

@@ -1,0 +1,96 @@
+#pragma once
+/// Sines that come and go smoothly, in closed form: of one frequency, and swept from one to another.
+///
+/// Each is for a unit amplitude and begins at t = 0; times outside [0, duration_s] are the caller's to hold back.
+/// The bits of the values are the same on every machine (`elementary.hpp`).
+
+#include "ensemble/study.hpp"
+
+#include <array>
+
+namespace stylobate {
+
+/// The displacement of degree 5 that starts at rest from zero and has the given displacement, velocity and
+/// acceleration at the end of a motion. Subtracted from the motion it brings it to rest at zero, with the least that a
+/// polynomial over its whole duration can change of its acceleration at both ends: nothing.
+struct RestPolynomial {
+    double duration = 1;
+    std::array<double, 3> coefficients{}; ///< of x3, x4, x5 in x = t / duration
+
+    RestPolynomial() = default;
+    RestPolynomial(double duration, double displacement, double velocity, double acceleration);
+    double displacement(double t) const;
+    double acceleration(double t) const;
+};
+
+/// A harmonic whose *acceleration* is tapered:
+///
+///   a = w(c) sin(2 pi c + phase) - rest,   c = f t,   w = (1 - cos(pi c / ramp)) / 2 where it rises, and so where it
+///                                                      falls, 1 between
+///
+/// The kind `harmonic` tapers the displacement: it is at rest for free, but its acceleration overshoots in the ramp
+/// (1.7 % for two cycles, 59 % for half a one) and is no longer the plain amplitude. Here no peak of the ramp is above
+/// the plateau. The price is a drift, which `rest`, a polynomial of degree 5 in the displacement, takes out over the
+/// whole duration; the tests measure how small it is.
+struct TaperedSine {
+    /// @pre ramp_cycles >= 1 (a shorter ramp has a component of no or negative frequency), 2 ramps fit into cycles
+    TaperedSine(double frequency_hz, double cycles, double ramp_cycles, double phase_cycles);
+
+    double duration_s() const { return cycles_ / frequency_hz_; }
+    double fastest_hz() const { return frequency_hz_ * 1.5; }
+    double displacement(double t) const; ///< [m] for 1 m/s2
+    double acceleration(double t) const;
+    /// Its largest acceleration stands to the sine's as this to 1.
+    const RestPolynomial& rest() const { return rest_; }
+
+private:
+    struct Term {
+        double amplitude, rate, phase; ///< amplitude sin(2 pi (rate c + phase))
+    };
+    struct Segment {
+        double start = 0; ///< in cycles, as all of it
+        double velocity = 0, displacement = 0;
+        std::array<Term, 3> terms{};
+    };
+    static double slope_part(const Segment& segment, double c);
+    static double value_part(const Segment& segment, double c);
+    const Segment& at(double c) const;
+    static double moved(const Segment& segment, double c);
+
+    double frequency_hz_, cycles_, ramp_, phase_;
+    std::array<Segment, 3> segments_; ///< up, plateau, down
+    RestPolynomial rest_;             ///< in cycles
+};
+
+/// A sine sweep of nearly constant acceleration:
+///
+///   U = s(phi / ramp) s((phi_end - phi) / ramp) sin(2 pi phi) / (2 pi f)2,   phi = integral of f dt,  s = 10x3 - 15x4
+///   + 6x5
+///
+/// with f going from `from_hz` to `to_hz` linearly or as an exponential (equal times for equal ratios). It is the
+/// displacement that is given, so that the motion is at rest at both ends exactly. Its acceleration overshoots in the
+/// ramps as that of `harmonic` does (1.7 % for two cycles); on the plateau its amplitude differs from 1 in the second
+/// order of f' / f2 (less than 1 % in a sweep over four octaves in a minute, which the tests look at).
+struct SineSweep {
+    SineSweep(double from_hz, double to_hz, Spacing spacing, double duration_s, double ramp_cycles);
+
+    double duration_s() const { return duration_; }
+    double fastest_hz() const { return from_ < to_ ? to_ : from_; }
+    /// The whole sweep, in cycles.
+    double cycles() const { return cycles_; }
+    double displacement(double t) const; ///< [m] for 1 m/s2
+    double acceleration(double t) const;
+
+private:
+    struct Instant {
+        double cycles, frequency, slope, bend; ///< phi, f, f', f''
+    };
+    Instant at(double t) const;
+
+    double from_, to_, duration_, ramp_;
+    double rate_;  ///< logarithmic: ln(to / from) / duration; linear: 0
+    double slope_; ///< linear: f'
+    double cycles_;
+};
+
+} // namespace stylobate
