@@ -68,6 +68,21 @@ double number(const RecordText& text, std::size_t i, std::string_view token);
 /// @throws InputError
 void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t last, bool commas);
 
+/// `count` numbers in columns of `width` characters, `per_line` to a line, as Fortran writes them: they may touch.
+/// Each line is full but the last, and nothing but blanks follows. They end in line
+/// first_line + (count + per_line - 1) / per_line, that one not included.
+/// @throws InputError, naming the line, if a value is missing, cut, or no number, or if the file ends too early
+/// @pre width, per_line > 0
+std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
+                                        int per_line);
+
+/// `count` numbers between blanks, any number of them to a line, empty lines skipped; the last of them ends its line.
+/// @param[out] next_line (may be null) the line below the last of them
+/// @throws InputError, naming the line, if one is no number, if the file ends too early or inside its last number, or
+///         if the line of the last one goes on
+std::vector<double> read_numbers(const RecordText& text, std::size_t first_line, std::size_t count,
+                                 std::size_t* next_line = nullptr);
+
 /// @throws InputError, naming line `i`, if dt is outside [shortest_dt_s, longest_dt_s]
 void check_dt(const RecordText& text, std::size_t i, double dt_s);
 

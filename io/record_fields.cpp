@@ -1,0 +1,80 @@
+/// The two layouts in which samples stand below a header: columns of a fixed width, and numbers between blanks.
+
+#include "io/record_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stylobate {
+
+namespace {
+
+[[noreturn]] void refuse_end(const RecordText& text, std::size_t first_line, std::size_t found, std::size_t count)
+{
+    text.refuse(std::min(first_line, text.lines.size() - 1),
+                fmt::format("{} values should stand from here on and the file ends after {}: it is truncated, or its "
+                            "header is wrong. Get the whole file.",
+                            count, found));
+}
+
+} // namespace
+
+std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
+                                        int per_line)
+{
+    const auto w = static_cast<std::size_t>(width);
+    std::vector<double> values;
+    for (std::size_t i = first_line; values.size() < count; ++i) {
+        if (i >= text.lines.size())
+            refuse_end(text, first_line, values.size(), count);
+        const std::string_view line = text.lines[i];
+        const std::size_t fields = std::min(static_cast<std::size_t>(per_line), count - values.size());
+        for (std::size_t k = 0; k < fields; ++k) {
+            const std::string_view field = line.substr(std::min(k * w, line.size()), w);
+            const std::string_view token = trimmed(field);
+            // the last row of a cut file; elsewhere a short row has lost values
+            const bool cut = i + 1 == text.lines.size() && !text.ended && field.size() < w;
+            if (cut)
+                refuse_end(text, first_line, values.size(), count);
+            if (token.empty() || field.size() < w)
+                text.refuse(i, fmt::format("value {} of the {} in this line is {}, in columns {} to {}: the line is "
+                                           "damaged.",
+                                           k + 1, fields, token.empty() ? "missing" : "cut", k * w + 1, (k + 1) * w));
+            values.push_back(number(text, i, token));
+        }
+        if (const std::string_view rest = trimmed(line.substr(std::min(fields * w, line.size()))); !rest.empty())
+            text.refuse(i, fmt::format("\"{}\" follows after the {} values of {} columns that this line should have: "
+                                       "the count in the header is wrong, or the file is damaged.",
+                                       rest.substr(0, 40), fields, width));
+    }
+    return values;
+}
+
+std::vector<double> read_numbers(const RecordText& text, std::size_t first_line, std::size_t count,
+                                 std::size_t* next_line)
+{
+    std::vector<double> values;
+    std::size_t i = first_line, last = first_line;
+    for (; values.size() < count; ++i) {
+        if (i >= text.lines.size())
+            refuse_end(text, first_line, values.size(), count);
+        if (trimmed(text.lines[i]).empty())
+            continue;
+        const auto parts = parts_of(text.lines[i], false);
+        for (const std::string_view token : parts)
+            values.push_back(number(text, i, token));
+        last = i;
+    }
+    if (values.size() > count)
+        text.refuse(i - 1, fmt::format("this line goes {} beyond the {} values that should stand from line {} on: the "
+                                       "count in the header is wrong, or the file is damaged.",
+                                       values.size() - count, count, first_line + 1));
+    if (count > 0)
+        refuse_cut_number(text, first_line, last, false);
+    if (next_line)
+        *next_line = i;
+    return values;
+}
+
+} // namespace stylobate
