@@ -1,10 +1,13 @@
-/// The two layouts in which samples stand below a header: columns of a fixed width, and numbers between blanks.
+/// What the headers of agencies share, and the two layouts in which samples stand below them: columns of a fixed
+/// width, and numbers between blanks.
 
 #include "io/record_parser.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
 namespace stylobate {
 
@@ -20,15 +23,52 @@ namespace {
 
 } // namespace
 
-std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
-                                        int per_line)
+std::size_t find_line(const RecordText& text, std::size_t first, std::size_t last, std::string_view phrase)
 {
-    const auto w = static_cast<std::size_t>(width);
+    last = std::min(last, text.lines.size());
+    for (std::size_t i = first; i < last; ++i)
+        if (lower_case(squeezed(text.lines[i])).find(phrase) != std::string::npos)
+            return i;
+    return last;
+}
+
+std::string word_after(std::string_view line, std::string_view key)
+{
+    const std::string words = squeezed(line);
+    std::size_t at = lower_case(words).find(key);
+    if (at == std::string::npos)
+        return {};
+    at = words.find_first_not_of(" =:", at + key.size());
+    return at == std::string::npos ? std::string() : words.substr(at, words.find_first_of(" ,;", at) - at);
+}
+
+std::size_t sample_count(const RecordText& text, std::size_t i, std::string_view token)
+{
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), count);
+    if (error != std::errc() || end != token.data() + token.size() || count < 2)
+        text.refuse(i, fmt::format("the number of samples, \"{}\", must be a whole number of at least 2.", token));
+    return count;
+}
+
+void refuse_more(const RecordText& text, std::size_t i)
+{
+    for (; i < text.lines.size(); ++i)
+        if (!trimmed(text.lines[i]).empty())
+            text.refuse(i, fmt::format("\"{}\" follows after all values that the header counts: the count is wrong, or "
+                                       "the file is damaged.",
+                                       trimmed(text.lines[i]).substr(0, 40)));
+}
+
+std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
+                                        int per_line, int indent)
+{
+    const auto w = static_cast<std::size_t>(width), skipped = static_cast<std::size_t>(indent);
     std::vector<double> values;
     for (std::size_t i = first_line; values.size() < count; ++i) {
         if (i >= text.lines.size())
             refuse_end(text, first_line, values.size(), count);
-        const std::string_view line = text.lines[i];
+        const std::string_view line = text.lines[i].substr(std::min(skipped, text.lines[i].size()));
         const std::size_t fields = std::min(static_cast<std::size_t>(per_line), count - values.size());
         for (std::size_t k = 0; k < fields; ++k) {
             const std::string_view field = line.substr(std::min(k * w, line.size()), w);
@@ -40,7 +80,8 @@ std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t firs
             if (token.empty() || field.size() < w)
                 text.refuse(i, fmt::format("value {} of the {} in this line is {}, in columns {} to {}: the line is "
                                            "damaged.",
-                                           k + 1, fields, token.empty() ? "missing" : "cut", k * w + 1, (k + 1) * w));
+                                           k + 1, fields, token.empty() ? "missing" : "cut", skipped + k * w + 1,
+                                           skipped + (k + 1) * w));
             values.push_back(number(text, i, token));
         }
         if (const std::string_view rest = trimmed(line.substr(std::min(fields * w, line.size()))); !rest.empty())
