@@ -15,10 +15,12 @@ namespace {
 
 TEST_F(RecordFiles, At2InEverySpellingAndLineEnd)
 {
-    for (const std::string size : {"NPTS=    23, DT=   .0100 SEC,            ", "NPTS=   23  DT=   .0100 SEC,     ",
-                                   "NPTS=   23  DT=   .0100 SEC", "NPTS=  23, DT= .01000 SEC",
-                                   "NPTS=   23  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000",
-                                   "npts = 23, dt = 1.0E-02 sec", "    23    .0100    NPTS, DT"})
+    for (const std::string size :
+         {"NPTS=    23, DT=   .0100 SEC,            ", "NPTS=   23  DT=   .0100 SEC,     ",
+          "NPTS=   23  DT=   .0100 SEC", "NPTS=  23, DT= .01000 SEC",
+          "NPTS=   23  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000",
+          "npts = 23, dt = 1.0E-02 sec", "    23    .0100    NPTS, DT", "  .0100    23    DT, NPTS",
+          "DT=   .0100 SEC, NPTS=    23", "NPTS: 23, DT: .01", "NPTS 23 , DT .0100SEC", "NPTS=23,DT=.01s,AMAX=.05"})
         for (const std::string end : {"\n", "\r\n", "\r\r\n", "\r"})
             for (const int per_line : {5, 8}) {
                 SCOPED_TRACE(fmt::format("'{}', end of {} characters, {} to a line", size, end.size(), per_line));
@@ -28,6 +30,9 @@ TEST_F(RecordFiles, At2InEverySpellingAndLineEnd)
                 EXPECT_EQ(r.format, "peer-at2");
                 EXPECT_EQ(r.unit, "g");
                 EXPECT_EQ(r.component, "180");
+                EXPECT_EQ(r.orientation, "180");
+                EXPECT_EQ(r.station, "El Centro Array #9");
+                EXPECT_FALSE(r.header_pga_m_s2);
                 EXPECT_EQ(r.title, "Imperial Valley-02, 5/19/1940, El Centro Array #9, 180");
             }
 }
@@ -93,6 +98,20 @@ TEST_F(RecordFiles, At2SamplingIntervalIsChecked)
     expect_says(refusal(at2("NPTS= 23, DT= nan SEC", 23)), {"record.txt:4:", "not finite"});
     expect_says(refusal(at2("NPTS= 23", 23)), {"record.txt:4:", "DT is missing"});
     expect_says(refusal(replaced(at2(), "NPTS", "NPQS")), {"no line like", "NPTS"});
+}
+
+TEST_F(RecordFiles, At2OfVelocityOrDisplacementIsRefused)
+{
+    const std::string line = "ACCELERATION TIME SERIES IN UNITS OF G";
+    for (const auto& [words, series] : {std::pair{"VELOCITY TIME SERIES IN UNITS OF CM/S", "velocity"},
+                                        {"VELOCITY TIME HISTORY IN UNITS OF CM/SEC", "velocity"},
+                                        {"Velocity  time history", "velocity"}, // whatever unit is given
+                                        {"VELOCITY IN UNITS OF G", "velocity"},
+                                        {"DISPLACEMENT TIME SERIES IN UNITS OF CM", "displacement"}})
+        for (const char* unit : {"", "g"})
+            expect_says(refusal(replaced(at2(), line, words), unit),
+                        {"record.txt:3:", series, "is no acceleration", ".AT2"});
+    expect_says(refusal(replaced(at2(), line, "UNITS OF CM/S")), {"\"cm/s\" is not one of acceleration"});
 }
 
 TEST_F(RecordFiles, At2SaysItsUnit)
