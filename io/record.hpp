@@ -11,10 +11,10 @@
 
 namespace stylobate {
 
-/// One component as it stands in the file, converted to m/s2, nothing corrected.
+/// One component as it stands in the file, converted to m/s2, nothing corrected; what else was done is in the note.
 struct Record {
     std::string file;
-    std::string format;      ///< "peer-at2" or "columns"
+    std::string format;      ///< "peer-at2", "csmip", "columns" and so on, as the table of io/record.cpp has them
     std::string component;   ///< its name in the file, or "column 2"
     std::string title;       ///< event and station, as the file says
     std::string unit;        ///< the file's unit: "g", "g/10", "m/s2", "cm/s2", "mm/s2"
@@ -22,6 +22,7 @@ struct Record {
     std::string orientation; ///< as the file says: "N10W", "360", "UP", "HNE"; empty if it says none
     /// The largest |acceleration| that the file's own header states; none if it states none.
     std::optional<double> header_pga_m_s2;
+    std::string note; ///< what the reader had to do to the samples, for people; empty if nothing
     double dt_s = 0;
     std::vector<double> acceleration_m_s2;
 };

@@ -111,10 +111,17 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
         text.refuse(points,
                     fmt::format("the duration is said to be {} s and the last time is {} s.", duration_s, last_s));
 
-    long step_ms = 0;
-    for (std::size_t i = 1; i < count; ++i)
+    long step_ms = 0, longest_ms = 0;
+    for (std::size_t i = 1; i < count; ++i) {
         step_ms = std::gcd(step_ms, times_ms[i] - times_ms[i - 1]);
+        longest_ms = std::max(longest_ms, times_ms[i] - times_ms[i - 1]);
+    }
     record.dt_s = static_cast<double>(step_ms) * time_unit_s;
+    if (longest_ms > step_ms)
+        record.note =
+            fmt::format("{} uneven samples, up to {} ms apart, on an even grid of {} ms that has all of their "
+                        "times; straight lines between, the PGA is that of the samples",
+                        count, longest_ms, step_ms);
     const double factor = unit_m_s2(record.unit);
     for (std::size_t i = 0; i + 1 < count; ++i) {
         const long steps = (times_ms[i + 1] - times_ms[i]) / step_ms;
