@@ -3,6 +3,8 @@
 
 #include "record_files.hpp"
 
+#include "io/record_parser.hpp"
+
 #include <algorithm>
 #include <tuple>
 
@@ -36,6 +38,68 @@ void expect_no_part_is_taken(const std::string& content, std::size_t needed)
 std::string overwritten(std::string text, std::size_t at, const std::string& by)
 {
     return text.replace(at, by.size(), by);
+}
+
+// ---- what the readers share
+
+std::string message_of(const std::function<void()>& act)
+{
+    try {
+        act();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(RecordFields, FixedWidthNumbers)
+{
+    const RecordText text{"f", {"head", " 1.5-2.5 3.5", " 4.5", ""}, true};
+    EXPECT_EQ(fixed_width_numbers(text, 1, 4, 4, 3), (std::vector<double>{1.5, -2.5, 3.5, 4.5}));
+    EXPECT_EQ(fixed_width_numbers(text, 2, 1, 3, 3, 1), (std::vector<double>{4.5}));
+    EXPECT_EQ(fixed_width_numbers(text, 1, 0, 4, 3), std::vector<double>{});
+    const auto message = [&](const RecordText& t, std::size_t count) {
+        return message_of([&] { fixed_width_numbers(t, 1, count, 4, 3); });
+    };
+    EXPECT_EQ(message(text, 3), "");
+    expect_says(message(text, 2), {"f:2:", "\"3.5\" follows after the 2 values of 4 columns"});
+    expect_says(message(text, 5), {"f:3:", "value 2", "missing, in columns 5 to 8"});
+    expect_says(message({"f", {"head", " 1.5-2.5 3.5"}, true}, 4), {"f:2:", "4 values", "ends after 3", "truncated"});
+    // the last row of a file without a last line end is cut, and not damaged
+    expect_says(message({"f", {"head", " 1.5-2.5 3."}, false}, 3), {"f:2:", "3 values", "ends after 2", "truncated"});
+    expect_says(message({"f", {"head", " 1.5-2.5 3."}, true}, 3), {"f:2:", "value 3", "cut, in columns 9 to 12"});
+    EXPECT_EQ(message({"f", {"head", " 1.5-2.5 3.5"}, false}, 3), "");
+    expect_says(message({"f", {"head"}, true}, 1), {"f:1:", "1 values", "ends after 0"});
+}
+
+TEST(RecordFields, FreeNumbers)
+{
+    const RecordText text{"f", {"head", "1.5 -2.5", "", "\t3.5", "tail"}, true};
+    std::size_t next = 0;
+    EXPECT_EQ(read_numbers(text, 1, 3, &next), (std::vector<double>{1.5, -2.5, 3.5}));
+    EXPECT_EQ(next, 4u);
+    EXPECT_EQ(read_numbers(text, 1, 2), (std::vector<double>{1.5, -2.5}));
+    const auto message = [&](const RecordText& t, std::size_t count) {
+        return message_of([&] { read_numbers(t, 1, count); });
+    };
+    expect_says(message(text, 1), {"f:2:", "1 beyond the 1 values"});
+    expect_says(message(text, 4), {"f:5:", "\"tail\" is not a number"});
+    expect_says(message({"f", {"head", "1.5 2.5"}, true}, 3), {"f:2:", "3 values", "ends after 2", "truncated"});
+    expect_says(message({"f", {"head", "1.50 2.50", "1.50 2.5"}, false}, 4), {"f:3:", "inside its last number"});
+}
+
+TEST(RecordFields, HeaderWords)
+{
+    EXPECT_EQ(word_after("NO. OF  POINTS =   9472   DURATION", "no. of points"), "9472");
+    EXPECT_EQ(word_after("Peak: -1.5, at", "peak"), "-1.5");
+    EXPECT_EQ(word_after("Peak", "peak"), "");
+    EXPECT_EQ(word_after("nothing", "peak"), "");
+    const RecordText text{"f", {"a", "Peak  OF it", "c"}, true};
+    EXPECT_EQ(find_line(text, 0, 9, "peak of"), 1u);
+    EXPECT_EQ(find_line(text, 2, 9, "peak of"), 3u);
+    EXPECT_EQ(find_line(text, 0, 1, "peak of"), 1u); // the end: it is not in there
+    EXPECT_EQ(message_of([&] { refuse_more({"f", {"a", " ", "\t"}, true}, 1); }), "");
+    expect_says(message_of([&] { refuse_more(text, 2); }), {"f:3:", "\"c\" follows"});
 }
 
 TEST(RecordFormat, IsKnownByTheContentNotTheName)
@@ -199,7 +263,7 @@ TEST(Csmip, WhatIsNoAccelerationIsRefused)
 TEST(Csmip, FormatAndIntervalOfTheDataLineAreChecked)
 {
     const std::string text = csmip_v1_channel(1, "360 Deg", 23);
-    for (const char* format : {"(8x9.6)", "(f9.6)", "(8f.6)", "8f9.6", "(8f999.6)", "(0f9.6)", "(8f9", "()", ""})
+    for (const char* format : {"(8x9.6)", "(8f.6)", "(8f999.6)", "(0f9.6)", "()", ""})
         expect_says(message_for(replaced(text, "(8f9.6)", format)), {"record.txt:28:", "(8f9.6)"});
     expect_says(message_for(replaced(text, "Format: (8f9.6)", "")), {"record.txt:28:", "format", "missing"});
     EXPECT_NE(message_for(replaced(text, "(8f9.6)", "(9f8.6)")), "");
