@@ -38,17 +38,25 @@ const std::map<std::string, std::string> units = {{"text/CHV1-20140203E.txt", "c
                                                   {"text/Spitak.dat", "m/s2"},
                                                   {"text/sct190985.txt", "g"}};
 
-/// Files that may be refused as of no known format, and why. None other may.
+/// Files that may be refused as of no known format, and the format that they have: as long as it has no reader.
 const std::map<std::string, std::string> may_be_unknown = {
-    {"formats/20101114230825_3104_ap_RawAcc_E.asc", "ESM ASCII: no reader yet"},
-    {"formats/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC", "ESM ASCII: no reader yet"},
-    {"formats/HI.ARS1..HNN.D.20190728.160908.C.ACC.ASC", "ESM ASCII: no reader yet"},
-    {"formats/HL.DLFA..HNE.D.20190728.160908.C.ACC.ASC", "ESM ASCII: no reader yet"},
-    {"formats/20161113_110259_WTMC_20.V2A", "GeoNet: no reader yet"},
-    {"formats/AICH040010061330.EW2", "KiK-net: no reader yet"},
-    {"formats/CHB0021412312349.EW", "K-NET: no reader yet"},
-    {"formats/CUP50401.012", "UNAM: no reader yet"},
-    {"formats/us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c", "COSMOS: no reader yet"}};
+    {"formats/20101114230825_3104_ap_RawAcc_E.asc", "esm"},
+    {"formats/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC", "esm"},
+    {"formats/HI.ARS1..HNN.D.20190728.160908.C.ACC.ASC", "esm"},
+    {"formats/HL.DLFA..HNE.D.20190728.160908.C.ACC.ASC", "esm"},
+    {"formats/20161113_110259_WTMC_20.V2A", "geonet"},
+    {"formats/AICH040010061330.EW2", "knet"},
+    {"formats/CHB0021412312349.EW", "knet"},
+    {"formats/CUP50401.012", "unam"},
+    {"formats/us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c", "cosmos"}};
+
+/// Whether it is for want of a reader that the file is refused: the message lists the formats that have one.
+bool waits_for_its_reader(const std::string& file, const std::string& message)
+{
+    const auto format = may_be_unknown.find(file);
+    return format != may_be_unknown.end() && message.find("is of no known format (") != std::string::npos &&
+           message.find(", " + format->second + ",") == std::string::npos;
+}
 
 /// Files whose header states another peak than their samples have, and why that is the file's fault.
 const std::map<std::string, std::string> header_contradicts = {};
@@ -143,11 +151,10 @@ TEST(RecordData, EveryFileIsRead)
                 check(file, read_records(entry.path(), unit == units.end() ? "" : unit->second),
                       expected == want.end() ? std::vector<Expected>{} : expected->second);
             } catch (const InputError& error) {
-                if (std::string(error.what()).find("is of no known format") == std::string::npos ||
-                    !may_be_unknown.contains(file))
-                    ADD_FAILURE() << error.what();
+                if (waits_for_its_reader(file, error.what()))
+                    std::cout << "not read: " << file << ", of format " << may_be_unknown.at(file) << '\n';
                 else
-                    std::cout << "not read: " << file << " (" << may_be_unknown.at(file) << ")\n";
+                    ADD_FAILURE() << error.what();
             }
         }
     EXPECT_GE(seen.size(), 42u);
