@@ -18,9 +18,10 @@ namespace stylobate {
 namespace {
 
 /// Asked in this order; the columns, which any table of numbers is, come last.
-constexpr const RecordParser* parsers[] = {&at2_parser, &columns_parser};
+constexpr const RecordParser* parsers[] = {&at2_parser, &csmip_parser, &bhrc_parser,
+                                           &usc_parser, &smc_parser,   &columns_parser};
 
-constexpr const char* unit_choices = "\"m/s2\", \"cm/s2\" (or \"gal\"), \"mm/s2\" or \"g\"";
+constexpr const char* unit_choices = "\"m/s2\", \"cm/s2\" (or \"gal\"), \"mm/s2\", \"g\" or \"g/10\"";
 constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record
 
 std::string content_of(const std::filesystem::path& path)
@@ -80,13 +81,11 @@ RecordText lines_of(const std::string& file, std::string_view content)
     return text;
 }
 
-std::vector<Record> parse_file(const std::filesystem::path& path, const std::string& unit)
+std::vector<Record> parse(std::string_view content, const std::string& file, const std::string& unit)
 {
-    const std::string file = path.string();
     const std::string given = canonical_unit(unit);
     if (!unit.empty() && given.empty())
         throw InputError(file, 0, fmt::format("unit = \"{}\" is not known. It may be {}.", unit, unit_choices));
-    const std::string content = content_of(path);
     const RecordText text = lines_of(file, content);
     std::string formats;
     for (const RecordParser* parser : parsers) {
@@ -141,7 +140,10 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
 {
     std::string names;
     for (const Record& record : records)
-        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", record.component);
+        names += fmt::format("{}\"{}\"{}", names.empty() ? "" : ", ", record.component,
+                             record.orientation.empty() || record.orientation == record.component
+                                 ? ""
+                                 : " (" + record.orientation + ")");
     if (component.empty()) {
         if (records.size() == 1)
             return 0;
@@ -153,6 +155,9 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
     for (std::size_t i = 0; i < records.size(); ++i)
         if (lower_case(records[i].component) == wanted)
             return i;
+    const auto so_oriented = [&](const Record& record) { return lower_case(record.orientation) == wanted; };
+    if (std::count_if(records.begin(), records.end(), so_oriented) == 1)
+        return static_cast<std::size_t>(std::find_if(records.begin(), records.end(), so_oriented) - records.begin());
     // the first column of a table is the time, unless it is the only one
     if (const std::optional<int> column = column_number(wanted); column && records.front().format == "columns") {
         const int first = records.front().component == "column 1" ? 1 : 2;
@@ -179,6 +184,8 @@ double unit_m_s2(std::string_view unit)
 {
     if (unit == "g")
         return 9.80665;
+    if (unit == "g/10")
+        return 0.980665;
     if (unit == "m/s2")
         return 1;
     if (unit == "cm/s2")
@@ -192,6 +199,8 @@ std::string canonical_unit(std::string_view spelling)
     std::string word = lower_case(trimmed(spelling));
     if (word == "g" || word == "g's")
         return "g";
+    if (word == "g/10")
+        return "g/10";
     if (word == "gal" || word == "gals")
         return "cm/s2";
     for (const char* length : {"m", "cm", "mm"})
@@ -199,6 +208,19 @@ std::string canonical_unit(std::string_view spelling)
             if (word == std::string(length) + per)
                 return std::string(length) + "/s2";
     return {};
+}
+
+std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling, const std::string& given)
+{
+    const std::string unit = canonical_unit(spelling);
+    if (unit.empty())
+        text.refuse(
+            i, fmt::format("the unit \"{}\" is not one of acceleration: g, g/10, m/s2, cm/s2, gal, mm/s2.", spelling));
+    if (!given.empty() && given != unit)
+        text.refuse(i, fmt::format("the file says that its unit is {}, and the unit given is {}. Leave the unit out, "
+                                   "or correct it.",
+                                   unit, given));
+    return unit;
 }
 
 std::string_view trimmed(std::string_view text)
@@ -216,6 +238,14 @@ std::string lower_case(std::string_view text)
         if (c >= 'A' && c <= 'Z')
             c = static_cast<char>(c - 'A' + 'a');
     return lower;
+}
+
+std::string squeezed(std::string_view line)
+{
+    std::string words;
+    for (const std::string_view word : parts_of(line, false))
+        words += (words.empty() ? "" : " ") + std::string(word);
+    return words;
 }
 
 std::vector<std::string_view> parts_of(std::string_view line, bool commas)
@@ -331,17 +361,22 @@ void check_dt(const RecordText& text, std::size_t i, double dt_s)
                                    shortest_dt_s, longest_dt_s));
 }
 
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit)
+std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit)
 {
-    std::vector<Record> records = parse_file(file, unit);
+    std::vector<Record> records = parse(content, file, unit);
     for (const Record& record : records)
         check_pga(record);
     return records;
 }
 
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit)
+{
+    return read_records(content_of(file), file.string(), unit);
+}
+
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit)
 {
-    std::vector<Record> records = parse_file(file, unit);
+    std::vector<Record> records = parse(content_of(file), file.string(), unit);
     Record record = std::move(records[place_of(records, component)]);
     check_pga(record);
     return record;

@@ -4,18 +4,25 @@
 #include "ensemble/motion.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stylobate {
 
-/// One component as it stands in the file, converted to m/s2, nothing corrected.
+/// One component as it stands in the file, converted to m/s2, nothing corrected; what else was done is in the note.
 struct Record {
     std::string file;
-    std::string format;    ///< "peer-at2" or "columns"
-    std::string component; ///< its name in the file, or "column 2"
-    std::string title;     ///< event and station, as the file says
-    std::string unit;      ///< the file's unit: "g", "m/s2", "cm/s2", "mm/s2"
+    std::string format;      ///< "peer-at2", "csmip", "columns" and so on, as the table of io/record.cpp has them
+    std::string component;   ///< its name in the file, or "column 2"
+    std::string title;       ///< event and station, as the file says
+    std::string unit;        ///< the file's unit: "g", "g/10", "m/s2", "cm/s2", "mm/s2"
+    std::string station;     ///< as the file says: a name, a code or a number; empty if it says none
+    std::string orientation; ///< as the file says: "N10W", "360", "UP", "HNE"; empty if it says none
+    /// The largest |acceleration| that the file's own header states; none if it states none.
+    std::optional<double> header_pga_m_s2;
+    std::string note; ///< what the reader had to do to the samples, for people; empty if nothing
     double dt_s = 0;
     std::vector<double> acceleration_m_s2;
 };
@@ -24,20 +31,22 @@ struct Record {
 inline constexpr double smallest_pga_m_s2 = 1e-4;
 inline constexpr double largest_pga_m_s2 = 50;
 
-/// Reads every component of a file; the format is recognised from its content.
+/// Reads every component of a file; the format is recognised from its content, never from its name. What each format
+/// is stands on top of its io/record_NAME.cpp.
 ///
-/// peer-at2: any header lines, one of them with NPTS and DT, then exactly NPTS values. columns: time [s] and one
-/// component or more, see io/record_columns.cpp.
-///
-/// @param unit of the acceleration: "g" (9.80665 m/s2), "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file must
-///        say it
+/// @param unit of the acceleration: "g" (9.80665 m/s2), "g/10", "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file
+///        must say it
 /// @throws InputError if it cannot be read, is truncated, contradicts its own header, is of no known format,
 ///         says no unit and none is given, or says another unit than the one given, or if a PGA is outside
 ///         [smallest_pga_m_s2, largest_pga_m_s2]
 std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit);
 
-/// The one component that is asked for: by name ("360", "column 2") or by column number ("2"); empty = the only one
-/// there is. Upper and lower case are one.
+/// The same from a text in memory.
+/// @param file name of the text, for messages and `Record::file`
+std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit);
+
+/// The one component that is asked for: by name ("chan 1", "column 2"), by an orientation that only one has ("360"), or
+/// by column number ("2"); empty = the only one there is. Upper and lower case are one.
 /// @throws InputError as above (the PGA of this component only), and if there is no such component or none was named
 ///         among several
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit);

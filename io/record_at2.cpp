@@ -6,7 +6,9 @@
 ///   NPTS=  2000, DT= .02000 SEC            old PEER
 ///   NPTS=   5590  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000
 ///   4000    .0050    NPTS, DT              first NGA set
-/// A header line says "IN UNITS OF G", or in words of its own "The units are (g)".
+///   NPTS = 5372 , DT = .0100SEC            rewritten by programs; also with DT first, or ":" for "="
+/// A header line says "IN UNITS OF G", or in words of its own "The units are (g)". The sister files of velocity and
+/// displacement, .VT2 and .DT2, have the same header but for the words of that line, and are refused.
 
 #include "io/record_parser.hpp"
 
@@ -66,19 +68,24 @@ bool recognise(const RecordText& text)
                        });
 }
 
-/// What follows "key =" in a line, up to a blank or comma; empty if the line has none.
+/// The number that follows "key =", "key:" or "key" in a line, up to a blank, a comma or its unit; empty if the line
+/// has none.
 std::string_view value_after(std::string_view line, std::string_view key)
 {
     std::size_t i = find_word(line, key);
     if (i == std::string_view::npos)
         return {};
     i = line.find_first_not_of(" \t", i + key.size());
-    if (i == std::string_view::npos || line[i] != '=')
+    if (i != std::string_view::npos && (line[i] == '=' || line[i] == ':'))
+        i = line.find_first_not_of(" \t", i + 1);
+    if (i == std::string_view::npos || line[i] == ',')
         return {};
-    i = line.find_first_not_of(" \t", i + 1);
-    if (i == std::string_view::npos)
-        return {};
-    return line.substr(i, line.find_first_of(" \t,;", i) - i);
+    std::string_view value = line.substr(i, line.find_first_of(" \t,;", i) - i);
+    for (const std::string_view unit : {"sec", "s"}) // ".0100SEC"
+        if (value.size() > unit.size() && value.ends_with(unit) &&
+            is_number(value.substr(0, value.size() - unit.size())))
+            value.remove_suffix(unit.size());
+    return value;
 }
 
 struct Size {
@@ -91,9 +98,12 @@ Size read_size(const RecordText& text, std::size_t i)
     const std::string line = lower_case(text.lines[i]);
     std::string_view samples = value_after(line, "npts"), dt = value_after(line, "dt");
     const auto parts = parts_of(line, true);
-    if (samples.empty() && dt.empty() && parts.size() >= 3 && parts[2] == "npts") {
+    if (parts.size() == 4 && parts[2] == "npts" && parts[3] == "dt") {
         samples = parts[0];
         dt = parts[1];
+    } else if (parts.size() == 4 && parts[2] == "dt" && parts[3] == "npts") {
+        samples = parts[1];
+        dt = parts[0];
     }
     Size size;
     const auto [end, error] = std::from_chars(samples.data(), samples.data() + samples.size(), size.samples);
@@ -126,42 +136,48 @@ std::string stated_unit(std::string_view line)
     return {};
 }
 
-std::string read_unit(const RecordText& text, std::size_t header_lines, const std::string& given)
+/// Refuses the series that is no acceleration, whatever its unit line says or lacks.
+void refuse_other_series(const RecordText& text, std::size_t header_lines)
 {
     for (std::size_t i = 0; i < header_lines; ++i) {
-        const std::string spelling = stated_unit(text.lines[i]);
-        if (spelling.empty())
-            continue;
-        const std::string lower = lower_case(text.lines[i]);
+        const std::string line = lower_case(squeezed(text.lines[i]));
         for (const char* other : {"velocity", "displacement"})
-            if (find_word(lower, other) != std::string_view::npos)
-                text.refuse(i, fmt::format("the file holds a {}. Give the file with the acceleration (.AT2).", other));
-        const std::string unit = canonical_unit(spelling);
-        if (unit.empty())
-            text.refuse(
-                i, fmt::format("the unit \"{}\" is not one of acceleration: g, m/s2, cm/s2, gal, mm/s2.", spelling));
-        if (!given.empty() && given != unit)
-            text.refuse(i, fmt::format("the file says that its unit is {}, and the unit given is {}. Leave the unit "
-                                       "out, or correct it.",
-                                       unit, given));
-        return unit;
+            for (const char* series : {" time", " series", " history", " in units"})
+                if (line.find(std::string(other) + series) != std::string::npos)
+                    text.refuse(i, fmt::format("the file holds a {} and is no acceleration. Give the file with the "
+                                               "acceleration (.AT2).",
+                                               other));
     }
+}
+
+std::string read_unit(const RecordText& text, std::size_t header_lines, const std::string& given)
+{
+    for (std::size_t i = 0; i < header_lines; ++i)
+        if (const std::string spelling = stated_unit(text.lines[i]); !spelling.empty())
+            return unit_of_file(text, i, spelling, given);
     if (given.empty())
         text.refuse("does not say the unit of its acceleration. Give it (excitation.unit, or --unit): \"m/s2\", "
                     "\"cm/s2\", \"gal\", \"mm/s2\" or \"g\".");
     return given;
 }
 
-/// The last part of the title, as in "Imperial Valley-02, 5/19/1940, El Centro Array #9, 180".
-std::string component_of(std::string_view title)
+/// Station and component are the last two parts of the title, as in
+/// "Imperial Valley-02, 5/19/1940, El Centro Array #9, 180". Without such a title they stay as they are.
+void name_from_title(Record& record)
 {
+    const std::string_view title = record.title;
     const std::size_t comma = title.rfind(',');
     if (comma == std::string_view::npos)
-        return "acceleration";
+        return;
     std::string_view name = title.substr(comma + 1);
     name = trimmed(name.substr(0, name.find('(')));
-    const bool word = !name.empty() && name.size() <= 12 && name.find(' ') == std::string_view::npos;
-    return word ? std::string(name) : "acceleration";
+    if (name.empty() || name.size() > 12 || name.find(' ') != std::string_view::npos)
+        return;
+    record.component = record.orientation = name;
+    const std::string_view rest = title.substr(0, comma);
+    const std::size_t second = rest.rfind(',');
+    if (second != std::string_view::npos)
+        record.station = trimmed(rest.substr(second + 1));
 }
 
 std::vector<Record> parse(const RecordText& text, const std::string& given)
@@ -174,13 +190,13 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     Record record;
     record.file = text.file;
     record.format = at2_parser.format;
+    refuse_other_series(text, header);
     record.unit = read_unit(text, header, given);
     record.dt_s = size.dt_s;
+    record.component = "acceleration";
     if (header >= 2) { // the first line names the data base, the second the event and the station
         record.title = trimmed(text.lines[1]);
-        record.component = component_of(record.title);
-    } else {
-        record.component = "acceleration";
+        name_from_title(record);
     }
 
     const double factor = unit_m_s2(record.unit);

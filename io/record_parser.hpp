@@ -28,13 +28,17 @@ struct RecordParser {
     /// Whether the content is of this format, even if it is damaged further on.
     bool (*recognise)(const RecordText& text);
     /// Every component, in m/s2.
-    /// @param unit canonical name ("g", "m/s2", "cm/s2", "mm/s2"), or empty: the file must say it
+    /// @param unit canonical name ("g", "g/10", "m/s2", "cm/s2", "mm/s2"), or empty: the file must say it
     /// @throws InputError
     std::vector<Record> (*parse)(const RecordText& text, const std::string& unit);
 };
 
 extern const RecordParser at2_parser;
+extern const RecordParser bhrc_parser;
 extern const RecordParser columns_parser;
+extern const RecordParser csmip_parser;
+extern const RecordParser smc_parser;
+extern const RecordParser usc_parser;
 
 /// A sampling interval outside these is taken for an error of unit or a damaged header [s].
 inline constexpr double shortest_dt_s = 1e-5;
@@ -44,12 +48,19 @@ inline constexpr double longest_dt_s = 0.5;
 /// @pre canonical name
 double unit_m_s2(std::string_view unit);
 
-/// "g", "m/s2", "cm/s2" or "mm/s2" for any usual spelling ("gal", "cm/sec/sec", "M/S^2"); empty if it is none.
+/// "g", "g/10", "m/s2", "cm/s2" or "mm/s2" for any usual spelling ("gal", "cm/sec/sec", "M/S^2"); empty if it is none.
 std::string canonical_unit(std::string_view spelling);
+
+/// The unit that line `i` spells, where none was given or the given one is the same.
+/// @throws InputError if it is no unit of acceleration, or another than the one given
+std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling, const std::string& given);
 
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
+
+/// The words of a line with one blank between them.
+std::string squeezed(std::string_view line);
 
 /// The parts of a line between blanks, tabs, commas and semicolons; two separators with nothing between them other
 /// than blanks leave an empty part. `commas` false: blanks and tabs only.
@@ -67,6 +78,37 @@ double number(const RecordText& text, std::size_t i, std::string_view token);
 /// @param first, last first and last line of data
 /// @throws InputError
 void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t last, bool commas);
+
+/// The first line of [first, last) that holds `phrase`, where `phrase` is in lower case and single blanks stand for any
+/// number of them; `last` if none does.
+std::size_t find_line(const RecordText& text, std::size_t first, std::size_t last, std::string_view phrase);
+
+/// The word behind `key` in a line, an "=" or ":" between them or not; empty if the line lacks the key or ends there.
+/// `key` is in lower case, single blanks in it stand for any number of them; the word keeps its case.
+std::string word_after(std::string_view line, std::string_view key);
+
+/// A whole number of samples.
+/// @throws InputError, naming line `i`, if it is none or below two
+std::size_t sample_count(const RecordText& text, std::size_t i, std::string_view token);
+
+/// @throws InputError, naming the line, if anything but blank lines follows from line `i` on
+void refuse_more(const RecordText& text, std::size_t i);
+
+/// `count` numbers in columns of `width` characters, `per_line` to a line, as Fortran writes them: they may touch.
+/// Each line is full but the last, and nothing but blanks follows. Line first_line + (count + per_line - 1) / per_line
+/// is the one below them.
+/// @param indent columns before the first number, which are not looked at
+/// @throws InputError, naming the line, if a value is missing, cut, or no number, or if the file ends too early
+/// @pre width, per_line > 0
+std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
+                                        int per_line, int indent = 0);
+
+/// `count` numbers between blanks, any number of them to a line, empty lines skipped; the last of them ends its line.
+/// @param[out] next_line (may be null) the line below the last of them
+/// @throws InputError, naming the line, if one is no number, if the file ends too early or inside its last number, or
+///         if the line of the last one goes on
+std::vector<double> read_numbers(const RecordText& text, std::size_t first_line, std::size_t count,
+                                 std::size_t* next_line = nullptr);
 
 /// @throws InputError, naming line `i`, if dt is outside [shortest_dt_s, longest_dt_s]
 void check_dt(const RecordText& text, std::size_t i, double dt_s);

@@ -95,8 +95,9 @@ int main(int argc, char** argv)
     auto* record = app.add_subcommand("record", "read ground motions: format, PGA, duration, frequencies, ...");
     record->add_option("FILE", files, "records of any known format")->required();
     record->add_option("--unit", unit,
-                       "unit of the acceleration where the file does not say it: m/s2, cm/s2, mm/s2, g");
-    record->add_option("--component", component, "one component: its name, or its column counted from 1");
+                       "unit of the acceleration where the file does not say it: m/s2, cm/s2, mm/s2, g, g/10");
+    record->add_option("--component", component,
+                       "one component: its name, its orientation, or its column counted from 1");
     add_common(*record, options);
     record->callback([&] { status = record_command(options, files, unit, component); });
 

@@ -7,9 +7,23 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 namespace stylobate {
 
 namespace {
+
+/// Header and samples state one peak, but for the digits with which each is printed.
+constexpr double header_tolerance = 0.01;
+
+/// How far the PGA of the samples is from the one that the file's own header states, in parts of the latter.
+std::optional<double> header_difference(const Record& r, const IntensityMeasures& im)
+{
+    if (!r.header_pga_m_s2)
+        return {};
+    return (im.pga_m_s2 - *r.header_pga_m_s2) / *r.header_pga_m_s2;
+}
 
 constexpr double spectrum_periods_s[] = {0.1, 0.2, 0.3, 0.5, 1, 2, 3};
 
@@ -18,17 +32,24 @@ Json describe(const Record& r, const IntensityMeasures& im, const std::vector<do
     Json sa = Json::list();
     for (std::size_t i = 0; i < spectrum.size(); ++i)
         sa.item(Json::object().member("period_s", spectrum_periods_s[i]).member("sa_m_s2", spectrum[i]));
-    return Json::object()
-        .member("file", r.file)
+    Json object = Json::object();
+    object.member("file", r.file)
         .member("format", r.format)
+        .member("station", r.station)
         .member("component", r.component)
+        .member("orientation", r.orientation)
         .member("title", r.title)
+        .member("note", r.note)
         .member("unit", r.unit)
         .member("samples", r.acceleration_m_s2.size())
         .member("dt_s", r.dt_s)
         .member("duration_s", r.dt_s * static_cast<double>(r.acceleration_m_s2.size() - 1))
-        .member("pga_m_s2", im.pga_m_s2)
-        .member("pgv_m_s", im.pgv_m_s)
+        .member("pga_m_s2", im.pga_m_s2);
+    if (const std::optional<double> difference = header_difference(r, im))
+        object.member("header_pga_m_s2", *r.header_pga_m_s2)
+            .member("header_pga_difference", *difference)
+            .member("header_pga_contradicts", std::fabs(*difference) > header_tolerance);
+    return object.member("pgv_m_s", im.pgv_m_s)
         .member("pgd_m", im.pgd_m)
         .member("arias_m_s", im.arias_m_s)
         .member("d5_95_s", im.d5_95_s)
@@ -40,12 +61,26 @@ Json describe(const Record& r, const IntensityMeasures& im, const std::vector<do
 void print(const Record& r, const IntensityMeasures& im, const std::vector<double>& spectrum)
 {
     fmt::print("{}\n", r.file);
-    fmt::print("  format       {}{}{}\n", r.format, r.component.empty() ? "" : ", ", r.component);
+    fmt::print("  format       {}\n", r.format);
+    if (!r.station.empty())
+        fmt::print("  station      {}\n", r.station);
+    fmt::print("  component    {}{}{}\n", r.component,
+               r.orientation.empty() || r.orientation == r.component ? "" : ", ",
+               r.orientation == r.component ? "" : r.orientation);
     if (!r.title.empty())
         fmt::print("  title        {}\n", r.title);
     fmt::print("  samples      {} at {} s, {:.2f} s in all, in {}\n", r.acceleration_m_s2.size(), r.dt_s,
                r.dt_s * static_cast<double>(r.acceleration_m_s2.size() - 1), r.unit);
+    if (!r.note.empty())
+        fmt::print("  note         {}\n", r.note);
     fmt::print("  PGA          {:.4f} m/s2 ({:.4f} g)\n", im.pga_m_s2, im.pga_m_s2 / 9.80665);
+    if (const std::optional<double> difference = header_difference(r, im)) {
+        fmt::print("  its header   {:.4f} m/s2", *r.header_pga_m_s2);
+        if (std::fabs(*difference) > header_tolerance)
+            fmt::print(": CONTRADICTED by the samples, by {:+.4f} m/s2 ({:+.1f} %)", im.pga_m_s2 - *r.header_pga_m_s2,
+                       100 * *difference);
+        fmt::print("\n");
+    }
     fmt::print("  PGV, PGD     {:.4f} m/s, {:.4f} m (after the baseline correction)\n", im.pgv_m_s, im.pgd_m);
     fmt::print("  Arias        {:.4f} m/s, 5 to 95 % in {:.2f} s\n", im.arias_m_s, im.d5_95_s);
     fmt::print("  frequency    {:.3f} Hz predominant, {:.3f} Hz mean\n", im.predominant_frequency_hz,

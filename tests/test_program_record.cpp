@@ -2,6 +2,7 @@
 
 #include "csv_line.hpp"
 #include "program.hpp"
+#include "record_files.hpp"
 
 #include "io/result_store.hpp"
 
@@ -24,7 +25,7 @@ protected:
         const JsonValue list = json_of(ended);
         EXPECT_EQ(list.kind, JsonValue::Kind::list);
         for (const JsonValue& object : list.items) {
-            for (const char* key : {"file", "format", "component"})
+            for (const char* key : {"file", "format", "station", "component", "orientation", "unit"})
                 EXPECT_EQ(object[key].kind, JsonValue::Kind::text) << key;
             for (const char* key : {"dt_s", "duration_s", "pga_m_s2", "pgv_m_s", "predominant_frequency_hz"})
                 EXPECT_EQ(object[key].kind, JsonValue::Kind::number) << key;
@@ -65,7 +66,7 @@ TEST_F(Records, OfAKnownFormula)
     const Burst burst;
     write_bytes(folder / "burst.at2", burst.at2());
     write_bytes(folder / "burst.txt", burst.columns());
-    const double g = 9.80665, pi = 3.14159265358979323846;
+    const double pi = 3.14159265358979323846;
     double pga = 0;
     for (int i = 0; i < burst.samples; ++i)
         pga = std::max(pga, std::abs(g * burst.value_g(i)));
@@ -95,6 +96,40 @@ TEST_F(Records, OfAKnownFormula)
     const Ended plain = run({"record", "burst.at2"});
     for (const char* part : {"burst.at2\n", "peer-at2", "1001", "PGA", "predominant"})
         EXPECT_NE(plain.out.find(part), std::string::npos) << part;
+}
+
+TEST_F(Records, SaysWhereTheHeadersPeakContradictsTheSamples)
+{
+    // the samples of channels 1 and 3 peak at 50 cm/s2, as their headers state; those of channel 2 do not at 300
+    write_bytes(folder / "three.v2", csmip_v2_channel(1, " 90 DEG", 25, 0, -50) +
+                                         csmip_v2_channel(2, "UP", 24, 3, 300) +
+                                         csmip_v2_channel(3, "0 DEG", 24, 0, 50));
+    const JsonValue list = json_of(run({"record", "three.v2", "--json"}));
+    ASSERT_EQ(list.items.size(), 3u);
+    for (const std::size_t c : {0u, 1u, 2u}) {
+        const JsonValue& r = list.items[c];
+        EXPECT_EQ(r["station"].text, "SOME WHERE");
+        EXPECT_EQ(r["component"].text, "chan " + std::to_string(c + 1));
+        EXPECT_EQ(r["orientation"].text, c == 0 ? "90" : c == 1 ? "UP" : "0");
+        EXPECT_EQ(r["unit"].text, "cm/s2");
+        const double header = c == 1 ? 3.0 : 0.5;
+        EXPECT_NEAR(r["header_pga_m_s2"].number, header, 1e-9);
+        EXPECT_NEAR(r["header_pga_difference"].number, (r["pga_m_s2"].number - header) / header, 1e-9);
+        EXPECT_EQ(r["header_pga_contradicts"].kind, JsonValue::Kind::boolean);
+        EXPECT_EQ(r["header_pga_contradicts"].boolean, c == 1);
+    }
+    const double pga = list.items[1]["pga_m_s2"].number;
+    const Ended plain = run({"record", "three.v2"});
+    EXPECT_EQ(plain.status, 0);
+    const std::string said = "its header   3.0000 m/s2: CONTRADICTED by the samples, by ";
+    ASSERT_NE(plain.out.find(said), std::string::npos) << plain.out;
+    EXPECT_NEAR(std::stod(plain.out.substr(plain.out.find(said) + said.size())), pga - 3, 1e-4);
+    EXPECT_EQ(plain.out.find("CONTRADICTED"), plain.out.rfind("CONTRADICTED")); // of channel 2 alone
+    EXPECT_NE(plain.out.find("its header   0.5000 m/s2\n"), std::string::npos);
+    // a header that states none has no word of it
+    write_bytes(folder / "burst.at2", Burst{}.at2());
+    EXPECT_EQ(run({"record", "burst.at2"}).out.find("its header"), std::string::npos);
+    EXPECT_EQ(run({"record", "burst.at2", "--json"}).out.find("header_pga"), std::string::npos);
 }
 
 TEST_F(Records, ATitleInLatin1IsStillJson)

@@ -1,128 +1,26 @@
 /// Readers of ground-motion files: every spelling that occurs, and every way in which a file lies. The files are made
 /// here, so what they hold is known.
 
-#include "ensemble/input_error.hpp"
-#include "io/record.hpp"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include "record_files.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
-
-#include <unistd.h>
 
 namespace stylobate {
 namespace {
-
-constexpr double g = 9.80665;
-
-class RecordFiles : public ::testing::Test {
-protected:
-    void SetUp() override
-    {
-        folder_ = std::filesystem::temp_directory_path() /
-                  fmt::format("stylobate-record-{}-{}", getpid(),
-                              ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path file(const std::string& content, const std::string& name = "record.txt")
-    {
-        std::filesystem::remove(folder_ / name); // some file systems are slow to overwrite
-        std::ofstream(folder_ / name, std::ios::binary) << content;
-        return folder_ / name;
-    }
-
-    /// The message with which the content is refused; a failure if it is taken.
-    std::string refusal(const std::string& content, const std::string& unit = "", const std::string& component = "")
-    {
-        try {
-            read_record(file(content), component, unit);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        ADD_FAILURE() << "not refused:\n" << content.substr(0, 400);
-        return {};
-    }
-
-    std::filesystem::path folder_;
-};
-
-void expect_says(const std::string& message, const std::vector<std::string>& parts)
-{
-    for (const std::string& part : parts)
-        EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by)
-{
-    const std::size_t at = text.find(what);
-    EXPECT_NE(at, std::string::npos) << what;
-    return text.replace(at, what.size(), by);
-}
-
-/// Sample i of all files made here [file's unit]: whole thousandths, so that they are exact in print.
-double sample(int i)
-{
-    return (i * 37 % 101 - 50) / 1000.0;
-}
-
-std::string at2(const std::string& size_line, int n, const std::string& end = "\n", int per_line = 5)
-{
-    std::string text;
-    text += "PEER NGA STRONG MOTION DATABASE RECORD" + end;
-    text += "Imperial Valley-02, 5/19/1940, El Centro Array #9, 180" + end;
-    text += "ACCELERATION TIME SERIES IN UNITS OF G" + end;
-    text += size_line + end;
-    for (int i = 0; i < n; ++i) {
-        text += fmt::format("{:15.7E}", sample(i));
-        if (i % per_line == per_line - 1 || i == n - 1)
-            text += end;
-    }
-    return text;
-}
-
-std::string at2(int n = 23)
-{
-    return at2(fmt::format("NPTS={:6}, DT=   .0100 SEC,", n), n);
-}
-
-std::string columns(int n = 12, int components = 1, const std::string& separator = "  ", double first_time = 0)
-{
-    std::string text;
-    for (int i = 0; i < n; ++i) {
-        text += fmt::format("{:.4f}", first_time + 0.005 * i);
-        for (int c = 0; c < components; ++c)
-            text += fmt::format("{}{:.4f}", separator, sample(i + c));
-        text += "\n";
-    }
-    return text;
-}
-
-void expect_samples(const Record& record, std::size_t n, double factor, int shift = 0)
-{
-    ASSERT_EQ(record.acceleration_m_s2.size(), n);
-    for (std::size_t i = 0; i < n; ++i)
-        ASSERT_NEAR(record.acceleration_m_s2[i], factor * sample(static_cast<int>(i) + shift), 1e-12) << i;
-}
 
 // ---- PEER AT2
 
 TEST_F(RecordFiles, At2InEverySpellingAndLineEnd)
 {
-    for (const std::string size : {"NPTS=    23, DT=   .0100 SEC,            ", "NPTS=   23  DT=   .0100 SEC,     ",
-                                   "NPTS=   23  DT=   .0100 SEC", "NPTS=  23, DT= .01000 SEC",
-                                   "NPTS=   23  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000",
-                                   "npts = 23, dt = 1.0E-02 sec", "    23    .0100    NPTS, DT"})
+    for (const std::string size :
+         {"NPTS=    23, DT=   .0100 SEC,            ", "NPTS=   23  DT=   .0100 SEC,     ",
+          "NPTS=   23  DT=   .0100 SEC", "NPTS=  23, DT= .01000 SEC",
+          "NPTS=   23  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000",
+          "npts = 23, dt = 1.0E-02 sec", "    23    .0100    NPTS, DT", "  .0100    23    DT, NPTS",
+          "DT=   .0100 SEC, NPTS=    23", "NPTS: 23, DT: .01", "NPTS 23 , DT .0100SEC", "NPTS=23,DT=.01s,AMAX=.05"})
         for (const std::string end : {"\n", "\r\n", "\r\r\n", "\r"})
             for (const int per_line : {5, 8}) {
                 SCOPED_TRACE(fmt::format("'{}', end of {} characters, {} to a line", size, end.size(), per_line));
@@ -132,6 +30,9 @@ TEST_F(RecordFiles, At2InEverySpellingAndLineEnd)
                 EXPECT_EQ(r.format, "peer-at2");
                 EXPECT_EQ(r.unit, "g");
                 EXPECT_EQ(r.component, "180");
+                EXPECT_EQ(r.orientation, "180");
+                EXPECT_EQ(r.station, "El Centro Array #9");
+                EXPECT_FALSE(r.header_pga_m_s2);
                 EXPECT_EQ(r.title, "Imperial Valley-02, 5/19/1940, El Centro Array #9, 180");
             }
 }
@@ -197,6 +98,20 @@ TEST_F(RecordFiles, At2SamplingIntervalIsChecked)
     expect_says(refusal(at2("NPTS= 23, DT= nan SEC", 23)), {"record.txt:4:", "not finite"});
     expect_says(refusal(at2("NPTS= 23", 23)), {"record.txt:4:", "DT is missing"});
     expect_says(refusal(replaced(at2(), "NPTS", "NPQS")), {"no line like", "NPTS"});
+}
+
+TEST_F(RecordFiles, At2OfVelocityOrDisplacementIsRefused)
+{
+    const std::string line = "ACCELERATION TIME SERIES IN UNITS OF G";
+    for (const auto& [words, series] : {std::pair{"VELOCITY TIME SERIES IN UNITS OF CM/S", "velocity"},
+                                        {"VELOCITY TIME HISTORY IN UNITS OF CM/SEC", "velocity"},
+                                        {"Velocity  time history", "velocity"}, // whatever unit is given
+                                        {"VELOCITY IN UNITS OF G", "velocity"},
+                                        {"DISPLACEMENT TIME SERIES IN UNITS OF CM", "displacement"}})
+        for (const char* unit : {"", "g"})
+            expect_says(refusal(replaced(at2(), line, words), unit),
+                        {"record.txt:3:", series, "is no acceleration", ".AT2"});
+    expect_says(refusal(replaced(at2(), line, "UNITS OF CM/S")), {"\"cm/s\" is not one of acceleration"});
 }
 
 TEST_F(RecordFiles, At2SaysItsUnit)

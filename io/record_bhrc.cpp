@@ -1,0 +1,116 @@
+/// Iran's strong-motion files (BHRC), volume 1: components one below the other, uncorrected, evenly sampled, in g/10.
+///
+/// A component: "* VOL1DS FILE: ..." and 12 more lines of text, 7 lines of integers and 7 of reals (both cut after
+/// column 70), the ninth real being the sampling rate, then the values, 10E13.6, and a line "/&".
+
+#include "io/record_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t text_lines = 13, integer_lines = 7, real_lines = 7;
+constexpr int width = 13, per_line = 10;
+constexpr std::string_view component_top = "* vol1ds file:";
+
+bool is_component_top(std::string_view line)
+{
+    return lower_case(squeezed(line)).starts_with(component_top);
+}
+
+bool recognise(const RecordText& text)
+{
+    return is_component_top(text.lines.front());
+}
+
+/// A line of the text that begins at `top`.
+std::size_t line_with(const RecordText& text, std::size_t top, std::string_view phrase)
+{
+    const std::size_t end = std::min(top + text_lines, text.lines.size());
+    const std::size_t i = find_line(text, top, end, phrase);
+    if (i == end)
+        text.refuse(top, fmt::format("the component has no line with \"{}\" in its header: it is truncated or damaged.",
+                                     phrase));
+    return i;
+}
+
+/// "140" for T of "Azimuth L 50    T 140"; the component's letter where it has no azimuth.
+std::string orientation_of(std::string_view place, const std::string& component)
+{
+    const std::string letter = component.substr(0, 1);
+    const std::string words = squeezed(place);
+    const std::size_t azimuth = lower_case(words).find("azimuth");
+    const std::string angle = azimuth == std::string::npos
+                                  ? ""
+                                  : word_after(std::string_view(words).substr(azimuth), " " + lower_case(letter) + " ");
+    return is_number(angle) ? angle : letter;
+}
+
+/// @param[in,out] line the component's first line; afterwards the one below its end
+Record read_component(const RecordText& text, std::size_t& line, const std::string& given)
+{
+    const std::size_t top = line;
+    if (!is_component_top(text.lines[top]))
+        text.refuse(top, fmt::format("\"{}\" stands where the next component should begin, with \"* VOL1DS FILE:\".",
+                                     trimmed(text.lines[top]).substr(0, 40)));
+    Record record;
+    record.file = text.file;
+    record.format = bhrc_parser.format;
+    record.component = word_after(text.lines[line_with(text, top, "comp ")], "comp ");
+    const std::size_t place = line_with(text, top, "station");
+    record.station = trimmed(text.lines[place].substr(0, lower_case(text.lines[place]).find("station")));
+    record.orientation = orientation_of(text.lines[place], record.component);
+    record.title = squeezed(text.lines[line_with(text, top, "origin time")]) + ", " +
+                   squeezed(text.lines[line_with(text, top, "epicenter")]);
+    const std::size_t units = line_with(text, top, "units are");
+    record.unit = unit_of_file(text, units, word_after(text.lines[units], " and "), given);
+
+    const std::size_t points = line_with(text, top, "no. of points");
+    const std::size_t count = sample_count(text, points, word_after(text.lines[points], "no. of points"));
+    const double duration_s = number(text, points, word_after(text.lines[points], "duration"));
+    const std::size_t reals = top + text_lines + integer_lines, first_value = reals + real_lines;
+    if (reals + 1 >= text.lines.size())
+        text.refuse(top, "the file ends inside its header: it is truncated.");
+    const double rate = number(text, reals + 1, trimmed(text.lines[reals + 1].substr(0, width)));
+    record.dt_s = 1 / rate;
+    check_dt(text, reals + 1, record.dt_s);
+    if (std::fabs(static_cast<double>(count) * record.dt_s - duration_s) > 2 * record.dt_s)
+        text.refuse(points,
+                    fmt::format("{} samples at the {} in a second of line {} last {} s, and the duration is said "
+                                "to be {} s.",
+                                count, rate, reals + 2, static_cast<double>(count) * record.dt_s, duration_s));
+
+    record.acceleration_m_s2 = fixed_width_numbers(text, first_value, count, width, per_line);
+    for (double& a : record.acceleration_m_s2)
+        a *= unit_m_s2(record.unit);
+    line = first_value + (count + per_line - 1) / per_line;
+    if (line >= text.lines.size() || !trimmed(text.lines[line]).starts_with("/&"))
+        text.refuse(std::min(line, text.lines.size() - 1),
+                    "a line \"/&\" should end the component: the file is truncated, or the count in its header is "
+                    "wrong. Get the whole file.");
+    ++line;
+    return record;
+}
+
+std::vector<Record> parse(const RecordText& text, const std::string& given)
+{
+    std::vector<Record> records;
+    for (std::size_t line = 0; line < text.lines.size();) {
+        if (trimmed(text.lines[line]).empty())
+            ++line;
+        else
+            records.push_back(read_component(text, line, given));
+    }
+    return records;
+}
+
+} // namespace
+
+const RecordParser bhrc_parser = {"bhrc", recognise, parse};
+
+} // namespace stylobate

@@ -1,0 +1,121 @@
+/// What the headers of agencies share, and the two layouts in which samples stand below them: columns of a fixed
+/// width, and numbers between blanks.
+
+#include "io/record_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+namespace stylobate {
+
+namespace {
+
+[[noreturn]] void refuse_end(const RecordText& text, std::size_t first_line, std::size_t found, std::size_t count)
+{
+    text.refuse(std::min(first_line, text.lines.size() - 1),
+                fmt::format("{} values should stand from here on and the file ends after {}: it is truncated, or its "
+                            "header is wrong. Get the whole file.",
+                            count, found));
+}
+
+} // namespace
+
+std::size_t find_line(const RecordText& text, std::size_t first, std::size_t last, std::string_view phrase)
+{
+    last = std::min(last, text.lines.size());
+    for (std::size_t i = first; i < last; ++i)
+        if (lower_case(squeezed(text.lines[i])).find(phrase) != std::string::npos)
+            return i;
+    return last;
+}
+
+std::string word_after(std::string_view line, std::string_view key)
+{
+    const std::string words = squeezed(line);
+    std::size_t at = lower_case(words).find(key);
+    if (at == std::string::npos)
+        return {};
+    at = words.find_first_not_of(" =:", at + key.size());
+    return at == std::string::npos ? std::string() : words.substr(at, words.find_first_of(" ,;", at) - at);
+}
+
+std::size_t sample_count(const RecordText& text, std::size_t i, std::string_view token)
+{
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), count);
+    if (error != std::errc() || end != token.data() + token.size() || count < 2)
+        text.refuse(i, fmt::format("the number of samples, \"{}\", must be a whole number of at least 2.", token));
+    return count;
+}
+
+void refuse_more(const RecordText& text, std::size_t i)
+{
+    for (; i < text.lines.size(); ++i)
+        if (!trimmed(text.lines[i]).empty())
+            text.refuse(i, fmt::format("\"{}\" follows after all values that the header counts: the count is wrong, or "
+                                       "the file is damaged.",
+                                       trimmed(text.lines[i]).substr(0, 40)));
+}
+
+std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
+                                        int per_line, int indent)
+{
+    const auto w = static_cast<std::size_t>(width), skipped = static_cast<std::size_t>(indent);
+    std::vector<double> values;
+    for (std::size_t i = first_line; values.size() < count; ++i) {
+        if (i >= text.lines.size())
+            refuse_end(text, first_line, values.size(), count);
+        const std::string_view line = text.lines[i].substr(std::min(skipped, text.lines[i].size()));
+        const std::size_t fields = std::min(static_cast<std::size_t>(per_line), count - values.size());
+        for (std::size_t k = 0; k < fields; ++k) {
+            const std::string_view field = line.substr(std::min(k * w, line.size()), w);
+            const std::string_view token = trimmed(field);
+            // the last row of a cut file; elsewhere a short row has lost values
+            const bool cut = i + 1 == text.lines.size() && !text.ended && field.size() < w;
+            if (cut)
+                refuse_end(text, first_line, values.size(), count);
+            if (token.empty() || field.size() < w)
+                text.refuse(i, fmt::format("value {} of the {} in this line is {}, in columns {} to {}: the line is "
+                                           "damaged.",
+                                           k + 1, fields, token.empty() ? "missing" : "cut", skipped + k * w + 1,
+                                           skipped + (k + 1) * w));
+            values.push_back(number(text, i, token));
+        }
+        if (const std::string_view rest = trimmed(line.substr(std::min(fields * w, line.size()))); !rest.empty())
+            text.refuse(i, fmt::format("\"{}\" follows after the {} values of {} columns that this line should have: "
+                                       "the count in the header is wrong, or the file is damaged.",
+                                       rest.substr(0, 40), fields, width));
+    }
+    return values;
+}
+
+std::vector<double> read_numbers(const RecordText& text, std::size_t first_line, std::size_t count,
+                                 std::size_t* next_line)
+{
+    std::vector<double> values;
+    std::size_t i = first_line, last = first_line;
+    for (; values.size() < count; ++i) {
+        if (i >= text.lines.size())
+            refuse_end(text, first_line, values.size(), count);
+        if (trimmed(text.lines[i]).empty())
+            continue;
+        const auto parts = parts_of(text.lines[i], false);
+        for (const std::string_view token : parts)
+            values.push_back(number(text, i, token));
+        last = i;
+    }
+    if (values.size() > count)
+        text.refuse(i - 1, fmt::format("this line goes {} beyond the {} values that should stand from line {} on: the "
+                                       "count in the header is wrong, or the file is damaged.",
+                                       values.size() - count, count, first_line + 1));
+    if (count > 0)
+        refuse_cut_number(text, first_line, last, false);
+    if (next_line)
+        *next_line = i;
+    return values;
+}
+
+} // namespace stylobate
