@@ -127,6 +127,20 @@ TEST(Determinism, CollapseHeavyMixHasTheSameBitsForEveryWidthAndThreadCount)
     same_everywhere(study);
 }
 
+/// Two columns of two drums and an epistyle that fall, hit each other and are followed until they lie still.
+TEST(Determinism, ACollapsingColonnadeHasTheSameBitsForEveryWidthAndThreadCount)
+{
+    const Study study = read_study(
+        std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/small_scale_colonnade_drums.toml",
+        {"study.realizations=6", "excitation.cycles=6", "surface.frequency_hz={ from = 2.0, to = 4.0, count = 2 }",
+         "surface.pga_m_s2={ from = 9.0, to = 15.0, count = 2 }"});
+    const Result result = run(study, best_isa(), 2);
+    EXPECT_GT(result.states.at(State::collapsed), static_cast<int>(study.total()) / 2)
+        << "the mix is not what it should be";
+    EXPECT_EQ(result.states.count(State::invalid), 0U);
+    same_everywhere(study);
+}
+
 TEST(Determinism, QuietMixHasTheSameBitsForEveryWidthAndThreadCount)
 {
     const Study study = quiet();
