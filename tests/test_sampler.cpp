@@ -384,10 +384,12 @@ TEST(Sampler, InitialTiltGravityAndPhase)
 {
     Study study = specimen();
     study.initial.tilt_rad = 0.05;
+    study.initial.tilt_from_block = 3;
     study.structure.gravity_m_s2 = 9.8;
     study.excitation.phase_rad = 0.3;
     const Realization r = Sampler(study, nullptr).realization(0);
     EXPECT_EQ(r.initial_tilt_rad, 0.05);
+    EXPECT_EQ(r.initial_tilt_block, 3);
     EXPECT_EQ(r.gravity_m_s2, 9.8);
     EXPECT_EQ(r.phase_rad, 0.3);
     EXPECT_EQ(r.base_tilt_rad, 0);
