@@ -3,6 +3,7 @@
 #include "ensemble/scales.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -103,18 +104,12 @@ void BaseMotion::fill(double first_step, double* table, int lanes) const
 
 void BaseMotion::fill_synthetic(double first_step, double* table, int lanes) const
 {
-    const auto at = [&](double step) { return synthetic_->displacement_m(step * step_s_); };
-    double before = at(first_step - 1), now = at(first_step);
-    for (int k = 0; k < chunk_steps; ++k) {
-        const double n = first_step + k;
-        if ((n - 1) * step_s_ >= duration_s_) { // nothing but rounding is left of the difference
-            table[k * lanes] = 0;
-            continue;
-        }
-        const double next = at(n + 1);
-        table[k * lanes] = (next - now) - (now - before);
-        before = now;
-        now = next;
+    std::array<double, chunk_steps + 2> u; // from one step before the chunk to one after it
+    synthetic_->sample(first_step - 1, step_s_, u);
+    for (std::size_t k = 0; k < chunk_steps; ++k) {
+        // once it is over nothing but rounding is left of the difference
+        const bool over = (first_step + static_cast<double>(k) - 1) * step_s_ >= duration_s_;
+        table[k * static_cast<std::size_t>(lanes)] = over ? 0 : (u[k + 2] - u[k + 1]) - (u[k + 1] - u[k]);
     }
 }
 

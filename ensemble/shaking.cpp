@@ -53,7 +53,8 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
 /// Frequency and PGA of a study that is no surface.
 void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const
 {
-    realization.pga_m_s2 = excitation.pga_m_s2;
+    if (excitation.kind != ExcitationKind::none)
+        realization.pga_m_s2 = excitation.pga_m_s2;
     switch (excitation.kind) {
     case ExcitationKind::none:
         break;

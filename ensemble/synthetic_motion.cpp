@@ -66,25 +66,38 @@ SyntheticMotion::Shape SyntheticMotion::shape_of(const ExcitationSpec& e, const 
 
 SyntheticMotion::SyntheticMotion(const ExcitationSpec& e, const Realization& r) : shape_(shape_of(e, r))
 {
-    scale_ = r.pga_m_s2 / std::visit([](const auto& shape) { return peak_acceleration(shape); }, shape_);
+    std::visit(
+        [&](const auto& shape) {
+            scale_ = r.pga_m_s2 / peak_acceleration(shape);
+            duration_s_ = shape.duration_s();
+            end_m_ = scale_ * shape.displacement(duration_s_);
+        },
+        shape_);
 }
 
-double SyntheticMotion::duration_s() const
+void SyntheticMotion::sample(double first, double step_s, std::span<double> displacements_m) const
 {
-    return std::visit([](const auto& shape) { return shape.duration_s(); }, shape_);
+    std::visit(
+        [&](const auto& shape) {
+            double i = first;
+            for (double& u : displacements_m) {
+                const double t = i++ * step_s;
+                u = t <= 0 ? 0 : t >= duration_s_ ? end_m_ : scale_ * shape.displacement(t);
+            }
+        },
+        shape_);
 }
 
 double SyntheticMotion::displacement_m(double time_s) const
 {
-    if (time_s <= 0)
-        return 0;
-    const double t = std::min(time_s, duration_s());
-    return scale_ * std::visit([t](const auto& shape) { return shape.displacement(t); }, shape_);
+    double u = 0;
+    sample(1, time_s, {&u, 1});
+    return u;
 }
 
 double SyntheticMotion::acceleration_m_s2(double time_s) const
 {
-    if (time_s <= 0 || time_s >= duration_s())
+    if (time_s <= 0 || time_s >= duration_s_)
         return 0;
     return scale_ * std::visit([time_s](const auto& shape) { return shape.acceleration(time_s); }, shape_);
 }

@@ -6,6 +6,7 @@
 #include "ensemble/synthetic_pulse.hpp"
 #include "ensemble/synthetic_sine.hpp"
 
+#include <span>
 #include <variant>
 
 namespace stylobate {
@@ -18,8 +19,10 @@ public:
 
     static bool covers(ExcitationKind kind);
 
-    double duration_s() const;
+    double duration_s() const { return duration_s_; }
     double displacement_m(double time_s) const;
+    /// Displacements at the times (first + i) step_s.
+    void sample(double first, double step_s, std::span<double> displacements_m) const;
     double acceleration_m_s2(double time_s) const;
 
 private:
@@ -28,6 +31,8 @@ private:
 
     Shape shape_;
     double scale_ = 1;
+    double duration_s_ = 0;
+    double end_m_ = 0; ///< displacement from then on
 };
 
 /// Largest |acceleration| of a shape of unit amplitude, to 1e-12 of it: looked for at 32 times a cycle of its fastest

@@ -16,14 +16,6 @@ double bell_argument(double frequency_hz, double t)
     return x * x;
 }
 
-/// Integral from 0 to t of cos(2 pi g (s - half) + phase), g >= 0 small or not: t sinc(pi g t) cos(its middle).
-double swing(double g, double t, double half, double phase_cycles)
-{
-    const double x = pi * g * t;
-    const double width = x < 1e-4 ? t * (1 - x * x / 6) : sine_of(g * t / 2) / (pi * g);
-    return width * cosine_of(g * (t / 2 - half) + phase_cycles);
-}
-
 } // namespace
 
 double RickerWavelet::displacement(double t) const
@@ -37,20 +29,40 @@ double RickerWavelet::acceleration(double t) const
     return (1 - 2 * q) * exp_of(-q);
 }
 
+VelocityPulse::VelocityPulse(double frequency_hz, double phase_cycles, double gamma)
+    : frequency_hz_(frequency_hz), phase_cycles_(phase_cycles), gamma_(gamma), half_s_(gamma / (2 * frequency_hz)),
+      // the product of cosines as a sum of three
+      terms_{{{0.5, frequency_hz, 0},
+              {0.25, frequency_hz * (1 + 1 / gamma), 0},
+              {0.25, frequency_hz * (1 - 1 / gamma), 0}}}
+{
+    for (Term& term : terms_)
+        term.at_start = sine_of(term.rate * half_s_ - phase_cycles_);
+}
+
+/// Integral of a term from 0 to t.
+double VelocityPulse::swing(const Term& term, double t) const
+{
+    if (term.rate > 0.1 * frequency_hz_)
+        return term.weight / (2 * pi * term.rate) *
+               (sine_of(term.rate * (t - half_s_) + phase_cycles_) + term.at_start);
+    // gamma near 1: a rate near 0. As t sinc(pi rate t) cos(in the middle), in which nothing cancels
+    const double x = pi * term.rate * t;
+    const double width = x < 1e-4 ? t * (1 - x * x / 6) : sine_of(term.rate * t / 2) / (pi * term.rate);
+    return term.weight * width * cosine_of(term.rate * (t / 2 - half_s_) + phase_cycles_);
+}
+
 double VelocityPulse::displacement(double t) const
 {
-    // the product of cosines as a sum of three
-    const double half = duration_s() / 2, f = frequency_hz;
-    return swing(f, t, half, phase_cycles) / 2 +
-           (swing(f * (1 + 1 / gamma), t, half, phase_cycles) + swing(f * (1 - 1 / gamma), t, half, phase_cycles)) / 4;
+    return swing(terms_[0], t) + swing(terms_[1], t) + swing(terms_[2], t);
 }
 
 double VelocityPulse::acceleration(double t) const
 {
-    const double c = frequency_hz * t - gamma / 2;
-    return -pi * frequency_hz / gamma *
-           (sine_of(c / gamma) * cosine_of(c + phase_cycles) +
-            gamma * sine_of(c + phase_cycles) * (1 + cosine_of(c / gamma)));
+    const double c = frequency_hz_ * t - gamma_ / 2;
+    return -pi * frequency_hz_ / gamma_ *
+           (sine_of(c / gamma_) * cosine_of(c + phase_cycles_) +
+            gamma_ * sine_of(c + phase_cycles_) * (1 + cosine_of(c / gamma_)));
 }
 
 } // namespace stylobate

@@ -4,6 +4,8 @@
 /// Each is for a unit amplitude and begins at t = 0; times outside [0, duration_s] are the caller's to hold back.
 /// The bits of the values are the same on every machine (`elementary.hpp`).
 
+#include <array>
+
 namespace stylobate {
 
 /// Ricker (1953): a = (1 - 2 q) exp(-q), q = (pi f (t - t0))2, f the peak of its Fourier amplitude; |a| is largest at
@@ -26,15 +28,26 @@ struct RickerWavelet {
 /// acceleration are zero at both ends. The displacement ends at cos(nu) sin(pi gamma) / (2 pi f (1 - gamma2)), which
 /// is zero for nu = +-pi/2 and for whole gamma > 1 only: what remains is the fault's own (fling) and is kept. Nothing
 /// but the second difference drives a structure, so that it does no harm.
-struct VelocityPulse {
-    double frequency_hz = 1;
-    double phase_cycles = 0; ///< nu / 2 pi
-    double gamma = 1;
+class VelocityPulse {
+public:
+    /// @param phase_cycles nu / 2 pi
+    VelocityPulse(double frequency_hz, double phase_cycles, double gamma);
 
-    double duration_s() const { return gamma / frequency_hz; }
-    double fastest_hz() const { return frequency_hz * (1 + 1 / gamma); }
+    double duration_s() const { return gamma_ / frequency_hz_; }
+    double fastest_hz() const { return frequency_hz_ * (1 + 1 / gamma_); }
     double displacement(double t) const; ///< [m] for a velocity of 1 m/s
     double acceleration(double t) const;
+
+private:
+    /// The velocity is the sum of three of these: weight cos(2 pi (rate s + nu)).
+    struct Term {
+        double weight, rate;
+        double at_start; ///< sine at t = 0, turned around
+    };
+    double swing(const Term& term, double t) const;
+
+    double frequency_hz_, phase_cycles_, gamma_, half_s_;
+    std::array<Term, 3> terms_;
 };
 
 } // namespace stylobate

@@ -54,28 +54,31 @@ TaperedSine::TaperedSine(double frequency_hz, double cycles, double ramp_cycles,
     // (1 - cos(pi c / ramp)) / 2 sin(2 pi c + phase) as a sum of three sines; falling, c counts from the end
     const double bell = 1 / (2 * ramp_), from_end = cycles_ * bell;
     segments_[0].terms = {{{0.5, 1, phase_}, {-0.25, 1 + bell, phase_}, {-0.25, 1 - bell, phase_}}};
-    segments_[1].terms = {{{1, 1, phase_}, {0, 1, 0}, {0, 1, 0}}};
+    segments_[1].terms = {{{1, 1, phase_}}};
     segments_[2].terms = {
         {{0.5, 1, phase_}, {-0.25, 1 - bell, phase_ + from_end}, {-0.25, 1 + bell, phase_ - from_end}}};
     segments_[1].start = ramp_;
     segments_[2].start = cycles_ - ramp_;
-    for (std::size_t k = 1; k < segments_.size(); ++k) {
-        const Segment& before = segments_[k - 1];
-        const double c = segments_[k].start;
-        segments_[k].displacement = moved(before, c);
-        segments_[k].velocity = before.velocity + slope_part(before, before.start) - slope_part(before, c);
+    segments_[1].count = 1;
+    const auto velocity_at = [](const Segment& segment, double c) { return segment.velocity - slope_part(segment, c); };
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+        Segment& segment = segments_[k];
+        const double c = segment.start;
+        const double u = k > 0 ? moved(segments_[k - 1], c) : 0, v = k > 0 ? velocity_at(segments_[k - 1], c) : 0;
+        segment.displacement = u + value_part(segment, c);
+        segment.velocity = v + slope_part(segment, c);
     }
-    const Segment& last = segments_.back();
-    rest_ = RestPolynomial(cycles_, moved(last, cycles_),
-                           last.velocity + slope_part(last, last.start) - slope_part(last, cycles_), 0);
+    rest_ = RestPolynomial(cycles_, moved(segments_.back(), cycles_), velocity_at(segments_.back(), cycles_), 0);
 }
 
 /// Minus the integral of the terms.
 double TaperedSine::slope_part(const Segment& segment, double c)
 {
     double sum = 0;
-    for (const Term& term : segment.terms)
+    for (int i = 0; i < segment.count; ++i) {
+        const Term& term = segment.terms[static_cast<std::size_t>(i)];
         sum += term.amplitude / (2 * pi * term.rate) * cosine_of(term.rate * c + term.phase);
+    }
     return sum;
 }
 
@@ -83,16 +86,17 @@ double TaperedSine::slope_part(const Segment& segment, double c)
 double TaperedSine::value_part(const Segment& segment, double c)
 {
     double sum = 0;
-    for (const Term& term : segment.terms)
+    for (int i = 0; i < segment.count; ++i) {
+        const Term& term = segment.terms[static_cast<std::size_t>(i)];
         sum += term.amplitude / (4 * pi * pi * term.rate * term.rate) * sine_of(term.rate * c + term.phase);
+    }
     return sum;
 }
 
 /// Displacement at c, in a segment, without the polynomial.
 double TaperedSine::moved(const Segment& segment, double c)
 {
-    return segment.displacement + (segment.velocity + slope_part(segment, segment.start)) * (c - segment.start) +
-           value_part(segment, segment.start) - value_part(segment, c);
+    return segment.displacement + segment.velocity * (c - segment.start) - value_part(segment, c);
 }
 
 const TaperedSine::Segment& TaperedSine::at(double c) const
@@ -111,7 +115,7 @@ double TaperedSine::acceleration(double t) const
     const double c = frequency_hz_ * t;
     double sum = 0;
     for (const Term& term : at(c).terms)
-        sum += term.amplitude * sine_of(term.rate * c + term.phase);
+        sum += term.amplitude * sine_of(term.rate * c + term.phase); // of the plateau two are nothing
     return sum - rest_.acceleration(c);
 }
 

@@ -48,9 +48,10 @@ private:
         double amplitude, rate, phase; ///< amplitude sin(2 pi (rate c + phase))
     };
     struct Segment {
-        double start = 0; ///< in cycles, as all of it
-        double velocity = 0, displacement = 0;
+        double start = 0;                      ///< in cycles, as all of it
+        double velocity = 0, displacement = 0; ///< at its start, and what the terms' integrals lack there
         std::array<Term, 3> terms{};
+        int count = 3; ///< of the terms
     };
     static double slope_part(const Segment& segment, double c);
     static double value_part(const Segment& segment, double c);
