@@ -38,8 +38,9 @@ struct ExportOptions {
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
 int replay_command(const CommonOptions& options, const std::string& results, long long realization,
                    const std::string& trajectory);
+/// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none
 int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
-                   const std::string& component);
+                   const std::string& component, const std::string& block);
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 int info_command(const CommonOptions& options);
 

@@ -91,15 +91,17 @@ int main(int argc, char** argv)
     replay->callback([&] { status = replay_command(options, results, realization, trajectory); });
 
     std::vector<std::string> files;
-    std::string unit, component;
+    std::string unit, component, block;
     auto* record = app.add_subcommand("record", "read ground motions: format, PGA, duration, frequencies, ...");
     record->add_option("FILE", files, "records of any known format")->required();
     record->add_option("--unit", unit,
                        "unit of the acceleration where the file does not say it: m/s2, cm/s2, mm/s2, g, g/10");
     record->add_option("--component", component,
                        "one component: its name, its orientation, or its column counted from 1");
+    record->add_option("--block", block,
+                       "WIDTHxHEIGHT of a rigid block in metres, such as 1x4.4: adds the measures of its rocking");
     add_common(*record, options);
-    record->callback([&] { status = record_command(options, files, unit, component); });
+    record->callback([&] { status = record_command(options, files, unit, component, block); });
 
     ExportOptions wanted;
     auto* exporting = app.add_subcommand("export", "write a result in other formats");

@@ -1,12 +1,14 @@
 /// `stylobate record`: what a ground motion is.
 
 #include "io/record.hpp"
+#include "ensemble/input_error.hpp"
 #include "io/ground_motion.hpp"
 #include "studies/command.hpp"
 #include "studies/json.hpp"
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -25,10 +27,46 @@ std::optional<double> header_difference(const Record& r, const IntensityMeasures
     return (im.pga_m_s2 - *r.header_pga_m_s2) / *r.header_pga_m_s2;
 }
 
+/// Full width and height of a block [m].
+struct BlockSize {
+    double width = 0, height = 0;
+};
+
+/// @throws InputError if the text is no WIDTHxHEIGHT
+std::optional<BlockSize> block_size(const std::string& text)
+{
+    if (text.empty())
+        return {};
+    BlockSize size;
+    const std::size_t cross = text.find_first_of("xX");
+    const auto length = [](std::string_view part, double& value) {
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        return error == std::errc() && end == part.data() + part.size() && value > 0 && value <= 100;
+    };
+    if (cross == std::string::npos || !length(std::string_view(text).substr(0, cross), size.width) ||
+        !length(std::string_view(text).substr(cross + 1), size.height))
+        throw InputError(fmt::format("--block {}: is no WIDTHxHEIGHT with lengths in (0, 100] m. Give the full width "
+                                     "and height of a block in metres, such as --block 1x4.4",
+                                     text));
+    return size;
+}
+
+/// What is said of a component.
+struct Described {
+    const Record& record;
+    IntensityMeasures measures;
+    BaselineReport baseline;
+    std::vector<double> spectrum;
+    std::optional<RockingMeasures> rocking;
+};
+
 constexpr double spectrum_periods_s[] = {0.1, 0.2, 0.3, 0.5, 1, 2, 3};
 
-Json describe(const Record& r, const IntensityMeasures& im, const std::vector<double>& spectrum)
+Json describe(const Described& d)
 {
+    const Record& r = d.record;
+    const IntensityMeasures& im = d.measures;
+    const std::vector<double>& spectrum = d.spectrum;
     Json sa = Json::list();
     for (std::size_t i = 0; i < spectrum.size(); ++i)
         sa.item(Json::object().member("period_s", spectrum_periods_s[i]).member("sa_m_s2", spectrum[i]));
@@ -49,17 +87,33 @@ Json describe(const Record& r, const IntensityMeasures& im, const std::vector<do
         object.member("header_pga_m_s2", *r.header_pga_m_s2)
             .member("header_pga_difference", *difference)
             .member("header_pga_contradicts", std::fabs(*difference) > header_tolerance);
-    return object.member("pgv_m_s", im.pgv_m_s)
+    object.member("pgv_m_s", im.pgv_m_s)
         .member("pgd_m", im.pgd_m)
+        .member("pgv_per_pga_s", im.pgv_per_pga_s)
         .member("arias_m_s", im.arias_m_s)
+        .member("cav_m_s", im.cav_m_s)
         .member("d5_95_s", im.d5_95_s)
         .member("predominant_frequency_hz", im.predominant_frequency_hz)
         .member("mean_frequency_hz", im.mean_frequency_hz)
-        .member("sa", sa);
+        .member("sa", sa)
+        .member("residual_velocity_m_s", d.baseline.residual_velocity_before_m_s)
+        .member("residual_displacement_m", d.baseline.residual_displacement_before_m)
+        .member("pga_change_by_correction", d.baseline.pga_change());
+    if (d.rocking)
+        object.member("rocking", Json::object()
+                                     .member("tan_alpha", d.rocking->tan_alpha)
+                                     .member("p_rad_s", d.rocking->p_rad_s)
+                                     .member("pga_over_g_tan_alpha", d.rocking->pga_over_g_tan_alpha)
+                                     .member("p_pgv_over_g_tan_alpha", d.rocking->p_pgv_over_g_tan_alpha)
+                                     .member("omega_p_over_p", d.rocking->omega_p_over_p));
+    return object;
 }
 
-void print(const Record& r, const IntensityMeasures& im, const std::vector<double>& spectrum)
+void print(const Described& d)
 {
+    const Record& r = d.record;
+    const IntensityMeasures& im = d.measures;
+    const std::vector<double>& spectrum = d.spectrum;
     fmt::print("{}\n", r.file);
     fmt::print("  format       {}\n", r.format);
     if (!r.station.empty())
@@ -82,19 +136,32 @@ void print(const Record& r, const IntensityMeasures& im, const std::vector<doubl
         fmt::print("\n");
     }
     fmt::print("  PGV, PGD     {:.4f} m/s, {:.4f} m (after the baseline correction)\n", im.pgv_m_s, im.pgd_m);
-    fmt::print("  Arias        {:.4f} m/s, 5 to 95 % in {:.2f} s\n", im.arias_m_s, im.d5_95_s);
+    fmt::print("  PGV/PGA      {:.4f} s\n", im.pgv_per_pga_s);
+    fmt::print(
+        "  baseline     {:+.4f} m/s and {:+.4f} m are left at the end of the record as it stands; the correction "
+        "changes the PGA by {:+.2f} %\n",
+        d.baseline.residual_velocity_before_m_s, d.baseline.residual_displacement_before_m,
+        100 * d.baseline.pga_change());
+    fmt::print("  Arias        {:.4f} m/s, 5 to 95 % in {:.2f} s; CAV {:.3f} m/s\n", im.arias_m_s, im.d5_95_s,
+               im.cav_m_s);
     fmt::print("  frequency    {:.3f} Hz predominant, {:.3f} Hz mean\n", im.predominant_frequency_hz,
                im.mean_frequency_hz);
     fmt::print("  Sa(T), 5 %  ");
     for (std::size_t i = 0; i < spectrum.size(); ++i)
         fmt::print(" {} s: {:.3f}{}", spectrum_periods_s[i], spectrum[i], i + 1 < spectrum.size() ? "," : " m/s2\n");
+    if (d.rocking)
+        fmt::print("  rocking      PGA/(g tan alpha) {:.3f}, p PGV/(g tan alpha) {:.3f}, omega_p/p {:.3f}; tan alpha "
+                   "{:.4f}, p {:.4f} rad/s\n",
+                   d.rocking->pga_over_g_tan_alpha, d.rocking->p_pgv_over_g_tan_alpha, d.rocking->omega_p_over_p,
+                   d.rocking->tan_alpha, d.rocking->p_rad_s);
 }
 
 } // namespace
 
 int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
-                   const std::string& component)
+                   const std::string& component, const std::string& block)
 {
+    const std::optional<BlockSize> size = block_size(block);
     // all are read before any is printed: one bad file, one message and nothing else
     std::vector<Record> records;
     for (const std::string& file : files) {
@@ -108,12 +175,17 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
     const std::vector<double> periods(std::begin(spectrum_periods_s), std::end(spectrum_periods_s));
     Json list = Json::list();
     for (const Record& record : records) {
-        const IntensityMeasures im = intensity_measures(record);
-        const std::vector<double> spectrum = spectral_acceleration(record, periods);
+        Described described{record,
+                            intensity_measures(record),
+                            make_motion(record, true).baseline,
+                            spectral_acceleration(record, periods),
+                            {}};
+        if (size)
+            described.rocking = rocking_measures(described.measures, size->width / 2, size->height / 2);
         if (options.json)
-            list.item(describe(record, im, spectrum));
+            list.item(describe(described));
         else
-            print(record, im, spectrum);
+            print(described);
     }
     if (options.json)
         fmt::print("{}\n", list.text());
