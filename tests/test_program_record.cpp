@@ -98,6 +98,35 @@ TEST_F(Records, OfAKnownFormula)
         EXPECT_NE(plain.out.find(part), std::string::npos) << part;
 }
 
+TEST_F(Records, OfABlockThatRocks)
+{
+    const Burst burst;
+    write_bytes(folder / "burst.at2", burst.at2());
+    const JsonValue list = json_of(run({"record", "burst.at2", "--block", "1x4", "--json"}));
+    ASSERT_EQ(list.items.size(), 1u);
+    const JsonValue& r = list.items[0];
+    const JsonValue& rocking = r["rocking"];
+    // a block of 1 x 4 m: tan alpha = 1/4, p = sqrt(3 g / (4 R)) with R = sqrt(17) / 2, g = 9.81 m/s2
+    const double p = 1.889156352;
+    EXPECT_NEAR(rocking["tan_alpha"].number, 0.25, 1e-12);
+    EXPECT_NEAR(rocking["p_rad_s"].number, p, 1e-9);
+    EXPECT_NEAR(rocking["pga_over_g_tan_alpha"].number, r["pga_m_s2"].number / (9.81 / 4), 1e-9);
+    EXPECT_NEAR(rocking["p_pgv_over_g_tan_alpha"].number, p * r["pgv_m_s"].number / (9.81 / 4), 1e-9);
+    EXPECT_NEAR(rocking["omega_p_over_p"].number, 6.283185307179586 * r["predominant_frequency_hz"].number / p, 1e-8);
+    EXPECT_NEAR(r["pgv_per_pga_s"].number, r["pgv_m_s"].number / r["pga_m_s2"].number, 1e-12);
+    EXPECT_GT(r["cav_m_s"].number, 0);
+    EXPECT_LT(std::abs(r["residual_velocity_m_s"].number), 0.01 * r["pgv_m_s"].number);
+    const Ended plain = run({"record", "burst.at2", "--block", "1x4"});
+    for (const char* part : {"CAV", "PGV/PGA", "baseline", "rocking      PGA/(g tan alpha)"})
+        EXPECT_NE(plain.out.find(part), std::string::npos) << part;
+    for (const char* block : {"1", "1x", "x4", "1x-4", "1x4m", "0x4", "1x1000"}) {
+        const Ended refused = run({"record", "burst.at2", "--block", block});
+        EXPECT_EQ(refused.status, 2) << block;
+        EXPECT_NE(refused.err.find("WIDTHxHEIGHT"), std::string::npos) << refused.err;
+        EXPECT_TRUE(refused.out.empty()) << block;
+    }
+}
+
 TEST_F(Records, SaysWhereTheHeadersPeakContradictsTheSamples)
 {
     // the samples of channels 1 and 3 peak at 50 cm/s2, as their headers state; those of channel 2 do not at 300
