@@ -18,8 +18,9 @@ namespace stylobate {
 namespace {
 
 /// Asked in this order; the columns, which any table of numbers is, come last.
-constexpr const RecordParser* parsers[] = {&at2_parser, &csmip_parser, &bhrc_parser,
-                                           &usc_parser, &smc_parser,   &columns_parser};
+constexpr const RecordParser* parsers[] = {&at2_parser,  &csmip_parser, &cosmos_parser, &bhrc_parser,
+                                           &usc_parser,  &smc_parser,   &geonet_parser, &esm_parser,
+                                           &knet_parser, &unam_parser,  &columns_parser};
 
 constexpr const char* unit_choices = "\"m/s2\", \"cm/s2\" (or \"gal\"), \"mm/s2\", \"g\" or \"g/10\"";
 constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record

@@ -55,26 +55,8 @@ struct Block {
     std::size_t count = 0;
     double dt_s = 0;
     std::string unit; ///< as it is spelled
-    int per_line = 8, width = 10;
+    FortranFormat format = {8, 10};
 };
-
-/// "(8f9.6)" to 8 and 9.
-void read_format(const RecordText& text, std::size_t i, Block& block)
-{
-    const std::string line = lower_case(text.lines[i]);
-    const std::size_t digits = line.find_last_of('(');
-    const std::size_t kind = line.find_first_of("fe", digits);
-    const std::size_t point = line.find('.', std::min(kind, line.size()));
-    const auto whole = [&](std::size_t first, std::size_t end) {
-        const std::string token = first < end && end <= line.size() ? line.substr(first, end - first) : "";
-        if (token.empty() || token.size() > 2 || token.find_first_not_of("0123456789") != std::string::npos ||
-            std::stoi(token) == 0)
-            text.refuse(i, "the format of the values should read like \"Format: (8f9.6)\".");
-        return std::stoi(token);
-    };
-    block.per_line = whole(digits + 1, kind);
-    block.width = whole(kind + 1, point);
-}
 
 Block read_block(const RecordText& text, std::size_t i)
 {
@@ -92,7 +74,7 @@ Block read_block(const RecordText& text, std::size_t i)
         block.unit.pop_back();
     const bool says_format = lower_case(squeezed(line)).find("format:") != std::string::npos;
     if (says_format)
-        read_format(text, i, block);
+        block.format = fortran_format(text, i, word_after(line, "format"));
     else if (lower_case(line).find("accelerogram points") != std::string::npos)
         text.refuse(i, "the format of the values is missing; it should read like \"Format: (8f9.6)\".");
     return block;
@@ -100,9 +82,9 @@ Block read_block(const RecordText& text, std::size_t i)
 
 std::vector<double> read_values(const RecordText& text, std::size_t& line, const Block& block)
 {
-    std::vector<double> values = fixed_width_numbers(text, line + 1, block.count, block.width, block.per_line);
-    const auto per_line = static_cast<std::size_t>(block.per_line);
-    line += 1 + (block.count + per_line - 1) / per_line;
+    const auto [per_line, width] = block.format;
+    std::vector<double> values = fixed_width_numbers(text, line + 1, block.count, width, per_line);
+    line += 1 + lines_of_values(block.count, per_line);
     return values;
 }
 

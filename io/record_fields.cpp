@@ -60,6 +60,30 @@ void refuse_more(const RecordText& text, std::size_t i)
                                        trimmed(text.lines[i]).substr(0, 40)));
 }
 
+FortranFormat fortran_format(const RecordText& text, std::size_t i, std::string_view spelling)
+{
+    const std::string format = lower_case(spelling);
+    constexpr std::string_view digits = "0123456789";
+    const std::size_t first = format.starts_with('(') ? 1 : 0;
+    const std::size_t kind = std::min(format.find_first_not_of(digits, first), format.size());
+    const std::size_t end = std::min(format.find_first_not_of(digits, kind + 1), format.size());
+    const auto whole = [&](std::size_t from, std::size_t to) {
+        const bool fits = to > from && to - from <= 2;
+        return fits ? std::stoi(format.substr(from, to - from)) : 0;
+    };
+    const bool known = kind < format.size() && std::string_view("fei").find(format[kind]) != std::string_view::npos;
+    const FortranFormat layout = {kind == first ? 1 : whole(first, kind), known ? whole(kind + 1, end) : 0};
+    if (layout.per_line == 0 || layout.width == 0)
+        text.refuse(i, fmt::format("the format of the values, \"{}\", should read like \"(8f9.6)\".", spelling));
+    return layout;
+}
+
+std::size_t lines_of_values(std::size_t count, int per_line)
+{
+    const auto n = static_cast<std::size_t>(per_line);
+    return (count + n - 1) / n;
+}
+
 std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
                                         int per_line, int indent)
 {

@@ -36,8 +36,13 @@ struct RecordParser {
 extern const RecordParser at2_parser;
 extern const RecordParser bhrc_parser;
 extern const RecordParser columns_parser;
+extern const RecordParser cosmos_parser;
 extern const RecordParser csmip_parser;
+extern const RecordParser esm_parser;
+extern const RecordParser geonet_parser;
+extern const RecordParser knet_parser;
 extern const RecordParser smc_parser;
+extern const RecordParser unam_parser;
 extern const RecordParser usc_parser;
 
 /// A sampling interval outside these is taken for an error of unit or a damaged header [s].
@@ -94,8 +99,20 @@ std::size_t sample_count(const RecordText& text, std::size_t i, std::string_view
 /// @throws InputError, naming the line, if anything but blank lines follows from line `i` on
 void refuse_more(const RecordText& text, std::size_t i);
 
+/// How Fortran lays out numbers: so many to a line, in columns of one width.
+struct FortranFormat {
+    int per_line = 1, width = 0;
+};
+
+/// "(8f9.6)", "3F10.3", "(1E15.6)" or "(10I8)".
+/// @throws InputError, naming line `i`
+FortranFormat fortran_format(const RecordText& text, std::size_t i, std::string_view spelling);
+
+/// The lines that so many values take.
+std::size_t lines_of_values(std::size_t count, int per_line);
+
 /// `count` numbers in columns of `width` characters, `per_line` to a line, as Fortran writes them: they may touch.
-/// Each line is full but the last, and nothing but blanks follows. Line first_line + (count + per_line - 1) / per_line
+/// Each line is full but the last, and nothing but blanks follows. Line first_line + lines_of_values(count, per_line)
 /// is the one below them.
 /// @param indent columns before the first number, which are not looked at
 /// @throws InputError, naming the line, if a value is missing, cut, or no number, or if the file ends too early
