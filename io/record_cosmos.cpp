@@ -236,8 +236,8 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
         text.refuse(i, fmt::format("{} samples every {} s (real 62) last {} s, and this line says {} s.", block.count,
                                    record.dt_s, lasts, block.seconds));
     const double factor = unit_m_s2(record.unit);
-    if (peak != header.unknown && peak != 0)
-        record.header_pga_m_s2 = std::fabs(peak) * factor;
+    if (peak != header.unknown)
+        record.header_pga_m_s2 = stated_peak_m_s2(peak, record.unit);
     const auto per_line = static_cast<std::size_t>(block.format.per_line);
     for (std::size_t k = 0; k < values.size(); ++k)
         if (values[k] == header.unknown)

@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace stylobate {
@@ -119,8 +118,7 @@ std::optional<double> header_peak(const RecordText& text, std::size_t top, std::
     const std::string canonical = canonical_unit(unit);
     if (canonical.empty() || !is_number(peak))
         return {};
-    const double value = std::fabs(number(text, line < data ? line : data - real_header_lines, peak));
-    return value > 0 ? std::optional(value * unit_m_s2(canonical)) : std::nullopt;
+    return stated_peak_m_s2(number(text, line < data ? line : data - real_header_lines, peak), canonical);
 }
 
 /// One channel.

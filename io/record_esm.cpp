@@ -108,7 +108,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     }
     const std::size_t peak = line_of(text, header, "PGA_CM/S^2");
     if (peak < header && !value_of(text.lines[peak]).empty())
-        record.header_pga_m_s2 = std::fabs(number(text, peak, value_of(text.lines[peak]))) * unit_m_s2("cm/s2");
+        record.header_pga_m_s2 = stated_peak_m_s2(number(text, peak, value_of(text.lines[peak])), "cm/s2");
 
     std::size_t below = 0;
     record.acceleration_m_s2 = read_numbers(text, header, count, &below);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <system_error>
 
 namespace stylobate {
@@ -58,6 +59,11 @@ void refuse_more(const RecordText& text, std::size_t i)
             text.refuse(i, fmt::format("\"{}\" follows after all values that the header counts: the count is wrong, or "
                                        "the file is damaged.",
                                        trimmed(text.lines[i]).substr(0, 40)));
+}
+
+std::optional<double> stated_peak_m_s2(double peak, std::string_view unit)
+{
+    return peak != 0 ? std::optional(std::fabs(peak) * unit_m_s2(unit)) : std::nullopt;
 }
 
 FortranFormat fortran_format(const RecordText& text, std::size_t i, std::string_view spelling)

@@ -85,7 +85,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
         text.refuse(top + component_line, "the component's direction should stand here, as in \"Component N28W\".");
     record.component = record.orientation;
     if (const std::string peak = word_after(text.lines[top + peak_line], "peak "); is_number(peak))
-        record.header_pga_m_s2 = std::fabs(number(text, top + peak_line, peak)) * unit_m_s2(record.unit);
+        record.header_pga_m_s2 = stated_peak_m_s2(number(text, top + peak_line, peak), record.unit);
 
     const std::size_t count = sample_count(text, first_integer + 3, integer_at(text, top, 34));
     const double duration_s = reals[23];

@@ -99,7 +99,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     record.title = fmt::format("{}, M {}", value_of(text, 0), value_of(text, needed(text, "mag.")));
     for (const char* name : {"max. acc. (gal)", "max acc. (gal)"})
         if (const std::optional<std::size_t> i = line_of(text, name))
-            record.header_pga_m_s2 = std::fabs(number(text, *i, value_of(text, *i))) * unit_m_s2("cm/s2");
+            record.header_pga_m_s2 = stated_peak_m_s2(number(text, *i, value_of(text, *i)), "cm/s2");
 
     const std::size_t frequency = needed(text, "sampling freq(hz)");
     std::string rate = lower_case(value_of(text, frequency));
@@ -118,6 +118,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     record.acceleration_m_s2 = read_numbers(text, header_lines, static_cast<std::size_t>(values), &below);
     refuse_more(text, below);
     const double mean = std::accumulate(record.acceleration_m_s2.begin(), record.acceleration_m_s2.end(), 0.0) / values;
+    record.note = fmt::format("without the mean of its counts, {:.6g} cm/s2, as the header's peak is", mean * gal);
     for (double& a : record.acceleration_m_s2)
         a = (a - mean) * gal * unit_m_s2("cm/s2");
     return {record};

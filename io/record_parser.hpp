@@ -4,6 +4,7 @@
 #include "io/record.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,10 @@ std::string canonical_unit(std::string_view spelling);
 /// The unit that line `i` spells, where none was given or the given one is the same.
 /// @throws InputError if it is no unit of acceleration, or another than the one given
 std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling, const std::string& given);
+
+/// The size of a peak that a header states, in m/s2; none for 0, which stands in headers that do not know it.
+/// @pre canonical name
+std::optional<double> stated_peak_m_s2(double peak, std::string_view unit);
 
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);

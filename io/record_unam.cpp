@@ -96,16 +96,22 @@ PerChannel per_channel(const RecordText& text, std::size_t header, const std::st
     return found;
 }
 
-/// Refuses rows beyond those counted, unless they repeat the last one counted.
+/// The number of rows beyond those counted, which repeat the last one counted.
 /// @param last the last row counted
-void refuse_other_rows(const RecordText& text, std::size_t last, std::size_t count)
+/// @throws InputError, naming the line, if one is another
+std::size_t padding_rows(const RecordText& text, std::size_t last, std::size_t count)
 {
     const std::string padding = squeezed(text.lines[last]);
-    for (std::size_t i = last + 1; i < text.lines.size(); ++i)
-        if (const std::string row = squeezed(text.lines[i]); !row.empty() && row != padding)
+    std::size_t rows = 0;
+    for (std::size_t i = last + 1; i < text.lines.size(); ++i) {
+        const std::string row = squeezed(text.lines[i]);
+        if (!row.empty() && row != padding)
             text.refuse(i, fmt::format("\"{}\" stands below the {} rows that the header counts, and is no copy of the "
                                        "last of them: the count is wrong, or the file is damaged.",
                                        row.substr(0, 40), count));
+        rows += row.empty() ? 0 : 1;
+    }
+    return rows;
 }
 
 std::vector<Record> parse(const RecordText& text, const std::string& given)
@@ -153,7 +159,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         record.component = fmt::format("canal-{}", c + 1);
         record.dt_s = number(text, interval.lines[c], interval.values[c]) * decimation;
         check_dt(text, interval.lines[c], record.dt_s);
-        record.header_pga_m_s2 = std::fabs(number(text, peak.lines[c], peak.values[c])) * unit_m_s2("cm/s2");
+        record.header_pga_m_s2 = stated_peak_m_s2(number(text, peak.lines[c], peak.values[c]), "cm/s2");
         if (samples.values[c] != samples.values[0])
             text.refuse(samples.lines[c], "the channels differ in their number of samples: which rows are whose is "
                                           "not known.");
@@ -172,7 +178,10 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     if (first > end)
         text.refuse(header, "the two rules around the heading of the table should follow.");
     const auto values = fixed_width_numbers(text, first, count * channels, format.width, format.per_line);
-    refuse_other_rows(text, first + count - 1, count);
+    if (const std::size_t rows = padding_rows(text, first + count - 1, count); rows > 0)
+        for (Record& record : records)
+            record.note =
+                fmt::format("without the {} rows beyond the {} of the header: copies of the last one", rows, count);
     for (std::size_t i = 0; i < values.size(); ++i)
         records[i % channels].acceleration_m_s2.push_back(values[i] * unit_m_s2(unit));
     return records;
