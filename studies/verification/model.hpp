@@ -253,8 +253,8 @@ public:
                     topology_.fixed += fixed;
                 }
         for (const Joint& joint : r.joints)
-            joints_.push_back({place_of_[static_cast<std::size_t>(joint.lower)],
-                               place_of_[static_cast<std::size_t>(joint.upper)]});
+            joints_.push_back(
+                {place_of_[static_cast<std::size_t>(joint.lower)], place_of_[static_cast<std::size_t>(joint.upper)]});
         topology_.top = topology_.blocks - 1;
         topology_.joints = static_cast<int>(joints_.size());
         topology_.joint = joints_.data();
@@ -292,7 +292,10 @@ public:
         bundle_.at(OfRealization::gravity_dy, 0) = -dt2 * r.gravity_m_s2;
     }
 
-    double& at(OfBlock::Field field, int block) { return bundle_.at(field, place_of_[static_cast<std::size_t>(block)], 0); }
+    double& at(OfBlock::Field field, int block)
+    {
+        return bundle_.at(field, place_of_[static_cast<std::size_t>(block)], 0);
+    }
     double& at(OfJoint::Field field, int joint) { return bundle_.at(field, joint, 0); }
     double& at(OfRealization::Field field) { return bundle_.at(field, 0); }
     int blocks() const { return topology_.blocks; }

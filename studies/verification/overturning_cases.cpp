@@ -32,26 +32,30 @@ Realization pulsed_monolith(double K_n, double rate, double eta, double xi, doub
     return r;
 }
 
-/// Which way it went, for each eta: 0 it stands, 1 it fell to the first side at once, 2 after it had crossed over.
+/// How it fell, for each eta: 0 it stands, else 1 + the number of times it had crossed over before.
 std::vector<int> ways(ExcitationKind kind, double K_n, double rate, const std::vector<double>& etas, double xi)
 {
     std::vector<Realization> tries;
     for (double eta : etas)
         tries.push_back(pulsed_monolith(K_n, rate, eta, xi, step_rate));
     // the base first accelerates to +x: the block leans to -x, counter-clockwise
-    const double crossed = -0.01 * model::slenderness(model::mono_stone);
+    const double clear = 0.01 * model::slenderness(model::mono_stone);
     // A full sine may bring a block back that was beyond its balance for long, and one that stays there for a while
     // may look as if at rest: where it is at the end tells.
     Study study = model::pulse(kind);
     study.outcome.follow = Follow::rest;
-    std::vector<double> lowest(etas.size(), 0), last(etas.size(), 0);
+    std::vector<int> side(etas.size(), 1), crossings(etas.size(), 0);
+    std::vector<double> last(etas.size(), 0);
     model::run_all(study, tries, nullptr, [&](std::size_t i, const Snapshot& s) {
         last[i] = s.theta_rad[1];
-        lowest[i] = std::min(lowest[i], last[i]);
+        if (side[i] * last[i] < -clear) {
+            side[i] = -side[i];
+            ++crossings[i];
+        }
     });
     std::vector<int> way;
     for (std::size_t i = 0; i < etas.size(); ++i)
-        way.push_back(std::fabs(last[i]) < model::slenderness(model::mono_stone) ? 0 : lowest[i] > crossed ? 1 : 2);
+        way.push_back(std::fabs(last[i]) < model::slenderness(model::mono_stone) ? 0 : 1 + crossings[i]);
     return way;
 }
 
@@ -131,14 +135,21 @@ Finding full_sine_direct()
         const FullSineEdges edges = full_sine_edges(rigid_monolith(), rates[i], 0);
         const double rigid = edges.direct;
         f.equals(fmt::format("the oracle against the digits, w = {} p", rates[i]), digits[i], rigid, 1e-6 * digits[i]);
-        f.remarks.push_back(fmt::format("w={} N={}", rates[i], edges.direct_pressure));
+        if (edges.direct_pressure < 0) {
+            // a contact cannot pull, so such a block flies, and the rigid one is no oracle
+            f.remarks.push_back(fmt::format(
+                "At w = {} p the rigid block would have to be held down by {:.3f} of its weight, which nothing does "
+                "here: the block flies, and the two are **not expected** to agree; no comparison is made.",
+                rates[i], -edges.direct_pressure));
+            continue;
+        }
         std::vector<double> values;
         for (double K : stiffness)
             values.push_back(edge(ExcitationKind::full_sine, 1, K, rates[i], 1 + 0.5 * (rigid - 1), 1.2 * rigid));
         f.equals(fmt::format("w = {} p, K_N to infinity: eta", rates[i]), rigid, aitken(values), 2e-3 * rigid);
         if (rates[i] == 4)
-            f.convergences.push_back(convergence("K_N [N/m2]", "eta of a full sine without impact, w = 4 p", stiffness,
-                                                 values, rigid));
+            f.convergences.push_back(
+                convergence("K_N [N/m2]", "eta of a full sine without impact, w = 4 p", stiffness, values, rigid));
     }
     return f;
 }
@@ -163,25 +174,27 @@ Finding full_sine_impact()
         with_housner.push_back(edges.low);
         direct.push_back(edges.direct);
     }
-    // the engine's own e, from free rocking at the same stiffness and dashpots
-    const double K = 1e11;
-    const double e = impact_restitution(leaned_block(model::mono_stone, K, 0.5, 0.1));
+    // with the engine's own e, from free rocking at the same stiffness and dashpots
+    const double K = 1e11, e = impact_restitution(leaned_block(model::mono_stone, K, 0.5, 0.1));
     for (const Digits& d : digits) {
         const FullSineEdges edges = full_sine_edges(rigid, d.rate, e);
         with_ours.push_back(edges.low);
-        engine.push_back(edge(ExcitationKind::full_sine, 2, K, d.rate, 1.02, d.low));
+        engine.push_back(edge(ExcitationKind::full_sine, 2, K, d.rate, 1.005, 1.05 * edges.low));
         f.equals(fmt::format("w = {} p, K_N = 1e11 N/m2: lower edge after an impact, against the rigid block with "
-                             "e = {:.4f}", d.rate, e),
-                 edges.low, engine.back(), 0.02 * edges.low);
+                             "e = {:.4f}",
+                             d.rate, e),
+                 edges.low, engine.back(), 0.015 * edges.low);
     }
     f.equals("another program's lower edge at K_N = 1e8 N/m2, w = 4 p", 1.580,
              edge(ExcitationKind::full_sine, 2, 1e8, 4, 1.2, 1.7), 0.02);
     f.equals("another program's lower edge at K_N = 1e10 N/m2, w = 4 p", 1.686,
              edge(ExcitationKind::full_sine, 2, 1e10, 4, 1.2, 1.8), 0.02);
     f.remarks.push_back(fmt::format(
-        "With Housner's e = {:.4f} the rigid block needs more (the dark line of the picture): this contact law loses "
-        "less at an impact, e = {:.4f} at K_N = 1e11 N/m2, and is **not expected** to agree with that line. What is "
-        "compared is the rigid block with the e that the engine itself shows in free rocking.", housner, e));
+        "With Housner's e = {:.4f} the rigid block needs more: this contact law loses less at an impact and is **not "
+        "expected** to agree with him. What is compared is the rigid block with the e = {:.4f} that the engine shows "
+        "in "
+        "free rocking from 0.5 alpha at the same contact.",
+        housner, e));
     f.pictures.push_back({"full_sine", "Overturning of MONO by a full sine",
                           curves({"w / p", false, 0, 7}, {"eta = a / (g tan alpha)", false, 0, 10},
                                  {{"rigid, after an impact, Housner's e", at, with_housner, true, {}, {}},
@@ -213,10 +226,11 @@ Cases overturning_cases()
          full_sine_direct, Duration::slow},
         {"FullSineImpact", subject,
          "Least amplitude of a full sine that overturns MONO after one impact, for w from 1 to 6 p.",
-         "the rigid block with the restitution that the engine shows in free rocking: **not Housner's**, see below. The "
+         "the rigid block with the restitution that the engine shows in free rocking: **not Housner's**, see below. "
+         "The "
          "oracle itself is checked with Housner's e against the digits of others.",
-         "the engine's e depends somewhat on the amplitude, and its contact takes a time.", full_sine_impact,
-         Duration::slow},
+         "the contact is not rigid: half a sine needs some 0.5 % less at this stiffness; and its impact takes a time.",
+         full_sine_impact, Duration::slow},
     };
 }
 

@@ -122,8 +122,9 @@ PulseEnd respond(const RigidBlock& block, Real eta, Real rate, Real cycles, Real
             return end;
         }
         // the centre is at R cos(alpha - |theta|) above the base, and R / g = 3 / (4 p2)
-        const Real angle = block.alpha - std::fabs(m.theta), up = 0.75L / (block.p * block.p) *
-            (std::sin(angle) * side * second(t, m) - std::cos(angle) * m.rate * m.rate);
+        const Real angle = block.alpha - std::fabs(m.theta),
+                   up = 0.75L / (block.p * block.p) *
+                        (std::sin(angle) * side * second(t, m) - std::cos(angle) * m.rate * m.rate);
         end.least_pressure = std::min(end.least_pressure, static_cast<double>(1 + up));
         // free: what it has must not carry it over
         const Real lean = std::fabs(m.theta);

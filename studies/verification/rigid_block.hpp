@@ -44,9 +44,9 @@ double half_sine_edge(const RigidBlock& block, double rate);
 
 /// Edges of overturning under a full sine.
 struct FullSineEdges {
-    bool after_impact = false; ///< whether it can overturn after an impact
-    double low = 0, high = 0;  ///< if so, between these, after one
-    double direct = 0;         ///< and from here on without one
+    bool after_impact = false;  ///< whether it can overturn after an impact
+    double low = 0, high = 0;   ///< if so, between these, after one
+    double direct = 0;          ///< and from here on without one
     double direct_pressure = 1; ///< least one on the base in that motion, see `PulseEnd`
 };
 FullSineEdges full_sine_edges(const RigidBlock& block, double rate, double restitution);

@@ -32,8 +32,8 @@ std::vector<Slip> slide(const Study& study, const std::vector<double>& etas, dou
         runs.back().pga_m_s2 = eta * mu * model::gravity;
     }
     std::vector<double> last(etas.size());
-    const auto outcomes = model::run_all(study, runs, nullptr,
-                                         [&](std::size_t i, const Snapshot& s) { last[i] = s.x_m[1]; });
+    const auto outcomes =
+        model::run_all(study, runs, nullptr, [&](std::size_t i, const Snapshot& s) { last[i] = s.x_m[1]; });
     std::vector<Slip> slips;
     for (std::size_t i = 0; i < etas.size(); ++i)
         slips.push_back({outcomes[i].total_sliding_m / unit, -last[i] / unit});
@@ -53,10 +53,10 @@ std::vector<Slip> stiff_slide(const Study& study, const std::vector<double>& eta
 /// Slip path over the base's path, of four cycles in the middle of a motion: the difference of two motions.
 std::vector<double> steady_ratio(const std::vector<double>& etas, double stiffness)
 {
-    const auto more = stiffness > 0 ? slide(model::harmonic(16, 2), etas, stiffness)
-                                    : stiff_slide(model::harmonic(16, 2), etas);
-    const auto less = stiffness > 0 ? slide(model::harmonic(12, 2), etas, stiffness)
-                                    : stiff_slide(model::harmonic(12, 2), etas);
+    const auto more =
+        stiffness > 0 ? slide(model::harmonic(16, 2), etas, stiffness) : stiff_slide(model::harmonic(16, 2), etas);
+    const auto less =
+        stiffness > 0 ? slide(model::harmonic(12, 2), etas, stiffness) : stiff_slide(model::harmonic(12, 2), etas);
     std::vector<double> ratio;
     for (std::size_t i = 0; i < etas.size(); ++i)
         ratio.push_back((more[i].total - less[i].total) / (16 * etas[i]));
@@ -82,22 +82,24 @@ Finding pulses()
         f.equals(fmt::format("half a sine, eta = {}: slip", eta), h.total, half[i].total, 1e-5 * h.total);
         f.equals(fmt::format("full sine, eta = {}: total slip", eta), s.total, full[i].total, 1e-4);
         f.equals(fmt::format("full sine, eta = {}: base less block", eta), s.net, full[i].net, 1e-4);
-        f.equals(fmt::format("the oracle against the digits, eta = {}, half a sine", eta), digits[i].half, h.total, 1e-8);
+        f.equals(fmt::format("the oracle against the digits, eta = {}, half a sine", eta), digits[i].half, h.total,
+                 1e-8);
         f.equals(fmt::format("the same, full sine, total, eta = {}", eta), digits[i].full, s.total, 1e-8);
         f.equals(fmt::format("the same, full sine, net, eta = {}", eta), digits[i].net, s.net, 1e-8);
     }
     std::vector<double> stiffness{1e4, 1e5, 1e6, 1e7}, totals;
     for (double s : stiffness)
         totals.push_back(slide(model::pulse(ExcitationKind::full_sine), {2.0}, s)[0].total);
-    f.convergences.push_back(convergence("K_T / (w2 m)", "total slip of a full sine, eta = 2", stiffness, totals,
-                                         pulse_slip(2, 1).total));
+    f.convergences.push_back(
+        convergence("K_T / (w2 m)", "total slip of a full sine, eta = 2", stiffness, totals, pulse_slip(2, 1).total));
     return f;
 }
 
 Finding steady()
 {
     Finding f;
-    for (const auto& [eta, digits] : {std::pair{1.2, 0.064724028}, {1.5, 0.269152304}, {2.0, 0.618990892}, {10.0, 0.987585940}})
+    for (const auto& [eta, digits] :
+         {std::pair{1.2, 0.064724028}, {1.5, 0.269152304}, {2.0, 0.618990892}, {10.0, 0.987585940}})
         f.equals(fmt::format("the oracle against the digits, eta = {}", eta), digits, steady_slip_ratio(eta), 1e-9);
     const std::vector<double> etas{1.1, 1.2, 1.35, 1.5, 1.7, 1.85, 2, 2.5, 3, 4, 5, 6.7072, 8, 10};
     const auto measured = steady_ratio(etas, 0);
@@ -114,10 +116,10 @@ Finding steady()
         x.push_back(eta);
         y.push_back(steady_slip_ratio(eta));
     }
-    f.pictures.push_back({"steady_sliding", "Steady sliding under a harmonic base motion",
-                          curves({"eta = a / (mu g)", false, 1, 10.5}, {"slip path / base path", false, 0, 1.05},
-                                 {{"rigid block", x, y, true, {}, {}}, {"engine", etas, measured, false, {}, {}}},
-                                 "bottom right")});
+    f.pictures.push_back(
+        {"steady_sliding", "Steady sliding under a harmonic base motion",
+         curves({"eta = a / (mu g)", false, 1, 10.5}, {"slip path / base path", false, 0, 1.05},
+                {{"rigid block", x, y, true, {}, {}}, {"engine", etas, measured, false, {}, {}}}, "bottom right")});
     return f;
 }
 
@@ -132,7 +134,8 @@ Cases sliding_cases()
          "spring needs a time as 1 / sqrt(K_T); two stiffnesses give the limit to some 1e-5.",
          pulses},
         {"SteadySliding", subject, "Slip path over the base's path in the steady state, for eta from 1.1 to 670.",
-         "for eta >= sqrt(1 + pi2 / 4) it never sticks: sqrt(1 - (pi / (2 eta))2); below, the rigid block piece by piece.",
+         "for eta >= sqrt(1 + pi2 / 4) it never sticks: sqrt(1 - (pi / (2 eta))2); below, the rigid block piece by "
+         "piece.",
          "as above, relative: 2e-4; 5e-4 at 1.85, where the sticks are about to vanish.", steady},
     };
 }

@@ -2,9 +2,9 @@
 
 #include "ensemble/static_state.hpp"
 #include "studies/verification/case.hpp"
+#include "studies/verification/held_load.hpp"
 #include "studies/verification/limit_analysis.hpp"
 #include "studies/verification/model.hpp"
-#include "studies/verification/held_load.hpp"
 #include "studies/verification/picture.hpp"
 
 #include <fmt/format.h>
@@ -32,10 +32,10 @@ double uplift_acceleration(double K_n)
         const double x = t / rise, a = x * x * (3 - 2 * x);
         column.step(a * dt * dt);
         const double turn = column.at(OfBlock::theta, 1);
-        const double heel = column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) -
-                            half_width * std::fabs(std::sin(turn));
-        const double other = column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) +
-                             half_width * std::fabs(std::sin(turn));
+        const double heel =
+            column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) - half_width * std::fabs(std::sin(turn));
+        const double other =
+            column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) + half_width * std::fabs(std::sin(turn));
         if (std::max(heel, other) >= 0)
             return a;
     }
@@ -84,7 +84,8 @@ Finding capacity()
         f.equals(fmt::format("MONO at K_N = {:g} N/m2: a_max [m/s2]", K), closed.back(), values.back(),
                  4 * model::gravity * t * t + 2e-3);
     }
-    f.convergences.push_back(convergence("K_N [N/m2]", "a_max of MONO [m/s2], to that of a rigid block", at, values, rigid));
+    f.convergences.push_back(
+        convergence("K_N [N/m2]", "a_max of MONO [m/s2], to that of a rigid block", at, values, rigid));
     f.equals("order in K_N", -1.0 / 3, f.convergences.back().order, 0.02);
     f.pictures.push_back({"static_capacity", "Static capacity of MONO over the contact stiffness",
                           curves({"K_N [N/m2]", true, 0, 0}, {"a_max [m/s2]", false, 0, 0},
@@ -130,11 +131,14 @@ Cases static_cases()
          "takes.",
          "the slow rise leaves vibrations of some 1e-3.", uplift},
         {"StaticCapacity", subject,
-         "Largest acceleration that does not overturn MONO when it is reached slowly and held, by bisection to 5e-4, with "
+         "Largest acceleration that does not overturn MONO when it is reached slowly and held, by bisection to 5e-4, "
+         "with "
          "a drag on all velocities (it vanishes at rest).",
          "a_max = g (b/h - 3 t*), t* = (sqrt(2 W / K_N) / (6 h))^(2/3), a block on a bed without tension; K_N to "
          "infinity: g b / h, which the limit analysis finds too.",
-         "the closed form leaves out terms of the order of g t*2; and 2e-3 for the bisection and the time that the load is held.", capacity},
+         "the closed form leaves out terms of the order of g t*2; and 2e-3 for the bisection and the time that the "
+         "load is held.",
+         capacity},
         {"MovesWithTheBase", subject,
          "SPEC at 2 Hz and 0.5 m/s2, below sliding and uplift: the largest displacement of the top against the base.",
          "the static bending of the beds, amplified by 1 / (1 - (f/f1)2), by the weight, and by the smooth start's "
