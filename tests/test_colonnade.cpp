@@ -4,7 +4,7 @@
 #include "ensemble/settle.hpp"
 #include "ensemble/static_state.hpp"
 #include "ensemble/step_bound.hpp"
-#include "tests/colonnade.hpp"
+#include "studies/verification/colonnade.hpp"
 
 #include <gtest/gtest.h>
 

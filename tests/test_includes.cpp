@@ -200,7 +200,7 @@ TEST(House, NoTextNamesAMachine)
 
 TEST(House, EveryFolderSaysWhatItIs)
 {
-    for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "bench", "tests"})
+    for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "studies/verification", "bench", "tests"})
         EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
 }
 

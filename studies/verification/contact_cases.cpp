@@ -29,12 +29,11 @@ Finding overlap()
         const double turn = uniform(random), theta = std::copysign(std::pow(10.0, -7 + 6.5 * std::fabs(turn)), turn);
         const double depth = std::pow(10.0, -6.5 + 1.5 * uniform(random)); // of the lower corner
         column.at(OfBlock::theta, 1) = theta;
-        column.at(OfBlock::y, 1) = 0.5 * stone.width * std::sin(std::fabs(theta)) -
-                                   stone.height * std::pow(std::sin(0.5 * theta), 2) - depth;
+        column.at(OfBlock::y, 1) =
+            0.5 * stone.width * std::sin(std::fabs(theta)) - stone.height * std::pow(std::sin(0.5 * theta), 2) - depth;
         reference::State base, top;
         base.at = {r.blocks[0].x_m, r.blocks[0].y_m};
-        top.at = {reference::Number(r.blocks[1].x_m),
-                  reference::Number(r.blocks[1].y_m) + column.at(OfBlock::y, 1)};
+        top.at = {reference::Number(r.blocks[1].x_m), reference::Number(r.blocks[1].y_m) + column.at(OfBlock::y, 1)};
         top.angle = theta;
         const reference::Area exact = reference::Solver::overlap_of(r.blocks[0], base, r.blocks[1], top);
         if (exact.area < 1e-14L) // a micrometre by ten nanometres
@@ -45,7 +44,8 @@ Finding overlap()
         const double force = std::hypot(fx, fy), want = static_cast<double>(1e8L * exact.area);
         area = std::max(area, std::fabs(force / want - 1));
         const reference::Vector n = exact.normal(), arm = exact.centroid - top.at;
-        direction = std::max(direction, std::fabs(fx * static_cast<double>(n.y()) - fy * static_cast<double>(n.x())) / force);
+        direction =
+            std::max(direction, std::fabs(fx * static_cast<double>(n.y()) - fy * static_cast<double>(n.x())) / force);
         const double moment = static_cast<double>(reference::cross(arm, n)) * want;
         centre = std::max(centre, std::fabs(column.at(OfBlock::moment, 1) - moment) / (force * 0.048));
     }

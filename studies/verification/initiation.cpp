@@ -64,11 +64,13 @@ Start two_block_start(const TwoBlocks& k, double a)
     const double one = (front.Q1 + front.Q2) / (front.M11 + 2 * front.M12 + front.M22);
     if (one > 0 && front.Q2 - (front.M12 + front.M22) * one <= 0 && back.Q2 - (back.M12 + back.M22) * one >= 0)
         return {one, one};
+    // where two patterns meet they are the same, and rounding may refuse both: so not too strict
+    const double slack = 1e-9 * g / (k.h1 + k.h2);
     const Start same = both(front);
-    if (same.lower > 0 && same.upper > same.lower)
+    if (same.lower > -slack && same.upper > same.lower - slack)
         return same;
     const Start opposite = both(back);
-    if (opposite.lower > 0 && opposite.upper < opposite.lower)
+    if (opposite.lower > 0 && opposite.upper < opposite.lower + slack)
         return opposite;
     throw std::logic_error("no pattern of two blocks fits this acceleration");
 }

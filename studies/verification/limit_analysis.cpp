@@ -188,7 +188,7 @@ LimitState limit_acceleration(const Realization& r)
         state.pressure_n.push_back(static_cast<double>(N * unit));
         state.shear_n.push_back(static_cast<double>((f[2] - f[3]) * unit));
         state.at.push_back(N > 1e-12L ? static_cast<double>((f[1] - f[0]) / N)
-                                        : std::numeric_limits<double>::quiet_NaN());
+                                      : std::numeric_limits<double>::quiet_NaN());
     }
     return state;
 }

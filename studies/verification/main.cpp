@@ -77,8 +77,8 @@ int run(const std::vector<std::string>& names, const std::filesystem::path& out,
     if (!out.empty()) {
         std::filesystem::create_directories(images);
         draw(runs, images);
-        const std::string made_by = fmt::format("Version {}, {}, {}.", code_version(), processor(),
-                                                to_string(best_isa()));
+        const std::string made_by =
+            fmt::format("Version {}, {}, {}.", code_version(), processor(), to_string(best_isa()));
         AtomicFile file(out);
         file.write(page(runs, images.lexically_relative(out.parent_path()).generic_string() + "/", made_by));
         file.commit();

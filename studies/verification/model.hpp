@@ -5,6 +5,7 @@
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
 #include "ensemble/lanes.hpp"
+#include "ensemble/static_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -240,23 +241,21 @@ inline Study along_record(double tail_s = 0)
 }
 
 /// One realization in a bundle of its own, on the scalar kernel, with every field open: for starts that are not a
-/// static rest, and for a look at the forces.
+/// static rest, and for a look at the forces. Blocks have their numbers of the realization.
 class BareColumn {
 public:
     /// @param skin_m how far a block may stray before close pairs are looked for again
-    explicit BareColumn(const Realization& r, double skin_m = 0) : realization_(r)
+    explicit BareColumn(const Realization& r, double skin_m = 0) : realization_(r), place_of_(r.blocks.size())
     {
-        // the kernel wants the fixed block first
-        const int fixed = static_cast<int>(
-            std::find_if(r.blocks.begin(), r.blocks.end(), [](const Block& block) { return block.fixed; }) -
-            r.blocks.begin());
-        for (int i = 0; i < static_cast<int>(r.blocks.size()); ++i)
-            place_.push_back(i == fixed ? 0 : i < fixed ? i + 1 : i);
-        const auto place = [&](int block) { return place_[static_cast<std::size_t>(block)]; };
+        for (const bool fixed : {true, false})
+            for (std::size_t i = 0; i < r.blocks.size(); ++i)
+                if (r.blocks[i].fixed == fixed) {
+                    place_of_[i] = topology_.blocks++;
+                    topology_.fixed += fixed;
+                }
         for (const Joint& joint : r.joints)
-            joints_.push_back({place(joint.lower), place(joint.upper)});
-        topology_.blocks = static_cast<int>(r.blocks.size());
-        topology_.fixed = 1;
+            joints_.push_back(
+                {place_of_[static_cast<std::size_t>(joint.lower)], place_of_[static_cast<std::size_t>(joint.upper)]});
         topology_.top = topology_.blocks - 1;
         topology_.watched = r.watched;
         close_.resize(static_cast<std::size_t>(r.watched));
@@ -297,16 +296,37 @@ public:
         bundle_.at(OfRealization::skin, 0) = skin_m;
     }
 
-    /// @param block in the order of the realization
     double& at(OfBlock::Field field, int block)
     {
-        return bundle_.at(field, place_[static_cast<std::size_t>(block)], 0);
+        return bundle_.at(field, place_of_[static_cast<std::size_t>(block)], 0);
     }
     double& at(OfJoint::Field field, int joint) { return bundle_.at(field, joint, 0); }
     double& at(OfRealization::Field field) { return bundle_.at(field, 0); }
     int blocks() const { return topology_.blocks; }
     int joints() const { return topology_.joints; }
+    bool fixed(int block) const { return realization_.blocks[static_cast<std::size_t>(block)].fixed; }
     const Realization& realization() const { return realization_; }
+
+    /// Puts the blocks at displacements against the reference stack, at rest.
+    void put(const StaticState& state)
+    {
+        for (int i = 0; i < blocks(); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            at(OfBlock::x, i) = state.x_m[k];
+            at(OfBlock::y, i) = state.y_m[k];
+            at(OfBlock::theta, i) = state.theta_rad[k];
+        }
+        for (int j = 0; j < joints(); ++j)
+            at(OfJoint::spring, j) = state.spring_n[static_cast<std::size_t>(j)];
+    }
+
+    /// Takes a part of all velocities: a drag that vanishes at rest, to find where a structure can stay.
+    void slow_down(double part)
+    {
+        for (int i = 0; i < blocks(); ++i)
+            for (OfBlock::Field field : {OfBlock::dx, OfBlock::dy, OfBlock::dtheta})
+                at(field, i) *= 1 - part;
+    }
 
     /// One step in which the base's displacement has this second difference [m].
     void step(double base_second_difference = 0)
@@ -320,7 +340,7 @@ private:
         void operator()(double* p) const { std::free(p); }
     };
     Realization realization_;
-    std::vector<int> place_; ///< of the realization's blocks in the kernel
+    std::vector<int> place_of_; ///< realization's block -> kernel's block: the fixed ones first
     std::vector<TopologyJoint> joints_;
     std::vector<int> close_;
     Topology topology_;

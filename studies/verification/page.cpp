@@ -40,7 +40,7 @@ std::string table(const std::vector<Check>& checks)
 {
     std::string text = "| what | expected | measured | difference | allowed | |\n|---|---|---|---|---|---|\n";
     for (const Check& c : checks) {
-        const char* relation = c.relation == Relation::at_least ? "at least "
+        const char* relation = c.relation == Relation::at_least  ? "at least "
                                : c.relation == Relation::at_most ? "at most "
                                                                  : "";
         text += fmt::format("| {} | {}{} | {} | {:+.2g} | {} | {} |\n", cell(c.what), relation,

@@ -19,7 +19,8 @@ constexpr std::array<const char*, 4> fills{"#e8e8e8", "#a6cfe8", "#f4c9a0", "#a9
 
 std::string axis(const char* name, const PictureAxis& a)
 {
-    std::string text = fmt::format("set {}label {} font ',20'\nset {}tics font ',17'\n", name, gnuplot_text(a.label), name);
+    std::string text =
+        fmt::format("set {}label {} font ',20'\nset {}tics font ',17'\n", name, gnuplot_text(a.label), name);
     if (a.log)
         text += fmt::format("set logscale {0}\nset format {0} '%.0e'\n", name);
     if (a.from != 0 || a.to != 0)
@@ -106,7 +107,8 @@ std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<do
 
 std::string error_curve(const Convergence& c)
 {
-    Series measured{"measured", c.at, {}, false, {}, {}}, fitted{fmt::format("slope {:.2f}", c.order), c.at, {}, true, {}, {}};
+    Series measured{"measured", c.at, {}, false, {}, {}},
+        fitted{fmt::format("slope {:.2f}", c.order), c.at, {}, true, {}, {}};
     double level = 0;
     int count = 0;
     for (std::size_t i = 0; i < c.at.size(); ++i) {

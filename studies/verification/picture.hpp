@@ -20,7 +20,7 @@ struct PictureAxis {
 struct Series {
     std::string title;
     std::vector<double> x, y;
-    bool line = false;              ///< joined, without marks; else marks alone
+    bool line = false;             ///< joined, without marks; else marks alone
     std::vector<double> low, high; ///< ends of error bars, or empty
     bool right = false;            ///< on the axis at the right
 };

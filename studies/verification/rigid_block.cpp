@@ -121,6 +121,11 @@ PulseEnd respond(const RigidBlock& block, Real eta, Real rate, Real cycles, Real
             end.overturned = true;
             return end;
         }
+        // the centre is at R cos(alpha - |theta|) above the base, and R / g = 3 / (4 p2)
+        const Real angle = block.alpha - std::fabs(m.theta),
+                   up = 0.75L / (block.p * block.p) *
+                        (std::sin(angle) * side * second(t, m) - std::cos(angle) * m.rate * m.rate);
+        end.least_pressure = std::min(end.least_pressure, static_cast<double>(1 + up));
         // free: what it has must not carry it over
         const Real lean = std::fabs(m.theta);
         if (t >= last && lean < block.alpha &&
@@ -146,6 +151,7 @@ FullSineEdges full_sine_edges(const RigidBlock& block, double rate, double resti
             return e.overturned && e.impacts == 0;
         },
         1, 2 + rate * rate);
+    edges.direct_pressure = end(edges.direct + 1e-6).least_pressure;
     double before = 1;
     const auto once = [&](double eta) {
         const PulseEnd e = end(eta);

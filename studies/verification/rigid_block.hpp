@@ -31,6 +31,7 @@ long double quarter_period(const RigidBlock& block, long double start);
 struct PulseEnd {
     bool overturned = false;
     int impacts = 0;
+    double least_pressure = 1; ///< on the base, over the weight; below 0 a block would leave it, which this one cannot
 };
 
 /// Fourth-order Runge and Kutta with 600 steps a cycle; impacts are found by halving the step.
@@ -43,9 +44,10 @@ double half_sine_edge(const RigidBlock& block, double rate);
 
 /// Edges of overturning under a full sine.
 struct FullSineEdges {
-    bool after_impact = false; ///< whether it can overturn after an impact
-    double low = 0, high = 0;  ///< if so, between these, after one
-    double direct = 0;         ///< and from here on without one
+    bool after_impact = false;  ///< whether it can overturn after an impact
+    double low = 0, high = 0;   ///< if so, between these, after one
+    double direct = 0;          ///< and from here on without one
+    double direct_pressure = 1; ///< least one on the base in that motion, see `PulseEnd`
 };
 FullSineEdges full_sine_edges(const RigidBlock& block, double rate, double restitution);
 

@@ -1,5 +1,6 @@
 #include "studies/verification/rigid_slider.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,8 +21,7 @@ public:
     {
         while (t_ < end) {
             if (r_ == 0 && std::fabs(push(t_)) <= 1 + 1e-15L) {
-                const Real begins = next_break(end);
-                t_ = begins;
+                t_ = std::min(next_break(end), end);
                 if (t_ >= end)
                     return;
             }

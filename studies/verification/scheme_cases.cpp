@@ -69,8 +69,9 @@ Finding undamped_oscillation()
             drift = std::max(drift, std::fabs(conserved(before, now) / start - 1));
             if (before < rest && now >= rest) {
                 // size cos(phase n) through two samples: the sine's argument at each
-                const double part = std::atan2(-(before - rest) * std::sin(phase),
-                                               (now - rest) - (before - rest) * std::cos(phase)) / phase;
+                const double part =
+                    std::atan2(-(before - rest) * std::sin(phase), (now - rest) - (before - rest) * std::cos(phase)) /
+                    phase;
                 last = n - 1 + part;
                 if (first < 0)
                     first = last;
@@ -81,9 +82,9 @@ Finding undamped_oscillation()
         const double period = (last - first) / crossings;
         f.equals(fmt::format("w_num / w at w dt = {}", h), h == 0.1 ? 1.000417136 : 1.047197551,
                  2 * model::pi / (period * h), 1e-9);
-        f.equals(fmt::format("largest drift of m v(n+1/2)2 / 2 + k u(n) u(n+1) / 2 in 6000 steps at w dt = {}, relative",
-                             h),
-                 0, drift, 1e-10);
+        f.equals(
+            fmt::format("largest drift of m v(n+1/2)2 / 2 + k u(n) u(n+1) / 2 in 6000 steps at w dt = {}, relative", h),
+            0, drift, 1e-10);
     }
     return f;
 }

@@ -53,8 +53,7 @@ Matrices assemble(const Realization& r, double gravity)
             weight += r.blocks[static_cast<std::size_t>(r.joints[k].upper)].mass_kg * gravity;
         for (int block : {joint.lower, joint.upper})
             if (block > 0)
-                m.K(3 * block - 1, 3 * block - 1) -=
-                    weight * r.blocks[static_cast<std::size_t>(block)].half_height_m;
+                m.K(3 * block - 1, 3 * block - 1) -= weight * r.blocks[static_cast<std::size_t>(block)].half_height_m;
     }
     return m;
 }

@@ -16,8 +16,9 @@ namespace stylobate::verification {
 /// @pre a stack of centred blocks on a fixed one, first to last
 std::vector<double> frequencies_hz(const Realization& realization);
 
-/// Step at which the central difference with the dashpots at the velocity of the step before begins to grow [s]. It is stable while no vector makes 4 M - 2 dt C - dt2 K negative; at the limit a shape changes its sign
-/// in each step and keeps its size.
+/// Step at which the central difference with the dashpots at the velocity of the step before begins to grow [s]. It is
+/// stable while no vector makes 4 M - 2 dt C - dt2 K negative; at the limit a shape changes its sign in each step and
+/// keeps its size.
 double critical_step_s(const Realization& realization);
 
 } // namespace stylobate::verification

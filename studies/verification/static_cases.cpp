@@ -2,6 +2,7 @@
 
 #include "ensemble/static_state.hpp"
 #include "studies/verification/case.hpp"
+#include "studies/verification/held_load.hpp"
 #include "studies/verification/limit_analysis.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/picture.hpp"
@@ -31,10 +32,10 @@ double uplift_acceleration(double K_n)
         const double x = t / rise, a = x * x * (3 - 2 * x);
         column.step(a * dt * dt);
         const double turn = column.at(OfBlock::theta, 1);
-        const double heel = column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) -
-                            half_width * std::fabs(std::sin(turn));
-        const double other = column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) +
-                             half_width * std::fabs(std::sin(turn));
+        const double heel =
+            column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) - half_width * std::fabs(std::sin(turn));
+        const double other =
+            column.at(OfBlock::y, 1) + half_height * (1 - std::cos(turn)) + half_width * std::fabs(std::sin(turn));
         if (std::max(heel, other) >= 0)
             return a;
     }
@@ -63,18 +64,8 @@ Finding uplift()
 double static_capacity(double K_n)
 {
     const model::Bed bed{K_n, 0.3, 10};
-    const double dt = 0.4 / model::bed_rate(bed, model::mono_stone);
-    const Study study = model::along_record();
-    const Motion motion = model::ramp_and_hold(1.5, 3);
-    return model::least_overturning(
-        study,
-        [&](double a) {
-            Realization r = model::single(model::mono_stone, bed, dt, 0.06);
-            r.frequency_hz = 1;
-            r.pga_m_s2 = a;
-            return r;
-        },
-        1.5, 2.75, 1e-4, &motion);
+    const Realization r = model::single(model::mono_stone, bed, 0.4 / model::bed_rate(bed, model::mono_stone), 0.06);
+    return largest_held_acceleration(r, 1.5, 2.75, 5e-4);
 }
 
 Finding capacity()
@@ -91,9 +82,10 @@ Finding capacity()
         closed.push_back(model::gravity * (b / h - 3 * t));
         values.push_back(static_capacity(K));
         f.equals(fmt::format("MONO at K_N = {:g} N/m2: a_max [m/s2]", K), closed.back(), values.back(),
-                 4 * model::gravity * t * t + 1e-3);
+                 4 * model::gravity * t * t + 2e-3);
     }
-    f.convergences.push_back(convergence("K_N [N/m2]", "a_max of MONO [m/s2], to that of a rigid block", at, values, rigid));
+    f.convergences.push_back(
+        convergence("K_N [N/m2]", "a_max of MONO [m/s2], to that of a rigid block", at, values, rigid));
     f.equals("order in K_N", -1.0 / 3, f.convergences.back().order, 0.02);
     f.pictures.push_back({"static_capacity", "Static capacity of MONO over the contact stiffness",
                           curves({"K_N [N/m2]", true, 0, 0}, {"a_max [m/s2]", false, 0, 0},
@@ -139,10 +131,14 @@ Cases static_cases()
          "takes.",
          "the slow rise leaves vibrations of some 1e-3.", uplift},
         {"StaticCapacity", subject,
-         "Largest acceleration that does not overturn MONO when it is reached slowly and held, by bisection to 1e-4.",
+         "Largest acceleration that does not overturn MONO when it is reached slowly and held, by bisection to 5e-4, "
+         "with "
+         "a drag on all velocities (it vanishes at rest).",
          "a_max = g (b/h - 3 t*), t* = (sqrt(2 W / K_N) / (6 h))^(2/3), a block on a bed without tension; K_N to "
          "infinity: g b / h, which the limit analysis finds too.",
-         "the closed form leaves out terms of the order of g t*2; and 1e-3 for what a rise in 1.5 s and a hold of 3 s leave of dynamics.", capacity},
+         "the closed form leaves out terms of the order of g t*2; and 2e-3 for the bisection and the time that the "
+         "load is held.",
+         capacity},
         {"MovesWithTheBase", subject,
          "SPEC at 2 Hz and 0.5 m/s2, below sliding and uplift: the largest displacement of the top against the base.",
          "the static bending of the beds, amplified by 1 / (1 - (f/f1)2), by the weight, and by the smooth start's "

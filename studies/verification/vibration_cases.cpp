@@ -86,7 +86,8 @@ Finding first_mode()
     std::vector<double> at, oracle, spec_hz, mono_hz, mono_oracle;
     for (const double K : {1e7, 3.1622776602e7, 1e8, 3.1622776602e8, 1e9}) {
         const double dt = 5e-5 * std::sqrt(1e8 / K);
-        const Realization column = model::spec({K, 0, 10}, dt, 1e-5), block = model::single(model::mono_stone, {K, 0, 10}, dt, 0.06);
+        const Realization column = model::spec({K, 0, 10}, dt, 1e-5),
+                          block = model::single(model::mono_stone, {K, 0, 10}, dt, 0.06);
         const double want = frequencies_hz(column)[0], want_mono = frequencies_hz(block)[0];
         at.push_back(K);
         oracle.push_back(want);
@@ -98,15 +99,16 @@ Finding first_mode()
                  (1e-5 + 7.97 / (K * 0.048) / 0.174) * want_mono); // + overlap / height
     }
     const double flush = frequencies_hz(model::spec({1e8, 0, 10}, 5e-5))[0];
-    f.equals("SPEC with flush sides, K_N = 1e8 N/m2: f1 [Hz]", flush, first_frequency(model::spec({1e8, 0, 10}, 5e-5), flush),
-             1e-3 * flush);
+    f.equals("SPEC with flush sides, K_N = 1e8 N/m2: f1 [Hz]", flush,
+             first_frequency(model::spec({1e8, 0, 10}, 5e-5), flush), 1e-3 * flush);
     for (const auto& [K, digits] : {std::pair{1e7, 11.600457}, {1e8, 36.925220}, {1e9, 116.843819}})
         f.equals(fmt::format("the oracle against the digits of SPEC, K_N = {:g} N/m2 [Hz]", K), digits,
                  frequencies_hz(model::spec({K, 0, 1}, 1))[0], 1e-6);
     f.equals("the oracle against the digits of MONO, K_N = 1e8 N/m2 [Hz]", 52.459709,
              frequencies_hz(model::single(model::mono_stone, {1e8, 0, 1}, 1))[0], 1e-6);
-    f.pictures.push_back({"first_frequency", "First lateral frequency over the contact stiffness: eigenvalues (lines) and "
-                                             "free vibration in the engine (marks)",
+    f.pictures.push_back({"first_frequency",
+                          "First lateral frequency over the contact stiffness: eigenvalues (lines) and "
+                          "free vibration in the engine (marks)",
                           curves({"K_N [N/m2]", true, 0, 0}, {"f1 [Hz]", true, 0, 0},
                                  {{"SPEC, eigenvalue", at, oracle, true, {}, {}},
                                   {"SPEC, engine", at, spec_hz, false, {}, {}},
@@ -153,7 +155,8 @@ Finding axial_modes()
 Cases vibration_cases()
 {
     return {
-        {"FirstFrequency", subject, "Free vibration after a soft push, over sixty periods, at five contact stiffnesses.",
+        {"FirstFrequency", subject,
+         "Free vibration after a soft push, over sixty periods, at five contact stiffnesses.",
          "eigenvalues (Eigen) of matrices that are assembled from discrete springs, with the weight; and eight digits "
          "of others.",
          "the spectrum's window leaves 1e-7. Drums that taper by 1e-5, so that no two sides are flush, add 1e-4; for "
@@ -161,8 +164,8 @@ Cases vibration_cases()
          "Forces act at the centroid of the overlap, half of it inside: overlap / height.",
          first_mode},
         {"AxialModes", subject, "Vertical vibration of one drum and of SPEC after a blow at the top.",
-         "w_i = 2 w1 sin((2 i - 1) pi / (4 n + 2)), w1 = sqrt(K_N B / m).",
-         "the line's width over 20 000 steps.", axial_modes},
+         "w_i = 2 w1 sin((2 i - 1) pi / (4 n + 2)), w1 = sqrt(K_N B / m).", "the line's width over 20 000 steps.",
+         axial_modes},
     };
 }
 
