@@ -184,11 +184,11 @@ TEST_F(Verbs, OneProgressLineIsRewrittenOnATerminal)
 TEST_F(Verbs, PlainLinesWhereThereIsNoTerminal)
 {
     // one line after ten seconds; then it is stopped
-    const Ended ended = run({.arguments = run_words(column_study, {"study.realizations=400"}, {"--threads", "1"}),
+    const Ended ended = run({.arguments = run_words(column_study, {"study.realizations=100"}, {"--threads", "1"}),
                              .signal = SIGINT,
-                             .after_s = slow_build ? 16 : 11.5});
+                             .after_s = slow_build ? 17 : 13});
     ASSERT_EQ(ended.status, 130) << testing::PrintToString(ended);
-    EXPECT_NE(ended.err.find(" of 102400 realizations, "), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find(" of 25600 realizations, "), std::string::npos) << ended.err;
     EXPECT_NE(ended.err.find(" left, "), std::string::npos) << ended.err;
     EXPECT_EQ(count_of(ended.err, "\n"), 1u) << ended.err;
     EXPECT_EQ(ended.err.find_first_of("\r\x1b"), std::string::npos) << ended.err;
