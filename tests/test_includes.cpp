@@ -187,7 +187,8 @@ TEST(House, NoFileIsTooLong)
 {
     for (const Text& file : texts()) {
         const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
-        EXPECT_TRUE(lines <= most_lines || file.name.starts_with("bench/results/"))
+        const bool by_program = file.name.starts_with("bench/results/") || file.name == "docs/verification.md";
+        EXPECT_TRUE(lines <= most_lines || by_program)
             << file.name << " has " << lines << " lines: look for a second noun";
     }
 }
@@ -200,7 +201,8 @@ TEST(House, NoTextNamesAMachine)
 
 TEST(House, EveryFolderSaysWhatItIs)
 {
-    for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "studies/verification", "bench", "tests"})
+    for (const char* folder :
+         {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "studies/verification", "bench", "tests"})
         EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
 }
 

@@ -304,7 +304,6 @@ public:
     double& at(OfRealization::Field field) { return bundle_.at(field, 0); }
     int blocks() const { return topology_.blocks; }
     int joints() const { return topology_.joints; }
-    bool fixed(int block) const { return realization_.blocks[static_cast<std::size_t>(block)].fixed; }
     const Realization& realization() const { return realization_; }
 
     /// Puts the blocks at displacements against the reference stack, at rest.

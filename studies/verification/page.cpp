@@ -23,9 +23,9 @@ std::string number(double value, double tolerance)
     return fmt::format("{:.{}g}", value, digits);
 }
 
-std::string picture_name(const Case& c, std::size_t convergence)
+std::string convergence_picture(const Case& c)
 {
-    return fmt::format("{}_convergence{}", c.name, convergence + 1);
+    return c.name + "_convergence";
 }
 
 /// Vertical bars would end a cell of a table.
@@ -73,12 +73,11 @@ std::string section(const RunCase& run, const std::string& images)
     if (!run.error.empty())
         return text + fmt::format("It could not be computed: {}\n\n", run.error);
     text += table(run.finding.checks);
-    for (std::size_t i = 0; i < run.finding.convergences.size(); ++i) {
-        const Convergence& shown = run.finding.convergences[i];
+    for (const Convergence& shown : run.finding.convergences)
         text += table(shown);
-        text += fmt::format("\n![Error of {} over {}]({}{}.png)\n", shown.quantity, shown.parameter, images,
-                            picture_name(c, i));
-    }
+    if (!run.finding.convergences.empty())
+        text += fmt::format("\n![{}: error over {}]({}{}.png)\n", c.name, run.finding.convergences.front().parameter,
+                            images, convergence_picture(c));
     for (const std::string& remark : run.finding.remarks)
         text += fmt::format("\n{}\n", remark);
     for (const Picture& p : run.finding.pictures)
@@ -126,9 +125,10 @@ std::string page(const std::vector<RunCase>& runs, const std::string& images, co
     }
     std::string text = fmt::format(
         "# Verification\n\nWritten by `scripts/verification.sh` from its runs; not by hand. {}\n\n"
-        "{} of {} comparisons in {} cases agree with their oracle. None of the expected values comes from the code "
-        "that is tested: each is a closed form, an eigenvalue, the answer of another algorithm written for it "
-        "(`studies/verification`), or a number that was computed elsewhere. Two different questions are asked: whether "
+        "{} of {} comparisons in {} cases agree with their oracle. An expected value is a closed form, an "
+        "eigenvalue, the answer of another algorithm written for it (`studies/verification`), or a number that was "
+        "computed elsewhere; only where it says so is the program compared with itself at another step. Two different "
+        "questions are asked: whether "
         "the program solves *its* equations (these hold to many digits), and how far those are from rigid blocks "
         "(these converge as the contact stiffness K_N grows, slowly: the tables give the order).\n\n"
         "SPEC is a column of six free drums of 48 x 29 mm and 0.1355 kg on a fixed one, MONO the same as one block of "
@@ -161,9 +161,9 @@ std::string page(const std::vector<RunCase>& runs, const std::string& images, co
 void draw(const std::vector<RunCase>& runs, const std::filesystem::path& folder)
 {
     for (const RunCase& run : runs) {
-        for (std::size_t i = 0; i < run.finding.convergences.size(); ++i)
-            run_gnuplot(error_curve(run.finding.convergences[i]), picture_size,
-                        folder / (picture_name(run.the_case, i) + ".png"));
+        if (!run.finding.convergences.empty())
+            run_gnuplot(error_curves(run.finding.convergences), picture_size,
+                        folder / (convergence_picture(run.the_case) + ".png"));
         for (const Picture& p : run.finding.pictures)
             run_gnuplot(p.script, picture_size, folder / (p.name + ".png"));
     }

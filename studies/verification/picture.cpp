@@ -20,7 +20,7 @@ constexpr std::array<const char*, 4> fills{"#e8e8e8", "#a6cfe8", "#f4c9a0", "#a9
 std::string axis(const char* name, const PictureAxis& a)
 {
     std::string text =
-        fmt::format("set {}label {} font ',20'\nset {}tics font ',17'\n", name, gnuplot_text(a.label), name);
+        fmt::format("set {}label {} font ',18'\nset {}tics font ',15'\n", name, gnuplot_text(a.label), name);
     if (a.log)
         text += fmt::format("set logscale {0}\nset format {0} '%.0e'\n", name);
     if (a.from != 0 || a.to != 0)
@@ -42,7 +42,7 @@ std::string block(const std::string& name, const Series& s)
 
 std::string plotted(const std::string& name, const Series& s, std::size_t k)
 {
-    const Style& style = styles[k % styles.size()];
+    const Style& style = styles[(s.colour >= 0 ? static_cast<std::size_t>(s.colour) : k) % styles.size()];
     const char* axes = s.right ? " axes x1y2" : "";
     const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_text(s.title);
     if (s.line)
@@ -62,7 +62,7 @@ constexpr const char* frame = "set border linewidth 0.7\nset grid linewidth 0.4 
 std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series,
                    const std::string& key, const PictureAxis& right)
 {
-    std::string script = frame + axis("x", x) + axis("y", y) + fmt::format("set key {} font ',17'\n", key);
+    std::string script = frame + axis("x", x) + axis("y", y) + fmt::format("set key {} font ',15'\n", key);
     if (!right.label.empty())
         script += "set ytics nomirror\n" + axis("y2", right);
     std::string plot;
@@ -82,7 +82,7 @@ std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<do
     std::string script = axis("x", x) + axis("y", y);
     script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", at_x.front() - dx / 2, at_x.back() + dx / 2,
                           at_y.front() - dy / 2, at_y.back() + dy / 2);
-    script += "set key outside below font ',17'\nset border linewidth 0.7 front\nset style fill solid noborder\n";
+    script += "set key outside below font ',15'\nset border linewidth 0.7 front\nset style fill solid noborder\n";
     std::string plot;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
         std::string data;
@@ -105,22 +105,33 @@ std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<do
     return script + plot;
 }
 
-std::string error_curve(const Convergence& c)
+std::string error_curves(const std::vector<Convergence>& convergences)
 {
-    Series measured{"measured", c.at, {}, false, {}, {}},
-        fitted{fmt::format("slope {:.2f}", c.order), c.at, {}, true, {}, {}};
-    double level = 0;
-    int count = 0;
-    for (std::size_t i = 0; i < c.at.size(); ++i) {
-        measured.y.push_back(std::fabs(c.value[i] - c.exact));
-        if (measured.y.back() > 0) {
-            level += std::log(measured.y.back()) - c.order * std::log(c.at[i]);
-            ++count;
+    std::vector<Series> lines, marks;
+    for (const Convergence& c : convergences) {
+        Series measured{fmt::format("{} (slope {:.2f})", c.quantity, c.order), {}, {}, false, {}, {}};
+        Series fitted{"", c.at, {}, true, {}, {}};
+        double level = 0;
+        for (std::size_t i = 0; i < c.at.size(); ++i) {
+            const double error = std::fabs(c.value[i] - c.exact);
+            if (error == 0)
+                continue;
+            measured.x.push_back(c.at[i]);
+            measured.y.push_back(error);
+            level += std::log(error) - c.order * std::log(c.at[i]);
         }
+        for (double at : c.at)
+            fitted.y.push_back(std::exp(level / static_cast<double>(measured.x.size()) + c.order * std::log(at)));
+        marks.push_back(measured);
+        lines.push_back(fitted);
     }
-    for (double at : c.at)
-        fitted.y.push_back(std::exp(level / count + c.order * std::log(at)));
-    return curves({c.parameter, true, 0, 0}, {"error: " + c.quantity, true, 0, 0}, {measured, fitted});
+    std::vector<Series> all = marks; // the same colours in both
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        lines[k].colour = static_cast<int>(k);
+        all.push_back(lines[k]);
+    }
+    return curves({convergences.front().parameter, true, 0, 0}, {"error", true, 0, 0}, all,
+                  "tmargin left Left reverse maxcols 1");
 }
 
 } // namespace stylobate::verification

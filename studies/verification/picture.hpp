@@ -9,7 +9,7 @@
 
 namespace stylobate::verification {
 
-inline constexpr PictureSize picture_size{1000, 700};
+inline constexpr PictureSize picture_size{900, 600};
 
 struct PictureAxis {
     std::string label;
@@ -22,6 +22,7 @@ struct Series {
     std::vector<double> x, y;
     bool line = false;             ///< joined, without marks; else marks alone
     std::vector<double> low, high; ///< ends of error bars, or empty
+    int colour = -1;               ///< a number of the palette; -1: that of its place in the list
     bool right = false;            ///< on the axis at the right
 };
 
@@ -37,7 +38,8 @@ std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<do
                 const std::vector<double>& at_y, const std::vector<int>& kind, const std::vector<std::string>& kinds,
                 const std::vector<Series>& lines);
 
-/// |value - exact| over the parameter, both logarithmic, with the fitted slope.
-std::string error_curve(const Convergence& convergence);
+/// |value - exact| over the parameter, both logarithmic, with the fitted slopes.
+/// @pre the same parameter, and two to each
+std::string error_curves(const std::vector<Convergence>& convergences);
 
 } // namespace stylobate::verification

@@ -192,8 +192,9 @@ Cases scheme_cases()
          "Kinetic + potential + spring + dissipated energy less the base's work over three impacts of MONO, from half "
          "its slenderness.",
          "0.",
-         "with dashpots the works are taken with the contact's centroid of one end of a step: first order; without, "
-         "about second.",
+         "the works are taken with the contact's centroid of one end of a step, and contacts open and close within "
+         "one: "
+         "first order, with dashpots of a larger constant.",
          energy_balance},
     };
 }
