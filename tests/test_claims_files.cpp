@@ -241,7 +241,7 @@ TEST(ClaimObservation, PathOfTheBaseAndStartOfTheStrongShaking)
 {
     // abrupt, no ramps: u = A sin wt over 4 cycles has the path 16 A
     Study s = parse_study(replaced(study, "ramp_cycles = 1", "start = \"abrupt\"\nend = \"abrupt\""), "made_up.toml");
-    Realization r;
+    Realization r = Sampler(s, nullptr).realization(0);
     r.frequency_hz = 5;
     r.pga_m_s2 = 3;
     r.step_s = 1e-4;

@@ -44,6 +44,22 @@ std::vector<Levels> variants(const std::vector<VariantAxis>& axes)
     return all;
 }
 
+std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const Levels& levels)
+{
+    std::vector<std::string> settings;
+    const auto add = [&](const std::vector<std::string>& more) {
+        settings.insert(settings.end(), more.begin(), more.end());
+    };
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const Level& level = axes[i].levels[levels[i]];
+        add(level.set);
+        for (const Together& also : level.also)
+            if (picked(axes, levels, also.only))
+                add(also.set);
+    }
+    return settings;
+}
+
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels)
 {
     std::string text;

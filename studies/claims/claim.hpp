@@ -74,7 +74,7 @@ struct Window {
 /// What must be so for a claim to hold. Everything is decided by intervals: what they leave open is undecided.
 struct Criterion {
     enum class Kind {
-        bound, ///< the measure is at least, or at most, a number: in all cells of the window or in any
+        bound, ///< the measure is at least a number, at most one, or both: in all cells of the window or in any
         trend, ///< it rises or falls along the frequency: from end to end, and nowhere the other way
         order, ///< it rises or falls from level to level of an axis: in all cells of the window; or it differs: in any
         same   ///< the most frequent of stood, rocked, slid, both, collapsed is the same at all levels of an axis
@@ -91,11 +91,18 @@ struct Criterion {
     std::string along;              ///< order, same: name of the axis
 };
 
+/// Settings of a level that hold only together with levels of other axes.
+struct Together {
+    std::vector<std::string> only; ///< "AXIS=LEVEL"
+    std::vector<std::string> set;  ///< "KEY=VALUE", as on the command line
+};
+
 /// Settings that one variant differs by.
 struct Level {
     std::string name;
     std::vector<std::string> set;  ///< "KEY=VALUE", as on the command line
     std::vector<std::string> only; ///< "AXIS=LEVEL": it is combined with these levels alone
+    std::vector<Together> also = {};
 };
 
 /// One way in which the variants differ.
@@ -160,6 +167,9 @@ std::vector<Levels> variants(const std::vector<VariantAxis>& axes);
 
 /// Whether a combination is among those that "AXIS=LEVEL" words pick: for each axis that they name, one of its levels.
 bool picked(const std::vector<VariantAxis>& axes, const Levels& levels, const std::vector<std::string>& only);
+
+/// All settings of a combination, axis by axis.
+std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const Levels& levels);
 
 /// "K_N 1e8, smooth start": the levels in words; an axis with one level is left out.
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels);

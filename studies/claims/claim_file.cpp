@@ -135,8 +135,8 @@ Criterion read_criterion(const KeyReader& keys)
         const stylobate::Range any{-1e300, 1e300, false, "", 0};
         c.at_least = keys.maybe_number("at_least", any);
         c.at_most = keys.maybe_number("at_most", any);
-        if (c.at_least.has_value() == c.at_most.has_value())
-            keys.missing("at_least", "A bound has either at_least or at_most.");
+        if (!c.at_least && !c.at_most)
+            keys.missing("at_least", "A bound has at_least or at_most, or both.");
         c.any = keys.choice_or("where", where_words, c.any);
     }
     if (c.kind == Criterion::Kind::trend || c.kind == Criterion::Kind::order)
@@ -160,8 +160,12 @@ std::vector<VariantAxis> read_axes(const KeyReader& keys)
         axis.name = one.text("name");
         axis.label = one.has("label") ? one.text("label") : axis.name;
         for (const KeyReader& level : tables(one, "levels")) {
-            level.allow_only({"name", "set", "only"});
+            level.allow_only({"name", "set", "only", "also"});
             axis.levels.push_back({level.text("name"), strings(level, "set"), strings(level, "only")});
+            for (const KeyReader& also : tables(level, "also")) {
+                also.allow_only({"only", "set"});
+                axis.levels.back().also.push_back({strings(also, "only"), strings(also, "set")});
+            }
         }
         if (axis.levels.empty())
             one.missing("levels", "Give levels = [{ name = \"...\", set = [\"KEY=VALUE\"] }, ...].");
@@ -272,8 +276,11 @@ ClaimFile parse_claims(const std::string& text, const std::string& name)
     file.what = prose(keys, "what");
     file.axes = read_axes(keys);
     for (const KeyReader& one : tables(keys, "axis"))
-        for (const KeyReader& level : tables(one, "levels"))
+        for (const KeyReader& level : tables(one, "levels")) {
             check_words(level, "only", file.axes, strings(level, "only"));
+            for (const KeyReader& also : tables(level, "also"))
+                check_words(also, "only", file.axes, strings(also, "only"));
+        }
     for (const KeyReader& one : tables(keys, "test"))
         file.tests.push_back(read_test(one, file.axes));
     for (const KeyReader& one : tables(keys, "figure"))

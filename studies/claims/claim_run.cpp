@@ -113,10 +113,7 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
     fs::create_directories(folder);
     std::vector<Sample> samples;
     for (const Levels& levels : variants(file.axes)) {
-        std::vector<std::string> settings;
-        for (std::size_t i = 0; i < file.axes.size(); ++i)
-            settings.insert(settings.end(), file.axes[i].levels[levels[i]].set.begin(),
-                            file.axes[i].levels[levels[i]].set.end());
+        std::vector<std::string> settings = settings_of(file.axes, levels);
         if (place.realizations > 0)
             settings.push_back(fmt::format("study.realizations={}", place.realizations));
         const Study study = read_study(file.file, settings);

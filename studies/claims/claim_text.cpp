@@ -120,8 +120,11 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
     std::string text;
     switch (c.kind) {
     case Criterion::Kind::bound:
-        text = fmt::format("{} is {} {}", measure_text(c.measure), c.at_least ? "at least" : "at most",
-                           limit_text(c.measure, c.at_least ? *c.at_least : *c.at_most));
+        text = measure_text(c.measure) + " is ";
+        if (c.at_least)
+            text += "at least " + limit_text(c.measure, *c.at_least);
+        if (c.at_most)
+            text += (c.at_least ? " and at most " : "at most ") + limit_text(c.measure, *c.at_most);
         text += c.any ? " in at least one cell" : " in every cell";
         break;
     case Criterion::Kind::trend:

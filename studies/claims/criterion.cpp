@@ -102,21 +102,18 @@ private:
 
     void bound(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
     {
-        // "at most" is "at least" of the negative number
-        const double sign = c_.at_least ? 1 : -1, limit = sign * (c_.at_least ? *c_.at_least : *c_.at_most);
+        const double low = c_.at_least.value_or(-HUGE_VAL), high = c_.at_most.value_or(HUGE_VAL);
         std::size_t known = 0, holding = 0, failing = 0, at_cell = 0;
-        double extreme = 0;
+        std::pair<double, double> extreme; // how far inside the bounds the value lies, then the interval
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Estimate e = estimate(sample, cells[i].f, cells[i].p, c_.measure, level(cells.size()));
             if (!e.known())
                 continue;
-            const double worst = sign > 0 ? e.lower : -e.upper, best = sign > 0 ? e.upper : -e.lower;
-            holding += worst >= limit;
-            failing += best < limit;
-            // among equal values the wider interval is the worse, the narrower the better
-            const double rank = sign * e.value + 1e-9 * worst;
-            if (known == 0 || (c_.any ? rank > extreme : rank < extreme)) {
-                extreme = rank;
+            holding += e.lower >= low && e.upper <= high;
+            failing += e.upper < low || e.lower > high;
+            const std::pair inside{std::min(e.value - low, high - e.value), std::min(e.lower - low, high - e.upper)};
+            if (known == 0 || (c_.any ? inside > extreme : inside < extreme)) {
+                extreme = inside;
                 found.number = e;
                 at_cell = i;
             }

@@ -1,6 +1,7 @@
 #include "studies/claims/sample.hpp"
 
 #include "ensemble/base_motion.hpp"
+#include "ensemble/scales.hpp"
 #include "ensemble/step_bound.hpp"
 
 #include <algorithm>
@@ -49,9 +50,12 @@ Realization nominal_realization(const Study& study, const Motion* record)
     return Sampler(plain, record).realization(0);
 }
 
-/// Rigid column on its lowest face: g (foot's width) / (twice the height of its centre of mass).
-double rigid_limit(const Realization& r)
+/// Rigid column on its lowest face: g (foot's width) / (twice the height of its centre of mass). NaN for a colonnade,
+/// whose limit is no formula.
+double rigid_limit(const Study& study, const Realization& r)
 {
+    if (study.structure.kind != StructureKind::column)
+        return nan;
     double mass = 0, moment = 0;
     double bottom = std::numeric_limits<double>::infinity(), width = 0;
     for (const Block& block : r.blocks) {
@@ -104,7 +108,7 @@ Observation observe(const Study& study, const Realization& realization, const Mo
     Observation seen;
     seen.collapsed = o.state == State::collapsed;
     seen.rocked = seen.collapsed || o.max_relative_rotation_rad > study.outcome.rocking_threshold_rad;
-    seen.slid = o.total_sliding_m > study.outcome.sliding_threshold * study.structure.drum_width_m;
+    seen.slid = o.total_sliding_m > study.outcome.sliding_threshold * scales_of(realization).width_m;
     seen.unseated = o.unseated_block >= 0;
     seen.cycles_to_collapse =
         seen.collapsed
@@ -131,8 +135,9 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
 {
     Sample sample;
     const Realization nominal = nominal_realization(study, record);
-    sample.f1_hz = linear_response(nominal.blocks, nominal.joints, nominal.gravity_m_s2).frequency_hz.front();
-    sample.rigid_m_s2 = rigid_limit(nominal);
+    sample.f1_hz =
+        linear_response(nominal.blocks, nominal.joints, nominal.gravity_m_s2, nominal.watched).frequency_hz.front();
+    sample.rigid_m_s2 = rigid_limit(study, nominal);
     if (study.surface) {
         for (int i = 0; i < study.surface->frequency_hz.count; ++i)
             sample.frequency_hz.push_back(study.surface->frequency_hz.value(i));

@@ -29,8 +29,9 @@ struct Observation {
 /// One variant. Cells as in `SurfaceTable`: frequency by frequency. A study without a surface has one cell.
 struct Sample {
     Levels levels;
-    double f1_hz = 0;      ///< first natural frequency of the nominal structure, all contacts full
-    double rigid_m_s2 = 0; ///< acceleration at which the nominal structure would rock or overturn as one rigid body
+    double f1_hz = 0; ///< first natural frequency of the nominal structure, all contacts full
+    double rigid_m_s2 =
+        0; ///< acceleration from which the nominal column would rock as one rigid body; NaN for a colonnade
     std::vector<double> frequency_hz;            ///< (nf)
     std::vector<double> pga_m_s2;                ///< (np)
     std::vector<std::vector<Observation>> cells; ///< (nf x np) valid realizations
