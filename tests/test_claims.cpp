@@ -56,8 +56,8 @@ ClaimFile two_axes(const Criterion& criterion)
 {
     ClaimFile file;
     file.file = file.name = "made_up";
-    file.axes = {{"K", "stiffness", {{"soft", {}, {}}, {"stiff", {}, {}}}},
-                 {"start", "start", {{"smooth", {}, {}}, {"abrupt", {}, {}}}}};
+    file.axes = {{"K", "stiffness", {{"soft", {}, {}, {}}, {"stiff", {}, {}, {}}}},
+                 {"start", "start", {{"smooth", {}, {}, {}}, {"abrupt", {}, {}, {}}}}};
     Test test;
     test.id = "P1";
     test.says = "Something.";
@@ -223,6 +223,28 @@ TEST(ClaimCriterion, AtMostLooksFromTheOtherSide)
     EXPECT_EQ(cases[1].finding, Finding::holds);
     EXPECT_EQ(cases[2].finding, Finding::undecided);
     EXPECT_EQ(cases[3].finding, Finding::holds);
+}
+
+TEST(ClaimCriterion, BetweenTwoNumbers)
+{
+    Criterion c = at_least(0.4);
+    c.at_most = 0.6;
+    const ClaimFile file = two_axes(c);
+    const auto cases = judge(file, file.tests[0], four(0.9, 0.1, 0.5, 0.4));
+    EXPECT_EQ(cases[0].finding, Finding::fails);
+    EXPECT_EQ(cases[1].finding, Finding::fails);
+    EXPECT_EQ(cases[2].finding, Finding::holds);
+    EXPECT_EQ(cases[3].finding, Finding::undecided);
+}
+
+TEST(ClaimCriterion, CellsWithNothingGivenArePassedOver)
+{
+    Criterion c = at_least(0.5);
+    c.measure.given = Event::rocked;
+    const ClaimFile file = two_axes(c);
+    // in the first cell nothing rocked; in the second all that did
+    EXPECT_EQ(judge(file, file.tests[0], {sample({1}, {1, 2}, {{0, 0.9}}, {0, 0})})[0].finding, Finding::holds);
+    EXPECT_EQ(judge(file, file.tests[0], {sample({1}, {1}, {{0}}, {0, 0})})[0].finding, Finding::undecided);
 }
 
 TEST(ClaimCriterion, ManyCellsWidenTheIntervals)

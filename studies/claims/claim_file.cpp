@@ -90,7 +90,9 @@ bool read_window(const KeyReader& keys, std::string_view key, Window& window)
         keys.refuse(key, "is not a window", "Give one number, [from, to], or three and more values, ascending.");
     window.from = numbers.front();
     window.to = numbers.back();
-    if (numbers.size() > 2)
+    if (value->type != Type::array)
+        window.values = {numbers.front()};
+    else if (numbers.size() > 2)
         window.values = numbers;
     return true;
 }

@@ -127,6 +127,8 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
             const LoadedStudy loaded = LoadedStudy::from_file(file.file, settings);
             const fs::path results = folder / file_name(variant_key(file.axes, levels));
             const Found found = look_for(results, loaded.result_header());
+            if (found != Found::complete && place.begins)
+                place.begins(levels);
             if (found != Found::complete && !compute(loaded, results, found == Found::unfinished, options, observer))
                 return samples;
             const ResultReader reader(results);

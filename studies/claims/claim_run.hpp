@@ -7,6 +7,7 @@
 #include "ensemble/executor.hpp"
 
 #include <filesystem>
+#include <functional>
 
 namespace stylobate::claims {
 
@@ -14,6 +15,8 @@ struct RunPlace {
     std::filesystem::path results;  ///< folder of the result files
     std::filesystem::path data;     ///< folder that the claim files' records are relative to
     std::uint64_t realizations = 0; ///< instead of the study's; 0: the study's
+    /// Told of each variant that is about to be computed; may be empty.
+    std::function<void(const Levels&)> begins = {};
 };
 
 /// One sample for each variant, in the order of `variants(file.axes)`. A complete result file of the same study is

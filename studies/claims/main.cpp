@@ -29,7 +29,7 @@ struct Options {
     std::vector<std::string> only;
     std::string page = "claims.md";
     std::string images = "images";
-    RunPlace place{"results/claims", ".", 0};
+    RunPlace place{"results/claims", ".", 0, {}};
     CommonOptions common;
 };
 
@@ -61,12 +61,19 @@ int run(const Options& o)
     std::vector<Result> results;
     const auto start = std::chrono::steady_clock::now();
     for (const ClaimFile& file : files) {
-        const std::size_t planned = variants(file.axes).size();
+        const std::vector<Levels> planned = variants(file.axes);
         {
+            RunPlace place = o.place;
+            if (!o.common.quiet)
+                place.begins = [&](const Levels& levels) {
+                    fmt::print(stderr, "{} {}/{}: {}\n", file.name,
+                               std::find(planned.begin(), planned.end(), levels) - planned.begin() + 1, planned.size(),
+                               variant_text(file.axes, levels));
+                };
             Console console(o.common.quiet);
-            samples.push_back(run_variants(file, o.place, options, console));
+            samples.push_back(run_variants(file, place, options, console));
         }
-        if (samples.back().size() < planned) {
+        if (samples.back().size() < planned.size()) {
             fmt::print(stderr, "Interrupted. The same command continues where this one stopped.\n");
             return exit_interrupted;
         }
@@ -78,7 +85,7 @@ int run(const Options& o)
             results.push_back(std::move(result));
         }
         if (!o.common.quiet)
-            fmt::print(stderr, "{}: {} variants, {} since the start\n", file.name, planned,
+            fmt::print(stderr, "{}: {} variants, {} since the start\n", file.name, planned.size(),
                        duration_text(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
         std::fflush(stdout);
     }
