@@ -177,6 +177,22 @@ TEST(ClaimEstimate, OnsetBeyondTheAxis)
     EXPECT_FALSE(above.below(above));
 }
 
+TEST(ClaimEstimate, OnsetBetweenStepsFollowsTheLimitsOfTheCurve)
+{
+    Measure m = onset_of(Event::rocked);
+    m.between_steps = true;
+    const Estimate e = onset(sample({1}, {1, 2, 4}, {{0, 0.4, 1}}), 0, m, 0.95);
+    // by hand: the limits at 80 of 200 and at 200 of 200, straight lines in ln PGA
+    const BinomialInterval middle = jeffreys(200, 80, 0.95), last = jeffreys(200, 200, 0.95);
+    EXPECT_NEAR(e.value, 2 * std::pow(2, 0.1 / 0.6), 1e-12);
+    EXPECT_NEAR(e.lower, 2 * std::pow(2, (0.5 - middle.upper) / (last.upper - middle.upper)), 1e-12);
+    EXPECT_NEAR(e.upper, 2 * std::pow(2, (0.5 - middle.lower) / (last.lower - middle.lower)), 1e-12);
+    // a step from 0 to 1 is not resolved: it may lie anywhere between
+    const Estimate step = onset(sample({1}, {1, 2, 4}, {{0, 0, 1}}), 0, m, 0.95);
+    EXPECT_EQ(step.lower, 2);
+    EXPECT_EQ(step.upper, 4);
+}
+
 TEST(ClaimEstimate, OnsetTakesTheLowestOfSeveralCrossings)
 {
     const Estimate e = onset(sample({1}, {1, 2, 4, 8}, {{0, 1, 0, 1}}), 0, onset_of(Event::rocked), 0.95);
@@ -282,6 +298,10 @@ TEST(ClaimCriterion, TrendFallsRisesOrTurns)
     EXPECT_EQ(finding({early, middle, late}), Finding::fails);
     EXPECT_EQ(finding({late, early, middle}), Finding::fails); // it turns
     EXPECT_EQ(finding({middle, middle, middle}), Finding::undecided);
+    // one frequency alone, or nothing within the axis: no case
+    EXPECT_TRUE(judge(file, file.tests[0], {sample({1}, octaves, {middle}, {0, 0})}).empty());
+    const std::vector<double> never{0, 0, 0, 0};
+    EXPECT_TRUE(judge(file, file.tests[0], {sample({1, 2}, octaves, {never, never}, {0, 0})}).empty());
     file.tests[0].criterion.way = Criterion::Way::rises;
     EXPECT_EQ(finding({early, middle, late}), Finding::holds);
 }
@@ -329,10 +349,53 @@ TEST(ClaimCriterion, OrderComparesAlongAnAxis)
     cases = judge(file, file.tests[0], samples);
     EXPECT_EQ(cases[0].finding, Finding::holds);
     EXPECT_EQ(cases[1].finding, Finding::holds);
-    // beyond the axis at both levels: nothing to compare
-    EXPECT_EQ(judge(file, file.tests[0], {of(never, {0, 0}), of(never, {1, 0})})[0].finding, Finding::undecided);
+    // beyond the same end of the axis at both levels: nothing to compare
+    const std::vector<double> always{1, 1, 1, 1};
+    EXPECT_TRUE(judge(file, file.tests[0], {of(never, {0, 0}), of(never, {1, 0})}).empty());
+    EXPECT_TRUE(judge(file, file.tests[0], {of(always, {0, 0}), of(always, {1, 0})}).empty());
+    EXPECT_EQ(judge(file, file.tests[0], {of(never, {0, 0}), of(always, {1, 0})}).size(), 1u);
     // one level alone makes no case
     EXPECT_TRUE(judge(file, file.tests[0], {of(early, {0, 0})}).empty());
+}
+
+TEST(ClaimCriterion, OrderWithAMargin)
+{
+    Criterion c;
+    c.kind = Criterion::Kind::order;
+    c.along = "K";
+    c.measure.event = Event::rocked;
+    c.way = Criterion::Way::rises;
+    c.margin = 0.5;
+    ClaimFile file = two_axes(c);
+    // soft to stiff: 0.2 to 0.9 is far more than half as much again, 0.8 to 0.9 certainly less, 0.4 to 0.6 may be
+    // either
+    EXPECT_EQ(judge(file, file.tests[0], four(0.2, 0.8, 0.9, 0.9))[0].finding, Finding::holds);
+    EXPECT_EQ(judge(file, file.tests[0], four(0.2, 0.8, 0.9, 0.9))[1].finding, Finding::fails);
+    EXPECT_EQ(judge(file, file.tests[0], four(0.4, 0.8, 0.6, 0.9))[0].finding, Finding::undecided);
+    // falling: from stiff to soft
+    file.tests[0].criterion.way = Criterion::Way::falls;
+    EXPECT_EQ(judge(file, file.tests[0], four(0.9, 0.9, 0.2, 0.8))[0].finding, Finding::holds);
+    EXPECT_EQ(judge(file, file.tests[0], four(0.9, 0.9, 0.2, 0.8))[1].finding, Finding::fails);
+}
+
+TEST(ClaimCriterion, OrderInAnyCell)
+{
+    Criterion c;
+    c.kind = Criterion::Kind::order;
+    c.along = "K";
+    c.measure.event = Event::rocked;
+    c.way = Criterion::Way::rises;
+    ClaimFile file = two_axes(c);
+    const auto finding = [&](double first, double second) {
+        return judge(file, file.tests[0],
+                     {sample({1}, {1, 2}, {{0.2, 0.5}}, {0, 0}), sample({1}, {1, 2}, {{first, second}}, {1, 0})})[0]
+            .finding;
+    };
+    EXPECT_EQ(finding(0.9, 0.5), Finding::undecided); // one cell of two
+    file.tests[0].criterion.any = true;
+    EXPECT_EQ(finding(0.9, 0.5), Finding::holds);
+    EXPECT_EQ(finding(0.9, 0.1), Finding::fails); // and the other way in the other
+    EXPECT_EQ(finding(0.2, 0.5), Finding::undecided);
 }
 
 TEST(ClaimCriterion, SameWayOfMoving)

@@ -35,7 +35,7 @@ enum class Amount {
     rocking_path_rad,
     peak_top_m,      ///< largest displacement of the top against the base
     top_path_ratio,  ///< path of the top against the base, over the path of the base
-    face_path_ratio, ///< path of the faces in contact against each other, over the path of the base
+    face_path_ratio, ///< path of the faces in contact against each other, of a column, over the path of the base
     friction_share,  ///< of the energy that was dissipated, the part that friction took
     collapse_cycles, ///< collapse time x frequency, for those that collapsed
 };
@@ -54,6 +54,7 @@ struct Measure {
     Amount amount = Amount::total_sliding_m;
     std::optional<Event> given; ///< only realizations to which this happened count
     double within_cycles = 0;   ///< of `Event::collapsed_early`
+    bool between_steps = false; ///< onset: the interval is interpolated too, where the curve is resolved
 };
 
 /// Part of an axis of a surface, ends included; or some values of it.
@@ -85,8 +86,9 @@ struct Criterion {
     Window pga;
     std::optional<double> at_least; ///< bound
     std::optional<double> at_most;  ///< bound
-    bool any = false;               ///< bound: one cell is enough
+    bool any = false;               ///< bound, order: one cell is enough
     Way way = Way::falls;           ///< trend, order
+    double margin = 0;              ///< order: a difference counts from this part of the smaller number on
     bool within_pga = false;        ///< trend of an onset: fails where no onset lies in the PGA window
     std::string along;              ///< order, same: name of the axis
 };

@@ -30,7 +30,7 @@ using Way = Criterion::Way;
 constexpr std::array way_words{Word<Way>{"falls", Way::falls, ""}, Word<Way>{"rises", Way::rises, ""},
                                Word<Way>{"either", Way::either, ""}};
 constexpr std::array where_words{Word<bool>{"all", false, ""}, Word<bool>{"any", true, ""}};
-const std::vector<std::string> measure_keys{"measure", "event", "amount", "given", "within_cycles"};
+const std::vector<std::string> measure_keys{"measure", "event", "amount", "given", "within_cycles", "between_steps"};
 
 /// The tables of an array of tables; none if it is absent.
 std::vector<KeyReader> tables(const KeyReader& keys, std::string_view key)
@@ -120,13 +120,17 @@ Measure read_measure(const KeyReader& keys)
         m.given = keys.choice("given", event_words);
     if (m.event == Event::collapsed_early || m.given == Event::collapsed_early)
         m.within_cycles = keys.number("within_cycles", cycles_range);
+    m.between_steps = keys.boolean_or("between_steps", false);
+    if (m.between_steps && m.kind != Measure::Kind::onset)
+        keys.refuse("between_steps", "is for an onset");
     return m;
 }
 
 Criterion read_criterion(const KeyReader& keys)
 {
     std::vector<std::string> known = measure_keys;
-    known.insert(known.end(), {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "within_pga", "along"});
+    known.insert(known.end(),
+                 {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "within_pga", "along", "margin"});
     keys.allow_only(known);
     Criterion c;
     c.kind = keys.choice("kind", kind_words);
@@ -139,14 +143,18 @@ Criterion read_criterion(const KeyReader& keys)
         c.at_most = keys.maybe_number("at_most", any);
         if (!c.at_least && !c.at_most)
             keys.missing("at_least", "A bound has at_least or at_most, or both.");
-        c.any = keys.choice_or("where", where_words, c.any);
     }
+    if (c.kind == Criterion::Kind::bound || c.kind == Criterion::Kind::order)
+        c.any = keys.choice_or("where", where_words, c.any);
     if (c.kind == Criterion::Kind::trend || c.kind == Criterion::Kind::order)
         c.way = keys.choice("direction", way_words);
     if (c.way == Way::either && c.kind == Criterion::Kind::trend)
         keys.refuse("direction", "is for the order of levels; a trend falls or rises");
     if (c.kind == Criterion::Kind::order || c.kind == Criterion::Kind::same)
         c.along = keys.text("along");
+    c.margin = keys.number_or("margin", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", 0.01}, 0);
+    if (c.margin > 0 && (c.kind != Criterion::Kind::order || c.way == Way::either))
+        keys.refuse("margin", "is for an order that falls or rises");
     c.within_pga = keys.boolean_or("within_pga", false);
     if (c.within_pga && (c.kind != Criterion::Kind::trend || c.measure.kind != Measure::Kind::onset))
         keys.refuse("within_pga", "is for the trend of an onset");

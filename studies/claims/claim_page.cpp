@@ -270,7 +270,8 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         "brackets are intervals; a case as a whole is decided at {} % confidence, its numbers share the error "
         "(Bonferroni). Among the {} decided cases about {:.0f} may still be decided wrongly: one case alone that "
         "stands against its neighbours proves little. An onset is the lowest PGA at which the event has probability "
-        "1/2, and its interval ends at PGAs that were run. What each word means: "
+        "1/2; its interval ends at PGAs that were run, or between them where onsets are compared. What each word "
+        "means: "
         "[studies/claims](../studies/claims/README.md).\n\n",
         100 * case_level, decided, (1 - case_level) * static_cast<double>(decided));
     page += "## Verdicts\n\n";

@@ -90,7 +90,7 @@ std::string measure_text(const Measure& m)
         break;
     }
     if (m.given)
-        text += fmt::format(" (of those to which this happens: it {})", event_phrase(m, *m.given));
+        text += fmt::format(" (counting only those of which it is true that it {})", event_phrase(m, *m.given));
     return text;
 }
 
@@ -132,10 +132,14 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
                            measure_text(c.measure), way);
         break;
     case Criterion::Kind::order:
-        text = c.way == Criterion::Way::either ? fmt::format("{} differs between levels of {}, in at least one cell",
-                                                             measure_text(c.measure), axis_label(file, c.along))
-                                               : fmt::format("{} {} from level to level of {}, in every cell",
-                                                             measure_text(c.measure), way, axis_label(file, c.along));
+        if (c.way == Criterion::Way::either)
+            text = fmt::format("{} differs between levels of {}, in at least one cell", measure_text(c.measure),
+                               axis_label(file, c.along));
+        else
+            text = fmt::format("{} {}{} from level to level of {}, in {}", measure_text(c.measure), way,
+                               c.margin > 0 ? fmt::format(" by more than {:g} %", 100 * c.margin) : "",
+                               axis_label(file, c.along),
+                               c.any ? "at least one cell and nowhere the other way" : "every cell");
         break;
     case Criterion::Kind::same:
         text = fmt::format("the most frequent way of moving is the same for every {}", axis_label(file, c.along));

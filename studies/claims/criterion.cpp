@@ -42,10 +42,12 @@ public:
             bound(*group.front(), cells, found);
             break;
         case Criterion::Kind::trend:
-            trend(*group.front(), cells, found);
+            if (!trend(*group.front(), cells, found))
+                return std::nullopt;
             break;
         case Criterion::Kind::order:
-            order(group, cells, found);
+            if (!order(group, cells, found))
+                return std::nullopt;
             break;
         case Criterion::Kind::same:
             same(group, cells, found);
@@ -130,11 +132,19 @@ private:
             found.finding = failing > 0 ? Finding::fails : holding == known ? Finding::holds : Finding::undecided;
     }
 
-    /// Whether a to b goes as the criterion says (1), against it (-1), or is not certain (0).
+    /// Whether a to b goes as the criterion says (1), against it (-1), or is not certain (0). With a margin, to go as
+    /// it says is to differ by more than that, and certainly to differ by less is to go against it.
     int sense(const Estimate& a, const Estimate& b) const
     {
-        const int up = a.below(b) ? 1 : b.below(a) ? -1 : 0;
-        return c_.way == Criterion::Way::either ? std::abs(up) : c_.way == Criterion::Way::rises ? up : -up;
+        if (c_.way == Criterion::Way::either)
+            return a.below(b) || b.below(a) ? 1 : 0;
+        const Estimate &low = c_.way == Criterion::Way::rises ? a : b, &high = c_.way == Criterion::Way::rises ? b : a;
+        if (!low.known() || !high.known())
+            return 0;
+        const double more = 1 + c_.margin;
+        if (low.upper * more <= high.lower && low.value < high.value)
+            return 1;
+        return high.upper <= low.lower * more && (high.value < low.value * more) ? -1 : 0;
     }
 
     struct Sequence {
@@ -161,7 +171,16 @@ private:
         return s;
     }
 
-    void trend(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
+    /// Whether numbers lie on the same side beyond the axis, all of them, so that nothing can be said of their order.
+    static bool all_beyond(const std::vector<Estimate>& e)
+    {
+        return std::all_of(e.begin(), e.end(), [](const Estimate& x) { return std::isinf(x.value); }) ||
+               std::all_of(e.begin(), e.end(), [&](const Estimate& x) {
+                   return x.known() && x.lower == 0 && x.value == e.front().value && x.upper == e.front().upper;
+               });
+    }
+
+    bool trend(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
     {
         std::vector<Estimate> e;
         bool all_above = true;
@@ -169,10 +188,8 @@ private:
             e.push_back(estimate(sample, cell.f, cell.p, c_.measure, level(cells.size())));
             all_above = all_above && e.back().lower >= c_.pga.to * (1 - 1e-6);
         }
-        if (e.size() < 2) {
-            found.number_text = shown(e.front()) + at(sample, cells.front()) + ", the only frequency";
-            return;
-        }
+        if (e.size() < 2 || (of_onset() && all_beyond(e) && !(c_.within_pga && all_above)))
+            return false;
         const Sequence s = follow(e);
         found.number = e[s.last];
         found.number_text = fmt::format("{}{}; {}{}", shown(e[s.first]), at(sample, cells[s.first]), shown(e[s.last]),
@@ -187,9 +204,10 @@ private:
         } else {
             found.finding = s.against ? Finding::fails : s.ends > 0 ? Finding::holds : Finding::undecided;
         }
+        return true;
     }
 
-    void order(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
+    bool order(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
     {
         std::size_t compared = 0, right = 0;
         bool against = false;
@@ -200,9 +218,8 @@ private:
                 e.push_back(estimate(*sample, cell.f, cell.p, c_.measure, level(cells.size() * group.size())));
             if (e.size() < 2 || std::any_of(e.begin(), e.end(), [](const Estimate& x) { return !x.known(); }))
                 continue;
-            const Estimate &first = e.front(), &last = e.back();
-            if (std::isinf(first.value) && std::isinf(last.value))
-                continue; // both beyond the axis
+            if (of_onset() && all_beyond(e))
+                continue;
             ++compared;
             const Sequence s = follow(e);
             right += c_.way == Criterion::Way::either ? s.along : s.ends > 0 && !s.against;
@@ -213,17 +230,16 @@ private:
             if (!against && (s.against || apart > widest)) {
                 widest = apart;
                 found.number = e[s.last];
-                found.number_text = fmt::format("{} {}, {} {}{}", level_name(*group[s.first]), shown(e[s.first]),
+                found.number_text = fmt::format("{}: {}; {}: {}{}", level_name(*group[s.first]), shown(e[s.first]),
                                                 level_name(*group[s.last]), shown(e[s.last]), at(*group.front(), cell));
             }
             against = against || s.against;
         }
-        if (compared == 0) {
-            found.number_text = "nothing to compare: beyond the axis, or too few realizations";
-            return;
-        }
-        const std::size_t enough = c_.way == Criterion::Way::either ? 1 : compared;
+        if (compared == 0)
+            return false;
+        const std::size_t enough = c_.any || c_.way == Criterion::Way::either ? 1 : compared;
         found.finding = against ? Finding::fails : right >= enough ? Finding::holds : Finding::undecided;
+        return true;
     }
 
     void same(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
@@ -240,7 +256,7 @@ private:
                 equal = equal && (!common || *common == mode);
                 common = mode;
                 found.number = share;
-                text += fmt::format("{}{}: {} {}", text.empty() ? "" : ", ", level_name(*sample), event_text(mode),
+                text += fmt::format("{}{}: {} {}", text.empty() ? "" : "; ", level_name(*sample), event_text(mode),
                                     number_text({}, share));
             }
             if (found.number_text.empty() || !equal)

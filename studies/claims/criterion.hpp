@@ -20,7 +20,8 @@ struct Case {
 inline constexpr double case_level = 0.95;
 
 /// All cases of a test: its ranges times its variants, or groups of them. Variants without a sample, or with one that
-/// was not run, and ranges that no frequency of the axis lies in, are left out.
+/// was not run, and ranges that no frequency of the axis lies in, are left out; so are cases of a trend or an order in
+/// which nothing can be compared: one frequency alone, or every number beyond the same end of the axis.
 ///
 /// Cells in which too few realizations are left to say anything (after `given`) are passed over.
 ///
@@ -30,11 +31,13 @@ inline constexpr double case_level = 0.95;
 ///        differs from the first's in the right sense and no pair differs in the wrong one; fails if a pair does, and,
 ///        with `within_pga`, if every onset lies above the window.
 /// order  as a trend, but from the first level of the axis to the last, in every cell of the window: holds if the ends
-///        differ rightly in all the cells where there is something to compare, fails if a pair differs wrongly. In
+///        differ rightly in all the cells where there is something to compare (`any`: in one, and no pair differs
+///        wrongly in another), fails if a pair differs wrongly. In
 ///        either direction: holds if some pair differs in some cell; that nothing differs cannot be shown.
 /// same   decided where at every level one way of moving is certainly the most frequent.
 ///
-/// "Differs" means that the intervals do not overlap.
+/// "Differs" means that the intervals do not overlap; with a margin, that they lie apart by more than it, and certainly
+/// to lie closer together is the wrong way.
 ///
 /// @param samples one for each variant, in the order of `variants(file.axes)`
 /// @throws InputError if a window holds no PGA of the axis, or a trend's window more than one

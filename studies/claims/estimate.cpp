@@ -80,31 +80,36 @@ Estimate median(const std::vector<Observation>& cell, const Measure& measure, do
 
 Estimate onset(const Sample& sample, std::size_t frequency, const Measure& measure, double level)
 {
-    Estimate result{infinity, 0, infinity, 0};
-    bool crossed = false, possible = false, certain = false;
-    double last_value = 0;
-    for (std::size_t j = 0; j < sample.pga_m_s2.size(); ++j) {
-        const double pga = sample.pga_m_s2[j];
+    const std::vector<double>& pga = sample.pga_m_s2;
+    std::vector<double> value, lower, upper;
+    Estimate result;
+    for (std::size_t j = 0; j < pga.size(); ++j) {
         const Estimate p = probability(sample.cell(frequency, j), measure, level);
         if (!p.known())
             return {};
         result.realizations += p.realizations;
-        possible = possible || p.upper >= 0.5;
-        if (!possible)
-            result.lower = pga;
-        if (!crossed && p.value >= 0.5) {
-            crossed = true;
-            result.value = pga;
-            if (j > 0) {
-                const double share = (0.5 - last_value) / (p.value - last_value);
-                result.value = sample.pga_m_s2[j - 1] * std::pow(pga / sample.pga_m_s2[j - 1], share);
-            }
-        }
-        if (!certain && p.lower > 0.5) {
-            certain = true;
-            result.upper = pga;
-        }
-        last_value = p.value;
+        value.push_back(p.value);
+        lower.push_back(p.lower);
+        upper.push_back(p.upper);
+    }
+    const auto first = [](const std::vector<double>& curve) {
+        return static_cast<std::size_t>(std::find_if(curve.begin(), curve.end(), [](double p) { return p >= 0.5; }) -
+                                        curve.begin());
+    };
+    const auto crossing = [&](const std::vector<double>& curve, std::size_t j) {
+        if (j == 0 || j == curve.size())
+            return j == 0 ? pga.front() : infinity;
+        const double share = (0.5 - curve[j - 1]) / (curve[j] - curve[j - 1]);
+        return pga[j - 1] * std::pow(pga[j] / pga[j - 1], share);
+    };
+    const std::size_t at = first(value), possible = first(upper), certain = first(lower);
+    result.value = crossing(value, at);
+    result.lower = possible == 0 ? 0 : pga[possible - 1];
+    result.upper = certain == pga.size() ? infinity : pga[certain];
+    const auto open = [&](std::size_t j) { return value[j] > 0.05 && value[j] < 0.95; };
+    if (measure.between_steps && at > 0 && at < pga.size() && (open(at - 1) || open(at))) {
+        result.lower = possible == 0 ? 0 : crossing(upper, possible);
+        result.upper = crossing(lower, certain);
     }
     return result;
 }

@@ -124,7 +124,8 @@ Observation observe(const Study& study, const Realization& realization, const Mo
     set(Amount::rocking_path_rad, o.rocking_path_rad);
     set(Amount::peak_top_m, o.peak_top_displacement_m);
     set(Amount::top_path_ratio, base > 0 ? o.top_path_m / base : nan);
-    set(Amount::face_path_ratio, base > 0 ? o.sliding_path_m / base : nan);
+    const auto columns = static_cast<double>(study.structure.columns.size());
+    set(Amount::face_path_ratio, base > 0 ? o.sliding_path_m / (base * columns) : nan);
     set(Amount::friction_share, dissipated > 0 ? o.energy_friction_j / dissipated : nan);
     set(Amount::collapse_cycles, seen.collapsed ? o.collapse_time_s * realization.frequency_hz : nan);
     return seen;
