@@ -117,14 +117,15 @@ void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<
         // side by side where they would cover each other
         const double nudge = static_cast<double>(k) - static_cast<double>(curves.size() - 1) / 2;
         for (const Curve::Point& point : curves[k].points) {
-            if (!shown(point)) {
+            if (!shown(point) || (figure.log_y && point.y.value <= 0)) {
                 data += '\n';
                 continue;
             }
             const double scale = unit_text(figure.measures.front()) == "mm" ? 1000 : 1;
             const double upper = std::isfinite(point.y.upper) ? point.y.upper : point.y.value;
             const double lower = figure.log_y && point.y.lower <= 0 ? point.y.value : point.y.lower;
-            const double x = along_axis ? point.x + 0.03 * nudge : point.x * std::pow(1.006, nudge);
+            const double x = along_axis ? point.x + std::min(0.03, 0.3 / static_cast<double>(curves.size())) * nudge
+                                        : point.x * std::pow(1.006, nudge);
             data += fmt::format("{} {} {} {}\n", x, scale * point.y.value, scale * lower, scale * upper);
             highest = std::max(highest, scale * upper);
             lowest = std::min(lowest, scale * lower);
