@@ -169,13 +169,20 @@ void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<
                                    ? fmt::format("set logscale y 2\nset ytics format '%g'\nset yrange [{}:{}]\n",
                                                  lowest / 1.2, std::max(highest, lowest) * 1.2)
                                    : fmt::format("set yrange [0:{}]\n", highest > 0 ? 1.05 * highest : 1);
-    const int rows = static_cast<int>((curves.size() + (figure.line ? 3 : 2)) / 3);
+    // as many columns as the longest label leaves room for
+    std::size_t longest = figure.line_label.size();
+    for (const Curve& curve : curves)
+        longest = std::max(longest, curve.label.size());
+    const std::size_t columns = std::clamp<std::size_t>(105 / (longest + 7), 1, 3);
+    const std::size_t labels = curves.size() + (figure.line ? 1 : 0);
+    const auto rows = static_cast<double>((labels + columns - 1) / columns);
     const std::string script =
         data + gnuplot_heading(figure.title, file.what) + x_axis + y_axis +
-        fmt::format("set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.115\n"
-                    "set tmargin at screen {0}\nset key horizontal center bottom at screen 0.535, screen {1} maxcols 3 "
-                    "samplen 2 font ',19'\n",
-                    0.87 - 0.03 * rows, 0.88 - 0.03 * rows) +
+        fmt::format(
+            "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.115\n"
+            "set tmargin at screen {0}\nset key horizontal center bottom at screen 0.535, screen {1} maxcols {2} "
+            "samplen 2 font ',19'\n",
+            0.87 - 0.024 * rows, 0.88 - 0.024 * rows, columns) +
         "set border 3 linewidth 0.8\nset tics out nomirror\n"
         "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n" +
         fmt::format("set ylabel {}\nplot {}\n", gnuplot_text(figure.y_label), plots.empty() ? "1/0 notitle" : plots);
