@@ -3,6 +3,7 @@
 #include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
 #include "io/study_file.hpp"
+#include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"
 #include "studies/claims/claim_page.hpp"
 #include "studies/claims/claim_run.hpp"
@@ -276,6 +277,39 @@ TEST_F(ClaimFolder, AnAbsentRecordIsSaid)
     r.verdict = verdict_of(file, file.tests[0], r.cases);
     EXPECT_EQ(r.verdict.judgement, Judgement::not_run);
     EXPECT_NE(claims_page({r}, "images", "1").find("record absent: text/none.txt"), std::string::npos);
+}
+
+TEST_F(ClaimFolder, FiguresHaveOneCurveForEachVariant)
+{
+    const ClaimFile file = parse_claims(study + claim, "made_up.toml");
+    std::vector<Sample> samples(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        samples[i].levels = {i};
+        samples[i].frequency_hz = {4, 8};
+        samples[i].pga_m_s2 = {0.5, 16};
+        samples[i].cells.assign(4, std::vector<Observation>(10));
+        samples[i].cells[1][0].rocked = true; // 4 Hz, 16 m/s2
+    }
+    Figure figure = file.figures[0];
+    figure.pga.values = {16};
+    std::vector<Curve> curves = curves_of(file, figure, samples);
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[1].label, "friction 0.1");
+    ASSERT_EQ(curves[0].points.size(), 2u);
+    EXPECT_EQ(curves[0].points[0].x, 4);
+    EXPECT_DOUBLE_EQ(curves[0].points[0].y.value, 0.1);
+    EXPECT_DOUBLE_EQ(curves[0].points[1].y.value, 0);
+    draw_figure(file, figure, curves, folder_ / "shares.png");
+    EXPECT_GT(fs::file_size(folder_ / "shares.png"), 10000u);
+
+    // along an axis the levels are the places, and what is not drawn tells the curves apart
+    figure.x = "mu";
+    curves = curves_of(file, figure, samples);
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0].label, "4 Hz");
+    EXPECT_EQ(curves[0].points[1].x, 1);
+    draw_figure(file, figure, {}, folder_ / "empty.png");
+    EXPECT_TRUE(fs::exists(folder_ / "empty.png"));
 }
 
 TEST(ClaimObservation, PathOfTheBaseAndStartOfTheStrongShaking)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -243,11 +244,13 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
 {
     std::stable_sort(results.begin(), results.end(),
                      [](const Result& a, const Result& b) { return comes_before(a.test->id, b.test->id); });
-    std::size_t cases = 0, decided = 0;
+    std::size_t decided = 0, fewest = std::numeric_limits<std::size_t>::max();
     std::map<std::string, const Figure*> figures;
     std::map<Judgement, std::size_t> tally;
     for (const Result& r : results) {
-        cases += r.cases.size();
+        for (const Sample& sample : *r.samples)
+            for (const auto& cell : sample.cells)
+                fewest = std::min(fewest, cell.size());
         decided += r.verdict.holds + r.verdict.fails;
         ++tally[r.verdict.judgement];
         for (const Figure& figure : r.file->figures)
@@ -257,7 +260,7 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
     std::string page = fmt::format(
         "# The paper's claims, put to the test\n\n"
         "Papaloizou and Komodromos draw conclusions on multi-drum columns and colonnades from single runs of a planar "
-        "discrete-element model. Here each of these conclusions is judged on ensembles: every point is at least 200 "
+        "discrete-element model. Here each of these conclusions is judged on ensembles: every point is at least {} "
         "realizations that differ by what nobody knows of a real structure (friction, contact stiffness, damping, "
         "sizes, placement, level, phase), and what the paper leaves open is varied. Everything on this page is written "
         "by `scripts/claims.sh` from the files in [studies/paper](../studies/paper/README.md); no verdict and no "
@@ -273,7 +276,8 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         "1/2; its interval ends at PGAs that were run, or between them where onsets are compared. What each word "
         "means: "
         "[studies/claims](../studies/claims/README.md).\n\n",
-        100 * case_level, decided, (1 - case_level) * static_cast<double>(decided));
+        fewest == std::numeric_limits<std::size_t>::max() ? 0 : fewest, 100 * case_level, decided,
+        (1 - case_level) * static_cast<double>(decided));
     page += "## Verdicts\n\n";
     for (const auto& [judgement, count] : tally)
         page += fmt::format("{}{} {}", judgement == tally.begin()->first ? "" : ", ", count, to_string(judgement));
