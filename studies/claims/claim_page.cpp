@@ -60,7 +60,7 @@ std::string value_of(const std::string& name, const std::string& words, const Re
         return r.verdict.split;
     if (name == "number" || name == "finding") {
         const Case* one = pick_case(r, split_words(words));
-        return one == nullptr ? "(not run)" : name == "number" ? one->number_text : to_string(one->finding);
+        return one == nullptr ? "(no such case)" : name == "number" ? one->number_text : to_string(one->finding);
     }
     if (name == "f1" || name == "rigid") {
         for (const Sample& sample : *r.samples)
@@ -93,9 +93,9 @@ std::string reason_text(const Result& r)
     const Reasons& reasons = r.test->reasons;
     switch (r.verdict.judgement) {
     case Judgement::confirmed:
-        return filled(reasons.confirmed, r);
+        return filled(reasons.confirmed.empty() ? "It holds in all the decided cases." : reasons.confirmed, r);
     case Judgement::refuted:
-        return filled(reasons.refuted, r);
+        return filled(reasons.refuted.empty() ? "It fails in all the decided cases." : reasons.refuted, r);
     case Judgement::depends:
         return filled(reasons.depends.empty() ? "It {split}." : reasons.depends, r);
     case Judgement::untestable: {

@@ -7,7 +7,8 @@
 ///   {number:WORDS}                        the number, with its interval, of the first case that the words pick
 ///   {finding:WORDS}                       what that case came to
 ///   {f1:WORDS} {rigid:WORDS}              first natural frequency [Hz] and rigid limit [m/s2] of the first variant
-/// WORDS are AXIS=LEVEL and range=NAME with commas between, or nothing: any. A case that was not run reads "(not run)".
+/// WORDS are AXIS=LEVEL and range=NAME with commas between, or nothing: any. Where there is no such case it reads
+/// "(no such case)", and of a variant that was not run "(not run)".
 
 #include "studies/claims/verdict.hpp"
 
