@@ -149,7 +149,7 @@ Study read_tree(const TomlValue& root)
 {
     const KeyReader top(&root, "", root.place);
     top.allow_only({"study", "structure", "contact", "excitation", "surface", "perturbation", "initial", "output",
-                    "outcome", "run"});
+                    "outcome", "run", "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
     Study study;
     const KeyReader keys = top.table("study");

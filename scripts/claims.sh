@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Puts the paper's claims (studies/paper) to the test and writes docs/claims.md with its pictures. An interrupted run
+# goes on where it stopped; complete results in results/claims are used again.
+#
+#   scripts/claims.sh                                     all of them, about half an hour on two cores
+#   scripts/claims.sh --only P1,P2 --realizations 20      a trial: any option of stylobate_claims; it writes
+#                                                         results/claims_trial/claims.md and leaves docs alone
+# RECORDS=DIR: where the earthquake records lie; without them, the claims on earthquakes are "not run".
+set -euo pipefail
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+
+cmake --preset release >/dev/null
+cmake --build build/release --target stylobate_claims --parallel "$(nproc)"
+
+place=(--results results/claims --page docs/claims.md --images docs/images/claims)
+for option in "$@"; do
+    case $option in
+    --only* | --realizations*)
+        place=(--results results/claims_trial --page results/claims_trial/claims.md --images results/claims_trial/images)
+        ;;
+    esac
+done
+build/release/studies/claims/stylobate_claims studies/paper/*.toml --data "${RECORDS:-../shared/data/records}" \
+    "${place[@]}" "$@"

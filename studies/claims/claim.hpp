@@ -1,0 +1,182 @@
+#pragma once
+/// What a claim file says, as plain data: the claims of a paper about one structure, each with the criterion that
+/// decides it, over variants of one ordinary study. `claim_file.hpp` reads it, `README.md` describes the words.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate::claims {
+
+/// What may have happened to a realization.
+enum class Event {
+    rocked,          ///< the largest relative rotation is above outcome.rocking_threshold_rad, or it collapsed
+    slid,            ///< the total sliding is above outcome.sliding_threshold widths
+    collapsed,       ///< see `ensemble/README.md`
+    stood,           ///< none of the three: it moved as one with the base
+    rocked_only,     ///< rocked, did not slide
+    slid_only,       ///< slid, did not rock
+    rocked_and_slid, ///< both
+    rocked_or_slid,  ///< at least one of them
+    collapsed_early, ///< within `Measure::within_cycles` of the start of the strong shaking
+    upright,         ///< not collapsed
+    unseated         ///< an epistyle lost a seat
+};
+
+/// What is measured of a realization.
+enum class Amount {
+    total_sliding_m,
+    residual_sliding_m,
+    total_rocking_rad,
+    rocking_path_rad,
+    peak_top_m,      ///< largest displacement of the top against the base
+    top_path_ratio,  ///< path of the top against the base, over the path of the base
+    face_path_ratio, ///< path of the faces in contact against each other, of a column, over the path of the base
+    friction_share,  ///< of the energy that was dissipated, the part that friction took
+    collapse_cycles, ///< collapse time x frequency, for those that collapsed
+};
+inline constexpr std::size_t amount_count = 9;
+
+/// A number that the realizations of a cell (or of a row of cells) say, with an interval.
+struct Measure {
+    enum class Kind {
+        probability, ///< of an event in a cell
+        minority,    ///< share of the rarer of an event and its contrary in a cell: how open the outcome is
+        median,      ///< of an amount in a cell
+        onset        ///< the lowest PGA at which the probability of an event crosses 1/2, at one frequency
+    };
+    Kind kind = Kind::probability;
+    Event event = Event::collapsed;
+    Amount amount = Amount::total_sliding_m;
+    std::optional<Event> given; ///< only realizations to which this happened count
+    double within_cycles = 0;   ///< of `Event::collapsed_early`
+    bool between_steps = false; ///< onset: the interval is interpolated too, where the curve is resolved
+};
+
+/// Part of an axis of a surface, ends included; or some values of it.
+struct Window {
+    double from = 0;
+    double to = std::numeric_limits<double>::infinity();
+    std::vector<double> values = {}; ///< these alone, to 1 %; empty: all from `from` to `to`
+    bool over_f1 = false;            ///< in units of the first natural frequency of the nominal structure
+
+    bool holds(double value) const
+    {
+        const auto near = [&](double one) { return std::abs(value - one) <= 0.01 * one; };
+        return values.empty() ? value >= from * (1 - 1e-6) && value <= to * (1 + 1e-6)
+                              : std::any_of(values.begin(), values.end(), near);
+    }
+};
+
+/// What must be so for a claim to hold. Everything is decided by intervals: what they leave open is undecided.
+struct Criterion {
+    enum class Kind {
+        bound, ///< the measure is at least a number, at most one, or both: in all cells of the window or in any
+        trend, ///< it rises or falls along the frequency: from end to end, and nowhere the other way
+        order, ///< it rises or falls from level to level of an axis: in all cells of the window; or it differs: in any
+        same   ///< the most frequent of stood, rocked, slid, both, collapsed is the same at all levels of an axis
+    };
+    enum class Way { falls, rises, either };
+    Kind kind = Kind::bound;
+    Measure measure;
+    Window pga;
+    std::optional<double> at_least; ///< bound
+    std::optional<double> at_most;  ///< bound
+    bool any = false;               ///< bound, order: one cell is enough
+    Way way = Way::falls;           ///< trend, order
+    double margin = 0;              ///< order: a difference counts from this part of the smaller number on
+    bool within_pga = false;        ///< trend of an onset: fails where no onset lies in the PGA window
+    std::string along;              ///< order, same: name of the axis
+};
+
+/// Settings of a level that hold only together with levels of other axes.
+struct Together {
+    std::vector<std::string> only; ///< "AXIS=LEVEL"
+    std::vector<std::string> set;  ///< "KEY=VALUE", as on the command line
+};
+
+/// Settings that one variant differs by.
+struct Level {
+    std::string name;
+    std::vector<std::string> set;  ///< "KEY=VALUE", as on the command line
+    std::vector<std::string> only; ///< "AXIS=LEVEL": it is combined with these levels alone
+    std::vector<Together> also = {};
+};
+
+/// One way in which the variants differ.
+struct VariantAxis {
+    std::string name;
+    std::string label; ///< in words
+    std::vector<Level> levels;
+};
+
+/// Part of the frequencies that a claim is judged on by itself.
+struct Range {
+    std::string name;
+    Window frequency;
+};
+
+/// Words for the page, chosen by the verdict; `claim_page.hpp` lists their placeholders.
+struct Reasons {
+    std::string confirmed, refuted, depends, untestable;
+};
+
+struct Test {
+    std::string id;            ///< "P11", "P14a"
+    std::string says;          ///< what the paper says
+    std::string contradiction; ///< what the paper itself says against it
+    Criterion criterion;
+    std::vector<Range> ranges;     ///< at least one
+    std::vector<std::string> only; ///< "AXIS=LEVEL": the variants that are judged; several of one axis: any of them
+    std::string untestable;        ///< why no verdict can be given, whatever the numbers are
+    std::string impossible;        ///< why it cannot hold in all variants: a verdict "confirmed" is then withheld
+    Reasons reasons;
+    std::vector<std::string> figures; ///< names of figures, of any claim file
+};
+
+struct Figure {
+    std::string name; ///< of the file, without .png
+    std::string title;
+    std::string caption; ///< under the picture on the page
+    std::string x;       ///< "frequency", "pga" or the name of an axis
+    std::string y_label;
+    bool log_y = false;
+    std::vector<Measure> measures; ///< one curve each and for each variant
+    Window frequency, pga;
+    std::vector<std::string> only; ///< as in `Test`
+    std::optional<double> line;    ///< a horizontal line, with its label
+    std::string line_label;
+};
+
+struct ClaimFile {
+    std::string file; ///< the study
+    std::string name; ///< its name without folder and ending
+    std::string what; ///< the structure in words
+    std::vector<VariantAxis> axes;
+    std::vector<Test> tests;
+    std::vector<Figure> figures;
+};
+
+/// One combination of levels: the index of the level of each axis, in the order of the axes.
+using Levels = std::vector<std::size_t>;
+
+/// All combinations that the levels' `only` allow, the last axis running fastest.
+std::vector<Levels> variants(const std::vector<VariantAxis>& axes);
+
+/// Whether a combination is among those that "AXIS=LEVEL" words pick: for each axis that they name, one of its levels.
+bool picked(const std::vector<VariantAxis>& axes, const Levels& levels, const std::vector<std::string>& only);
+
+/// All settings of a combination, axis by axis.
+std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const Levels& levels);
+
+/// "K_N 1e8, smooth start": the levels in words; an axis with one level is left out.
+std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels);
+
+/// "AXIS=LEVEL AXIS=LEVEL", for placeholders and file names.
+std::string variant_key(const std::vector<VariantAxis>& axes, const Levels& levels);
+
+} // namespace stylobate::claims

@@ -1,0 +1,310 @@
+#include "studies/claims/claim_file.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/key_reader.hpp"
+#include "io/study_ranges.hpp"
+#include "studies/claims/claim_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace stylobate::claims {
+
+namespace {
+
+using Type = TomlValue::Type;
+
+constexpr std::array kind_words{Word<Criterion::Kind>{"bound", Criterion::Kind::bound, ""},
+                                Word<Criterion::Kind>{"trend", Criterion::Kind::trend, ""},
+                                Word<Criterion::Kind>{"order", Criterion::Kind::order, ""},
+                                Word<Criterion::Kind>{"same", Criterion::Kind::same, ""}};
+constexpr std::array measure_words{Word<Measure::Kind>{"probability", Measure::Kind::probability, ""},
+                                   Word<Measure::Kind>{"minority", Measure::Kind::minority, ""},
+                                   Word<Measure::Kind>{"median", Measure::Kind::median, ""},
+                                   Word<Measure::Kind>{"onset", Measure::Kind::onset, ""}};
+using Way = Criterion::Way;
+constexpr std::array way_words{Word<Way>{"falls", Way::falls, ""}, Word<Way>{"rises", Way::rises, ""},
+                               Word<Way>{"either", Way::either, ""}};
+constexpr std::array where_words{Word<bool>{"all", false, ""}, Word<bool>{"any", true, ""}};
+const std::vector<std::string> measure_keys{"measure", "event", "amount", "given", "within_cycles", "between_steps"};
+
+/// The tables of an array of tables; none if it is absent.
+std::vector<KeyReader> tables(const KeyReader& keys, std::string_view key)
+{
+    std::vector<KeyReader> all;
+    const TomlValue* array = keys.find(key);
+    if (array == nullptr)
+        return all;
+    if (array->type != Type::array)
+        keys.refuse(key, fmt::format("is {}, not a list of tables", array->type_name()));
+    for (const TomlValue& entry : array->entries)
+        all.emplace_back(&entry, fmt::format("{}.{}[{}]", keys.path(), key, all.size()), entry.place);
+    return all;
+}
+
+std::vector<std::string> strings(const KeyReader& keys, std::string_view key)
+{
+    std::vector<std::string> all;
+    const TomlValue* array = keys.find(key);
+    if (array == nullptr)
+        return all;
+    const bool fits =
+        array->type == Type::array && std::all_of(array->entries.begin(), array->entries.end(),
+                                                  [](const TomlValue& entry) { return entry.type == Type::string; });
+    if (!fits)
+        keys.refuse(key, "is not a list of strings");
+    for (const TomlValue& entry : array->entries)
+        all.push_back(entry.text);
+    return all;
+}
+
+/// A text, or a list of texts that are joined by blanks.
+std::string prose(const KeyReader& keys, std::string_view key)
+{
+    const TomlValue* value = keys.find(key);
+    if (value == nullptr || value->type != Type::array)
+        return keys.text_or_empty(key);
+    std::string text;
+    for (const std::string& part : strings(keys, key))
+        text += (text.empty() ? "" : " ") + part;
+    return text;
+}
+
+/// [from, to], or one number for both, or three and more values.
+bool read_window(const KeyReader& keys, std::string_view key, Window& window)
+{
+    const TomlValue* value = keys.find(key);
+    if (value == nullptr)
+        return false;
+    const std::vector<TomlValue> given =
+        value->type == Type::array ? value->entries : std::vector<TomlValue>{*value, *value};
+    std::vector<double> numbers;
+    for (const TomlValue& one : given)
+        if ((one.type == Type::number || one.type == Type::integer) && one.number >= 0 && std::isfinite(one.number))
+            numbers.push_back(one.number);
+    if (numbers.size() != given.size() || numbers.size() < 2 || !std::is_sorted(numbers.begin(), numbers.end()))
+        keys.refuse(key, "is not a window", "Give one number, [from, to], or three and more values, ascending.");
+    window.from = numbers.front();
+    window.to = numbers.back();
+    if (value->type != Type::array)
+        window.values = {numbers.front()};
+    else if (numbers.size() > 2)
+        window.values = numbers;
+    return true;
+}
+
+void read_frequency(const KeyReader& keys, Window& window)
+{
+    if (read_window(keys, "frequency_over_f1", window)) {
+        window.over_f1 = true;
+        if (keys.has("frequency_hz"))
+            keys.refuse("frequency_hz", "and frequency_over_f1 exclude each other", "Give one of the two.");
+    } else {
+        read_window(keys, "frequency_hz", window);
+    }
+}
+
+Measure read_measure(const KeyReader& keys)
+{
+    Measure m;
+    m.kind = keys.choice("measure", measure_words);
+    if (m.kind == Measure::Kind::median)
+        m.amount = keys.choice("amount", amount_words);
+    else
+        m.event = keys.choice("event", event_words);
+    if (keys.has("given"))
+        m.given = keys.choice("given", event_words);
+    if (m.event == Event::collapsed_early || m.given == Event::collapsed_early)
+        m.within_cycles = keys.number("within_cycles", cycles_range);
+    m.between_steps = keys.boolean_or("between_steps", false);
+    if (m.between_steps && m.kind != Measure::Kind::onset)
+        keys.refuse("between_steps", "is for an onset");
+    return m;
+}
+
+Criterion read_criterion(const KeyReader& keys)
+{
+    std::vector<std::string> known = measure_keys;
+    known.insert(known.end(),
+                 {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "within_pga", "along", "margin"});
+    keys.allow_only(known);
+    Criterion c;
+    c.kind = keys.choice("kind", kind_words);
+    if (c.kind != Criterion::Kind::same)
+        c.measure = read_measure(keys);
+    read_window(keys, "pga_m_s2", c.pga);
+    if (c.kind == Criterion::Kind::bound) {
+        const stylobate::Range any{-1e300, 1e300, false, "", 0};
+        c.at_least = keys.maybe_number("at_least", any);
+        c.at_most = keys.maybe_number("at_most", any);
+        if (!c.at_least && !c.at_most)
+            keys.missing("at_least", "A bound has at_least or at_most, or both.");
+    }
+    if (c.kind == Criterion::Kind::bound || c.kind == Criterion::Kind::order)
+        c.any = keys.choice_or("where", where_words, c.any);
+    if (c.kind == Criterion::Kind::trend || c.kind == Criterion::Kind::order)
+        c.way = keys.choice("direction", way_words);
+    if (c.way == Way::either && c.kind == Criterion::Kind::trend)
+        keys.refuse("direction", "is for the order of levels; a trend falls or rises");
+    if (c.kind == Criterion::Kind::order || c.kind == Criterion::Kind::same)
+        c.along = keys.text("along");
+    c.margin = keys.number_or("margin", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", 0.01}, 0);
+    if (c.margin > 0 && (c.kind != Criterion::Kind::order || c.way == Way::either))
+        keys.refuse("margin", "is for an order that falls or rises");
+    c.within_pga = keys.boolean_or("within_pga", false);
+    if (c.within_pga && (c.kind != Criterion::Kind::trend || c.measure.kind != Measure::Kind::onset))
+        keys.refuse("within_pga", "is for the trend of an onset");
+    return c;
+}
+
+std::vector<VariantAxis> read_axes(const KeyReader& keys)
+{
+    std::vector<VariantAxis> axes;
+    for (const KeyReader& one : tables(keys, "axis")) {
+        one.allow_only({"name", "label", "levels"});
+        VariantAxis axis;
+        axis.name = one.text("name");
+        axis.label = one.has("label") ? one.text("label") : axis.name;
+        for (const KeyReader& level : tables(one, "levels")) {
+            level.allow_only({"name", "set", "only", "also"});
+            axis.levels.push_back({level.text("name"), strings(level, "set"), strings(level, "only")});
+            for (const KeyReader& also : tables(level, "also")) {
+                also.allow_only({"only", "set"});
+                axis.levels.back().also.push_back({strings(also, "only"), strings(also, "set")});
+            }
+        }
+        if (axis.levels.empty())
+            one.missing("levels", "Give levels = [{ name = \"...\", set = [\"KEY=VALUE\"] }, ...].");
+        axes.push_back(axis);
+    }
+    return axes;
+}
+
+/// "AXIS=LEVEL" words must name what there is.
+void check_words(const KeyReader& keys, std::string_view key, const std::vector<VariantAxis>& axes,
+                 const std::vector<std::string>& words)
+{
+    for (const std::string& word : words) {
+        const bool known = std::any_of(axes.begin(), axes.end(), [&](const VariantAxis& axis) {
+            return std::any_of(axis.levels.begin(), axis.levels.end(),
+                               [&](const Level& level) { return axis.name + '=' + level.name == word; });
+        });
+        if (!known)
+            keys.refuse(key, fmt::format("has \"{}\", which is no AXIS=LEVEL of this file", word));
+    }
+}
+
+Test read_test(const KeyReader& keys, const std::vector<VariantAxis>& axes)
+{
+    keys.allow_only({"id", "says", "contradiction", "criterion", "ranges", "frequency_hz", "frequency_over_f1", "only",
+                     "untestable", "impossible", "reason", "figures"});
+    Test test;
+    test.id = keys.text("id");
+    test.says = prose(keys, "says");
+    if (test.says.empty())
+        keys.missing("says", "Say what the paper says.");
+    test.contradiction = prose(keys, "contradiction");
+    test.untestable = prose(keys, "untestable");
+    test.impossible = prose(keys, "impossible");
+    if (!keys.has("criterion"))
+        keys.missing("criterion", "A claim is decided by a criterion that is written down before.");
+    test.criterion = read_criterion(keys.table("criterion"));
+    const std::string& along = test.criterion.along;
+    if (!along.empty() &&
+        std::none_of(axes.begin(), axes.end(), [&](const VariantAxis& axis) { return axis.name == along; }))
+        keys.table("criterion").refuse("along", "is no axis of this file");
+
+    for (const KeyReader& one : tables(keys, "ranges")) {
+        one.allow_only({"name", "frequency_hz", "frequency_over_f1"});
+        Range range;
+        range.name = one.text("name");
+        read_frequency(one, range.frequency);
+        test.ranges.push_back(range);
+    }
+    if (test.ranges.empty()) {
+        test.ranges.push_back({});
+        read_frequency(keys, test.ranges.back().frequency);
+    }
+    test.only = strings(keys, "only");
+    check_words(keys, "only", axes, test.only);
+    const KeyReader reason = keys.table("reason");
+    reason.allow_only({"confirmed", "refuted", "depends", "untestable"});
+    test.reasons = {prose(reason, "confirmed"), prose(reason, "refuted"), prose(reason, "depends"),
+                    prose(reason, "untestable")};
+    test.figures = strings(keys, "figures");
+    return test;
+}
+
+Figure read_figure(const KeyReader& keys, const std::vector<VariantAxis>& axes)
+{
+    keys.allow_only({"name", "title", "caption", "x", "y_label", "log_y", "measures", "frequency_hz",
+                     "frequency_over_f1", "pga_m_s2", "only", "line", "line_label"});
+    Figure figure;
+    figure.name = keys.text("name");
+    figure.title = keys.text("title");
+    figure.caption = prose(keys, "caption");
+    figure.x = keys.text("x");
+    const bool is_axis =
+        std::any_of(axes.begin(), axes.end(), [&](const VariantAxis& axis) { return axis.name == figure.x; });
+    if (figure.x != "frequency" && figure.x != "pga" && !is_axis)
+        keys.refuse("x", "is neither frequency nor pga nor an axis of this file");
+    figure.y_label = keys.text("y_label");
+    figure.log_y = keys.boolean_or("log_y", false);
+    for (const KeyReader& one : tables(keys, "measures")) {
+        one.allow_only(measure_keys);
+        figure.measures.push_back(read_measure(one));
+    }
+    if (figure.measures.empty())
+        keys.missing("measures", "Give measures = [{ measure = \"onset\", event = \"rocked\" }, ...].");
+    read_frequency(keys, figure.frequency);
+    read_window(keys, "pga_m_s2", figure.pga);
+    figure.only = strings(keys, "only");
+    check_words(keys, "only", axes, figure.only);
+    figure.line = keys.maybe_number("line", {-1e300, 1e300, false, "", 0});
+    figure.line_label = keys.text_or_empty("line_label");
+    return figure;
+}
+
+} // namespace
+
+ClaimFile parse_claims(const std::string& text, const std::string& name)
+{
+    const TomlValue root = parse_toml(text, name);
+    const KeyReader top(&root, "", root.place);
+    if (!top.has("claim"))
+        top.missing("claim", "A claim file is a study with a section [claim].");
+    const KeyReader keys = top.table("claim");
+    keys.allow_only({"what", "axis", "test", "figure"});
+
+    ClaimFile file;
+    file.file = name;
+    file.name = std::filesystem::path(name).stem().string();
+    file.what = prose(keys, "what");
+    file.axes = read_axes(keys);
+    for (const KeyReader& one : tables(keys, "axis"))
+        for (const KeyReader& level : tables(one, "levels")) {
+            check_words(level, "only", file.axes, strings(level, "only"));
+            for (const KeyReader& also : tables(level, "also"))
+                check_words(also, "only", file.axes, strings(also, "only"));
+        }
+    for (const KeyReader& one : tables(keys, "test"))
+        file.tests.push_back(read_test(one, file.axes));
+    for (const KeyReader& one : tables(keys, "figure"))
+        file.figures.push_back(read_figure(one, file.axes));
+    return file;
+}
+
+ClaimFile read_claims(const std::filesystem::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+        throw InputError(file.string(), 0, "cannot be read.\n  Check the path and its permissions.");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    return parse_claims(text, file.string());
+}
+
+} // namespace stylobate::claims

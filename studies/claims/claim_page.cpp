@@ -1,0 +1,310 @@
+#include "studies/claims/claim_page.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "studies/claims/claim_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace stylobate::claims {
+
+namespace {
+
+std::vector<std::string> split_words(const std::string& text)
+{
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::size_t first = std::min(text.find_first_not_of(' ', begin), end);
+        words.push_back(text.substr(first, end - first));
+        begin = end + 1;
+    }
+    return words;
+}
+
+const Case* pick_case(const Result& r, std::vector<std::string> words)
+{
+    std::string range;
+    std::erase_if(words, [&](const std::string& word) {
+        if (!word.starts_with("range="))
+            return false;
+        range = word.substr(6);
+        return true;
+    });
+    for (const Case& one : r.cases)
+        if (picked(r.file->axes, one.levels, words) && (range.empty() || r.test->ranges[one.range].name == range))
+            return &one;
+    return nullptr;
+}
+
+std::string value_of(const std::string& name, const std::string& words, const Result& r)
+{
+    if (name == "cases")
+        return fmt::format("{}", r.cases.size());
+    if (name == "holds")
+        return fmt::format("{}", r.verdict.holds);
+    if (name == "fails")
+        return fmt::format("{}", r.verdict.fails);
+    if (name == "undecided")
+        return fmt::format("{}", r.verdict.undecided);
+    if (name == "by")
+        return series(r.verdict.by);
+    if (name == "split")
+        return r.verdict.split;
+    if (name == "number" || name == "finding") {
+        const Case* one = pick_case(r, split_words(words));
+        return one == nullptr ? "(no such case)" : name == "number" ? one->number_text : to_string(one->finding);
+    }
+    if (name == "f1" || name == "rigid") {
+        for (const Sample& sample : *r.samples)
+            if (sample.why_not.empty() && picked(r.file->axes, sample.levels, split_words(words)))
+                return fmt::format("{:.4g}", name == "f1" ? sample.f1_hz : sample.rigid_m_s2);
+        return "(not run)";
+    }
+    throw InputError(fmt::format("{}: claim {}: {{{}}} is no placeholder.\n  Known: cases, holds, fails, undecided, "
+                                 "by, split, number, finding, f1, rigid.",
+                                 r.file->file, r.test->id, name));
+}
+
+std::string verdict_text(const Verdict& v)
+{
+    return v.judgement == Judgement::depends ? "depends on " + series(v.by) : to_string(v.judgement);
+}
+
+/// Why a test has no case: the records that are absent.
+std::string why_not_run(const Result& r)
+{
+    std::set<std::string> reasons;
+    for (const Sample& sample : *r.samples)
+        if (!sample.why_not.empty())
+            reasons.insert(sample.why_not);
+    return reasons.empty() ? "no variant was run" : fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+std::string reason_text(const Result& r)
+{
+    const Reasons& reasons = r.test->reasons;
+    switch (r.verdict.judgement) {
+    case Judgement::confirmed:
+        return filled(reasons.confirmed.empty() ? "It holds in all the decided cases." : reasons.confirmed, r);
+    case Judgement::refuted:
+        return filled(reasons.refuted.empty() ? "It fails in all the decided cases." : reasons.refuted, r);
+    case Judgement::depends:
+        return filled(reasons.depends.empty() ? "It {split}." : reasons.depends, r);
+    case Judgement::untestable: {
+        if (!r.test->untestable.empty())
+            return filled(r.test->untestable + " " + reasons.untestable, r);
+        if (r.verdict.holds > 0 && !r.test->impossible.empty() && r.verdict.holds >= r.verdict.undecided)
+            return filled("The criterion was met in all the cases that were decided, yet this cannot be so: " +
+                              r.test->impossible + " Criterion or model is at fault, and nothing is confirmed.",
+                          r);
+        return filled("The intervals leave {undecided} of {cases} cases open. " + reasons.untestable, r);
+    }
+    case Judgement::not_run:
+        break;
+    }
+    return why_not_run(r) + ".";
+}
+
+/// The axes that tell a test's cases apart, by number; `axes.size()` stands for the ranges.
+std::vector<std::size_t> telling_axes(const Result& r)
+{
+    std::vector<std::size_t> telling;
+    for (std::size_t i = 0; i < r.file->axes.size(); ++i) {
+        std::set<std::size_t> seen;
+        for (const Case& one : r.cases)
+            seen.insert(one.levels[i]);
+        if (seen.size() > 1)
+            telling.push_back(i);
+    }
+    if (r.test->ranges.size() > 1)
+        telling.push_back(r.file->axes.size());
+    return telling;
+}
+
+std::string case_table(const Result& r)
+{
+    const std::vector<std::size_t> telling = telling_axes(r);
+    std::string head = "|", rule = "|", body;
+    for (const std::size_t i : telling) {
+        head += fmt::format(" {} |", i < r.file->axes.size() ? r.file->axes[i].label : "frequency");
+        rule += "---|";
+    }
+    for (const Case& one : r.cases) {
+        body += "|";
+        for (const std::size_t i : telling)
+            body += fmt::format(" {} |", i < r.file->axes.size() ? r.file->axes[i].levels[one.levels[i]].name
+                                                                 : r.test->ranges[one.range].name);
+        body += fmt::format(" {} | {} |\n", one.number_text, to_string(one.finding));
+    }
+    return fmt::format("{} number | finding |\n{}---|---|\n{}", head, rule, body);
+}
+
+/// "9 hold, 3 fail, 1 undecided", without what there is none of.
+std::string counts_text(const Verdict& v)
+{
+    std::vector<std::string> parts;
+    if (v.holds > 0)
+        parts.push_back(fmt::format("{} {}", v.holds, v.holds == 1 ? "holds" : "hold"));
+    if (v.fails > 0)
+        parts.push_back(fmt::format("{} {}", v.fails, v.fails == 1 ? "fails" : "fail"));
+    if (v.undecided > 0)
+        parts.push_back(fmt::format("{} undecided", v.undecided));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string runs_table(const std::vector<Result>& results)
+{
+    std::map<std::string, const Result*> files;
+    for (const Result& r : results)
+        files.emplace(r.file->name, &r);
+    std::string table =
+        "| study | structure | variants | realizations | invalid | computed by |\n|---|---|---|---|---|---|\n";
+    for (const auto& [name, r] : files) {
+        std::uint64_t valid = 0, invalid = 0, run = 0;
+        std::set<std::string> versions;
+        for (const Sample& sample : *r->samples) {
+            invalid += sample.invalid;
+            run += sample.why_not.empty();
+            for (const auto& cell : sample.cells)
+                valid += cell.size();
+            if (sample.why_not.empty())
+                versions.insert(sample.version);
+        }
+        table += fmt::format("| `{}.toml` | {} | {} of {} | {} | {} | {} |\n", name, r->file->what, run,
+                             r->samples->size(), valid + invalid, invalid, fmt::join(versions, ", "));
+    }
+    return table;
+}
+
+std::string section(const Result& r, const std::string& images, std::map<std::string, std::string>& shown,
+                    const std::map<std::string, const Figure*>& figures)
+{
+    std::string text = fmt::format("## {}\n\n**The paper.** {}\n\n", r.test->id, filled(r.test->says, r));
+    if (!r.test->contradiction.empty())
+        text += fmt::format("**Its own contradiction.** {}\n\n", filled(r.test->contradiction, r));
+    text += fmt::format("**Criterion** (`{}.toml`). {}{}\n\n", r.file->name,
+                        r.test->untestable.empty() ? "" : "For information only: ", criterion_text(*r.file, *r.test));
+    const std::string counts = counts_text(r.verdict);
+    text += fmt::format("**Verdict: {}**{}. {}\n\n", verdict_text(r.verdict),
+                        counts.empty() ? "" : fmt::format(" ({})", counts), reason_text(r));
+    if (!r.cases.empty())
+        text += case_table(r) + "\n";
+    for (const std::string& name : r.test->figures) {
+        const auto figure = figures.find(name);
+        if (figure == figures.end())
+            throw InputError(
+                fmt::format("{}: claim {} names the figure {}, and no file has it.", r.file->file, r.test->id, name));
+        const auto [at, first] = shown.emplace(name, r.test->id);
+        if (first)
+            text += fmt::format("![{0}]({1}/{2}.png)\n\n*{0}.* {3}\n\n", figure->second->title, images, name,
+                                figure->second->caption);
+        else
+            text += fmt::format("Figure: *{}*, under {}.\n\n", figure->second->title, at->second);
+    }
+    return text;
+}
+
+} // namespace
+
+bool comes_before(const std::string& a, const std::string& b)
+{
+    const auto number = [](const std::string& id) {
+        const std::size_t digit = std::min(id.find_first_of("0123456789"), id.size());
+        return std::strtol(id.c_str() + digit, nullptr, 10);
+    };
+    return number(a) != number(b) ? number(a) < number(b) : a < b;
+}
+
+std::string filled(const std::string& text, const Result& result)
+{
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t close = text[i] == '{' ? text.find('}', i) : std::string::npos;
+        if (close == std::string::npos) {
+            out += text[i++];
+            continue;
+        }
+        const std::string inside = text.substr(i + 1, close - i - 1);
+        const std::size_t colon = std::min(inside.find(':'), inside.size());
+        out += value_of(inside.substr(0, colon), colon < inside.size() ? inside.substr(colon + 1) : "", result);
+        i = close + 1;
+    }
+    return out;
+}
+
+std::string claims_page(std::vector<Result> results, const std::string& images, const std::string& version)
+{
+    std::stable_sort(results.begin(), results.end(),
+                     [](const Result& a, const Result& b) { return comes_before(a.test->id, b.test->id); });
+    std::size_t decided = 0, fewest = std::numeric_limits<std::size_t>::max();
+    std::map<std::string, const Figure*> figures;
+    std::map<Judgement, std::size_t> tally;
+    for (const Result& r : results) {
+        for (const Sample& sample : *r.samples)
+            for (const auto& cell : sample.cells)
+                fewest = std::min(fewest, cell.size());
+        decided += r.verdict.holds + r.verdict.fails;
+        ++tally[r.verdict.judgement];
+        for (const Figure& figure : r.file->figures)
+            figures.emplace(figure.name, &figure);
+    }
+
+    std::string page = fmt::format(
+        "# The paper's claims, put to the test\n\n"
+        "Papaloizou and Komodromos draw conclusions on multi-drum columns and colonnades from single runs of a planar "
+        "discrete-element model. Here each of these conclusions is judged on ensembles: every point is at least {} "
+        "realizations that differ by what nobody knows of a real structure (friction, contact stiffness, damping, "
+        "sizes, placement, level, phase), and what the paper leaves open is varied. Everything on this page is written "
+        "by `scripts/claims.sh` from the files in [studies/paper](../studies/paper/README.md); no verdict and no "
+        "measured number is written by hand.\n\n"
+        "How a verdict comes about: a criterion is written down before the run and judged in every case, that is in "
+        "every variant and range of frequencies, by intervals. The claim holds or fails in a case, or the intervals "
+        "leave it open (undecided). **Confirmed**: holds in all the decided cases, and most are decided. **Refuted**: "
+        "fails in all of them. **Depends on**: both occur, and the smallest set of assumptions that tells them apart "
+        "is named. **Untestable**: the paper leaves out what would be needed, or the cases stay open. Numbers in "
+        "brackets are intervals; a case as a whole is decided at {} % confidence, its numbers share the error "
+        "(Bonferroni). Among the {} decided cases about {:.0f} may still be decided wrongly: one case alone that "
+        "stands against its neighbours proves little. An onset is the lowest PGA at which the event has probability "
+        "1/2; its interval ends at PGAs that were run, or between them where onsets are compared. What each word "
+        "means: "
+        "[studies/claims](../studies/claims/README.md).\n\n",
+        fewest == std::numeric_limits<std::size_t>::max() ? 0 : fewest, 100 * case_level, decided,
+        (1 - case_level) * static_cast<double>(decided));
+    page += "## Verdicts\n\n";
+    for (const auto& [judgement, count] : tally)
+        page += fmt::format("{}{} {}", judgement == tally.begin()->first ? "" : ", ", count, to_string(judgement));
+    page += ".\n\n| claim | the paper says | verdict |\n|---|---|---|\n";
+    for (const Result& r : results)
+        page += fmt::format(
+            "| [{}](#{}) | {} | **{}** |\n", r.test->id,
+            [&] {
+                std::string anchor = r.test->id;
+                std::transform(anchor.begin(), anchor.end(), anchor.begin(),
+                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                return anchor;
+            }(),
+            filled(r.test->says, r), verdict_text(r.verdict));
+
+    page += "\n## Where the paper contradicts itself\n\n";
+    for (const Result& r : results)
+        if (!r.test->contradiction.empty())
+            page += fmt::format("- {}: {}\n", r.test->id, filled(r.test->contradiction, r));
+    page += "\n";
+    std::map<std::string, std::string> shown;
+    for (const Result& r : results)
+        page += section(r, images, shown, figures);
+    page += fmt::format("## The runs\n\n{}\nThe page was written by version {}. Seeds are in the studies; the same "
+                        "numbers come out for any number of threads and any instruction set.\n",
+                        runs_table(results), version);
+    return page;
+}
+
+} // namespace stylobate::claims

@@ -1,0 +1,42 @@
+#pragma once
+/// The page: every claim with its criterion, verdict, numbers and reason, as Markdown.
+///
+/// The words of a claim file may hold placeholders that are filled with what was computed:
+///   {cases} {holds} {fails} {undecided}   counts of cases
+///   {by} {split}                          depends: the axes that separate, and what holds for which of their levels
+///   {number:WORDS}                        the number, with its interval, of the first case that the words pick
+///   {finding:WORDS}                       what that case came to
+///   {f1:WORDS} {rigid:WORDS}              first natural frequency [Hz] and rigid limit [m/s2] of the first variant
+/// WORDS are AXIS=LEVEL and range=NAME with commas between, or nothing: any. Where there is no such case it reads
+/// "(no such case)", and of a variant that was not run "(not run)".
+
+#include "studies/claims/verdict.hpp"
+
+#include <filesystem>
+
+namespace stylobate::claims {
+
+/// A test with what it came to.
+struct Result {
+    const ClaimFile* file = nullptr;
+    const Test* test = nullptr;
+    const std::vector<Sample>* samples = nullptr;
+    std::vector<Case> cases;
+    Verdict verdict;
+};
+
+/// In the order of the paper's claims: P2 before P10, P14a before P14b.
+bool comes_before(const std::string& a, const std::string& b);
+
+/// Fills the placeholders of a text. @throws InputError with the file and the claim for an unknown one
+std::string filled(const std::string& text, const Result& result);
+
+/// The whole page. Nothing in it depends on time, machine or number of threads.
+///
+/// @param results in any order
+/// @param images  name of the folder of the pictures as the page names it, "images/claims"
+/// @param version of the code that writes the page
+/// @throws InputError if a test names a figure that no file has, or has an unknown placeholder
+std::string claims_page(std::vector<Result> results, const std::string& images, const std::string& version);
+
+} // namespace stylobate::claims

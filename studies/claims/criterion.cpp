@@ -1,0 +1,342 @@
+#include "studies/claims/criterion.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "studies/claims/claim_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+namespace stylobate::claims {
+
+namespace {
+
+/// The ways of moving of which a realization shows exactly one.
+constexpr std::array modes{Event::stood, Event::rocked_only, Event::slid_only, Event::rocked_and_slid};
+
+struct Cell {
+    std::size_t f = 0, p = 0;
+};
+
+/// What the judging of one test shares.
+class Judge {
+public:
+    Judge(const ClaimFile& file, const Test& test) : file_(file), test_(test), c_(test.criterion) {}
+
+    /// Of one variant (bound, trend), or of a group of them along an axis (order, same).
+    std::optional<Case> one(const std::vector<const Sample*>& group, std::size_t range) const
+    {
+        Case found;
+        found.levels = group.front()->levels;
+        found.range = range;
+        const std::vector<std::size_t> rows = frequencies(*group.front(), test_.ranges[range].frequency);
+        if (rows.empty())
+            return std::nullopt;
+        const std::vector<Cell> cells = cells_of(*group.front(), rows);
+        switch (c_.kind) {
+        case Criterion::Kind::bound:
+            bound(*group.front(), cells, found);
+            break;
+        case Criterion::Kind::trend:
+            if (!trend(*group.front(), cells, found))
+                return std::nullopt;
+            break;
+        case Criterion::Kind::order:
+            if (!order(group, cells, found))
+                return std::nullopt;
+            break;
+        case Criterion::Kind::same:
+            same(group, cells, found);
+            break;
+        }
+        return found;
+    }
+
+private:
+    bool of_onset() const { return c_.measure.kind == Measure::Kind::onset; }
+
+    static double level(std::size_t numbers) { return 1 - (1 - case_level) / static_cast<double>(numbers); }
+
+    static std::vector<std::size_t> frequencies(const Sample& sample, const Window& window)
+    {
+        std::vector<std::size_t> rows;
+        for (std::size_t i = 0; i < sample.frequency_hz.size(); ++i)
+            if (window.holds(sample.frequency_hz[i] / (window.over_f1 ? sample.f1_hz : 1)))
+                rows.push_back(i);
+        return rows;
+    }
+
+    std::vector<Cell> cells_of(const Sample& sample, const std::vector<std::size_t>& rows) const
+    {
+        std::vector<Cell> cells;
+        for (const std::size_t f : rows)
+            for (std::size_t p = 0; p < sample.pga_m_s2.size(); ++p) {
+                if (of_onset() ? p == 0 : c_.pga.holds(sample.pga_m_s2[p]))
+                    cells.push_back({f, p});
+            }
+        const bool one_each = of_onset() || c_.kind != Criterion::Kind::trend || cells.size() == rows.size();
+        if (cells.empty() || !one_each)
+            throw InputError(fmt::format("{}: claim {}: {} PGAs of the axis ({:g} to {:g} m/s2) lie in pga_m_s2 = "
+                                         "[{:g}, {:g}].\n  {}",
+                                         file_.file, test_.id, cells.size() / rows.size(), sample.pga_m_s2.front(),
+                                         sample.pga_m_s2.back(), c_.pga.from, c_.pga.to,
+                                         cells.empty() ? "The window must hold one at least."
+                                                       : "A trend follows one PGA along the frequencies."));
+        return cells;
+    }
+
+    std::string at(const Sample& s, const Cell& cell) const
+    {
+        const bool one_f = s.frequency_hz.size() == 1, one_p = s.pga_m_s2.size() == 1;
+        std::string text;
+        if (!one_f)
+            text += fmt::format(" at {:.3g} Hz", s.frequency_hz[cell.f]);
+        if (!of_onset() && !one_p)
+            text += fmt::format("{} {:.3g} m/s²", one_f ? " at" : ",", s.pga_m_s2[cell.p]);
+        return text;
+    }
+
+    std::string shown(const Estimate& e) const { return number_text(c_.measure, e); }
+
+    void bound(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
+    {
+        const double low = c_.at_least.value_or(-HUGE_VAL), high = c_.at_most.value_or(HUGE_VAL);
+        std::size_t known = 0, holding = 0, failing = 0, at_cell = 0;
+        std::pair<double, double> extreme; // how far inside the bounds the value lies, then the interval
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const Estimate e = estimate(sample, cells[i].f, cells[i].p, c_.measure, level(cells.size()));
+            if (!e.known())
+                continue;
+            holding += e.lower >= low && e.upper <= high;
+            failing += e.upper < low || e.lower > high;
+            const std::pair inside{std::min(e.value - low, high - e.value), std::min(e.lower - low, high - e.upper)};
+            if (known == 0 || (c_.any ? inside > extreme : inside < extreme)) {
+                extreme = inside;
+                found.number = e;
+                at_cell = i;
+            }
+            ++known;
+        }
+        if (known == 0) {
+            found.number_text = "too few realizations to say";
+            return;
+        }
+        found.number_text = shown(found.number) + at(sample, cells[at_cell]);
+        if (c_.any)
+            found.finding = holding > 0 ? Finding::holds : failing == known ? Finding::fails : Finding::undecided;
+        else
+            found.finding = failing > 0 ? Finding::fails : holding == known ? Finding::holds : Finding::undecided;
+    }
+
+    /// Whether a to b goes as the criterion says (1), against it (-1), or is not certain (0). With a margin, to go as
+    /// it says is to differ by more than that, and certainly to differ by less is to go against it.
+    int sense(const Estimate& a, const Estimate& b) const
+    {
+        if (c_.way == Criterion::Way::either)
+            return a.below(b) || b.below(a) ? 1 : 0;
+        const Estimate &low = c_.way == Criterion::Way::rises ? a : b, &high = c_.way == Criterion::Way::rises ? b : a;
+        if (!low.known() || !high.known())
+            return 0;
+        const double more = 1 + c_.margin;
+        if (low.upper * more <= high.lower && low.value < high.value)
+            return 1;
+        return high.upper <= low.lower * more && (high.value < low.value * more) ? -1 : 0;
+    }
+
+    struct Sequence {
+        int ends = 0;                    ///< sense from the first to the last
+        bool against = false;            ///< some pair goes the wrong way
+        bool along = false;              ///< some pair goes the right way
+        std::size_t first = 0, last = 0; ///< the pair that decides
+    };
+
+    Sequence follow(const std::vector<Estimate>& e) const
+    {
+        Sequence s;
+        s.last = e.size() - 1;
+        s.ends = sense(e.front(), e.back());
+        for (std::size_t i = 0; i < e.size() && !s.against; ++i)
+            for (std::size_t j = i + 1; j < e.size() && !s.against; ++j)
+                if (const int way = sense(e[i], e[j]); way > 0) {
+                    s.along = true;
+                } else if (way < 0) {
+                    s.against = true;
+                    s.first = i;
+                    s.last = j;
+                }
+        return s;
+    }
+
+    /// Whether numbers lie on the same side beyond the axis, all of them, so that nothing can be said of their order.
+    static bool all_beyond(const std::vector<Estimate>& e)
+    {
+        return std::all_of(e.begin(), e.end(), [](const Estimate& x) { return std::isinf(x.value); }) ||
+               std::all_of(e.begin(), e.end(), [&](const Estimate& x) {
+                   return x.known() && x.lower == 0 && x.value == e.front().value && x.upper == e.front().upper;
+               });
+    }
+
+    bool trend(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
+    {
+        std::vector<Estimate> e;
+        bool all_above = true;
+        for (const Cell& cell : cells) {
+            e.push_back(estimate(sample, cell.f, cell.p, c_.measure, level(cells.size())));
+            all_above = all_above && e.back().lower >= c_.pga.to * (1 - 1e-6);
+        }
+        if (e.size() < 2 || (of_onset() && all_beyond(e) && !(c_.within_pga && all_above)))
+            return false;
+        const Sequence s = follow(e);
+        found.number = e[s.last];
+        found.number_text = fmt::format("{}{}; {}{}", shown(e[s.first]), at(sample, cells[s.first]), shown(e[s.last]),
+                                        at(sample, cells[s.last]));
+        if (c_.within_pga && all_above) {
+            const auto lowest = std::min_element(
+                e.begin(), e.end(), [](const Estimate& a, const Estimate& b) { return a.value < b.value; });
+            found.number = *lowest;
+            found.number_text = fmt::format("lowest {}{}", shown(*lowest),
+                                            at(sample, cells[static_cast<std::size_t>(lowest - e.begin())]));
+            found.finding = Finding::fails;
+        } else {
+            found.finding = s.against ? Finding::fails : s.ends > 0 ? Finding::holds : Finding::undecided;
+        }
+        return true;
+    }
+
+    bool order(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
+    {
+        std::size_t compared = 0, right = 0;
+        bool against = false;
+        double widest = -1;
+        for (const Cell& cell : cells) {
+            std::vector<Estimate> e;
+            for (const Sample* sample : group)
+                e.push_back(estimate(*sample, cell.f, cell.p, c_.measure, level(cells.size() * group.size())));
+            if (e.size() < 2 || std::any_of(e.begin(), e.end(), [](const Estimate& x) { return !x.known(); }))
+                continue;
+            if (of_onset() && all_beyond(e))
+                continue;
+            ++compared;
+            const Sequence s = follow(e);
+            right += c_.way == Criterion::Way::either ? s.along : s.ends > 0 && !s.against;
+            // shown: the first pair that speaks against, else the ends that lie farthest apart
+            const double a = e[s.first].value, b = e[s.last].value;
+            const double apart =
+                std::isinf(a) || std::isinf(b) ? 1 : std::fabs(a - b) / std::max({std::fabs(a), std::fabs(b), 1e-300});
+            if (!against && (s.against || apart > widest)) {
+                widest = apart;
+                found.number = e[s.last];
+                found.number_text = fmt::format("{}: {}; {}: {}{}", level_name(*group[s.first]), shown(e[s.first]),
+                                                level_name(*group[s.last]), shown(e[s.last]), at(*group.front(), cell));
+            }
+            against = against || s.against;
+        }
+        if (compared == 0)
+            return false;
+        const std::size_t enough = c_.any || c_.way == Criterion::Way::either ? 1 : compared;
+        found.finding = against ? Finding::fails : right >= enough ? Finding::holds : Finding::undecided;
+        return true;
+    }
+
+    void same(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
+    {
+        bool decided = true, equal = true;
+        for (const Cell& cell : cells) {
+            std::optional<Event> common;
+            std::string text;
+            for (const Sample* sample : group) {
+                const std::size_t f = std::min(cell.f, sample->frequency_hz.size() - 1);
+                const std::size_t p = std::min(cell.p, sample->pga_m_s2.size() - 1);
+                const auto [mode, share, certain] = most_frequent(sample->cell(f, p), cells.size() * group.size());
+                decided = decided && certain;
+                equal = equal && (!common || *common == mode);
+                common = mode;
+                found.number = share;
+                text += fmt::format("{}{}: {} {}", text.empty() ? "" : "; ", level_name(*sample), event_text(mode),
+                                    number_text({}, share));
+            }
+            if (found.number_text.empty() || !equal)
+                found.number_text = text + at(*group.front(), cell);
+            if (!equal)
+                break;
+        }
+        found.finding = !decided ? Finding::undecided : equal ? Finding::holds : Finding::fails;
+    }
+
+    struct Mode {
+        Event event;
+        Estimate share;
+        bool certain;
+    };
+
+    static Mode most_frequent(const std::vector<Observation>& cell, std::size_t cells)
+    {
+        std::array<Estimate, modes.size()> share;
+        std::size_t best = 0;
+        for (std::size_t i = 0; i < modes.size(); ++i) {
+            Measure measure;
+            measure.event = modes[i];
+            share[i] = probability(cell, measure, level(cells * modes.size()));
+            if (share[i].value > share[best].value)
+                best = i;
+        }
+        bool certain = share[best].known();
+        for (std::size_t i = 0; i < modes.size(); ++i)
+            certain = certain && (i == best || share[i].below(share[best]));
+        return {modes[best], share[best], certain};
+    }
+
+    std::string level_name(const Sample& sample) const
+    {
+        for (std::size_t i = 0; i < file_.axes.size(); ++i)
+            if (file_.axes[i].name == c_.along)
+                return file_.axes[i].levels[sample.levels[i]].name;
+        return {};
+    }
+
+    const ClaimFile& file_;
+    const Test& test_;
+    const Criterion& c_;
+};
+
+} // namespace
+
+std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples)
+{
+    // groups of variants that differ in the compared axis alone; without one, each variant is a group
+    const auto along = static_cast<std::size_t>(
+        std::find_if(file.axes.begin(), file.axes.end(),
+                     [&](const VariantAxis& axis) { return axis.name == test.criterion.along; }) -
+        file.axes.begin());
+    std::vector<std::vector<const Sample*>> groups;
+    for (const Sample& sample : samples) {
+        if (!sample.why_not.empty() || !picked(file.axes, sample.levels, test.only))
+            continue;
+        const auto is_of = [&](const std::vector<const Sample*>& group) {
+            for (std::size_t i = 0; i < file.axes.size(); ++i)
+                if (i != along && group.front()->levels[i] != sample.levels[i])
+                    return false;
+            return true;
+        };
+        const auto group = std::find_if(groups.begin(), groups.end(), is_of);
+        if (along < file.axes.size() && group != groups.end())
+            group->push_back(&sample);
+        else
+            groups.push_back({&sample});
+    }
+
+    const Judge judge(file, test);
+    std::vector<Case> cases;
+    for (const auto& group : groups)
+        if (along == file.axes.size() || group.size() > 1)
+            for (std::size_t range = 0; range < test.ranges.size(); ++range)
+                if (const std::optional<Case> one = judge.one(group, range))
+                    cases.push_back(*one);
+    return cases;
+}
+
+} // namespace stylobate::claims
