@@ -100,7 +100,7 @@ std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<do
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const std::string name = fmt::format("l{}", k);
         script += block(name, lines[k]);
-        plot += ", " + plotted(name, lines[k], k == 0 ? 5 : 1);
+        plot += ", " + plotted(name, lines[k], 5);
     }
     return script + plot;
 }
