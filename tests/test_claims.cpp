@@ -306,6 +306,20 @@ TEST(ClaimCriterion, TrendFallsRisesOrTurns)
     EXPECT_EQ(finding({early, middle, late}), Finding::holds);
 }
 
+TEST(ClaimCriterion, TrendWithATolerance)
+{
+    ClaimFile file = two_axes(falling_onset());
+    const std::vector<double> early{0, 1, 1, 1}, middle{0, 0, 1, 1}, late{0, 0, 0, 1};
+    // from [2, 4] it turns to [4, 8], then falls to [1, 2]
+    const std::vector<Sample> turning{sample({1, 2, 3}, octaves, {middle, late, early}, {0, 0})};
+    EXPECT_EQ(judge(file, file.tests[0], turning)[0].finding, Finding::fails);
+    file.tests[0].criterion.tolerance = 0.2;
+    EXPECT_EQ(judge(file, file.tests[0], turning)[0].finding, Finding::holds);
+    // from [1, 2] to [4, 8] is a factor of two at the least
+    const std::vector<Sample> wide{sample({1, 2, 3}, octaves, {early, late, early}, {0, 0})};
+    EXPECT_EQ(judge(file, file.tests[0], wide)[0].finding, Finding::fails);
+}
+
 TEST(ClaimCriterion, TrendWithinAWindowOfPga)
 {
     ClaimFile file = two_axes(falling_onset());

@@ -89,6 +89,7 @@ struct Criterion {
     bool any = false;               ///< bound, order: one cell is enough
     Way way = Way::falls;           ///< trend, order
     double margin = 0;              ///< order: a difference counts from this part of the smaller number on
+    double tolerance = 0;           ///< trend: what goes the wrong way by less than this part is passed over
     bool within_pga = false;        ///< trend of an onset: fails where no onset lies in the PGA window
     std::string along;              ///< order, same: name of the axis
 };

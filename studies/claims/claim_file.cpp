@@ -129,8 +129,8 @@ Measure read_measure(const KeyReader& keys)
 Criterion read_criterion(const KeyReader& keys)
 {
     std::vector<std::string> known = measure_keys;
-    known.insert(known.end(),
-                 {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "within_pga", "along", "margin"});
+    known.insert(known.end(), {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "within_pga", "along",
+                               "margin", "tolerance"});
     keys.allow_only(known);
     Criterion c;
     c.kind = keys.choice("kind", kind_words);
@@ -155,6 +155,9 @@ Criterion read_criterion(const KeyReader& keys)
     c.margin = keys.number_or("margin", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", 0.01}, 0);
     if (c.margin > 0 && (c.kind != Criterion::Kind::order || c.way == Way::either))
         keys.refuse("margin", "is for an order that falls or rises");
+    c.tolerance = keys.number_or("tolerance", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", 0.01}, 0);
+    if (c.tolerance > 0 && c.kind != Criterion::Kind::trend)
+        keys.refuse("tolerance", "is for a trend");
     c.within_pga = keys.boolean_or("within_pga", false);
     if (c.within_pga && (c.kind != Criterion::Kind::trend || c.measure.kind != Measure::Kind::onset))
         keys.refuse("within_pga", "is for the trend of an onset");

@@ -128,8 +128,9 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
         text += c.any ? " in at least one cell" : " in every cell";
         break;
     case Criterion::Kind::trend:
-        text = fmt::format("{} {} with frequency: the last frequency against the first, and no pair the other way",
-                           measure_text(c.measure), way);
+        text = fmt::format("{} {} with frequency: the last frequency against the first, and no pair the other way{}",
+                           measure_text(c.measure), way,
+                           c.tolerance > 0 ? fmt::format(" by more than {:g} %", 100 * c.tolerance) : "");
         break;
     case Criterion::Kind::order:
         if (c.way == Criterion::Way::either)

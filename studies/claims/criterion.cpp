@@ -144,7 +144,7 @@ private:
         const double more = 1 + c_.margin;
         if (low.upper * more <= high.lower && low.value < high.value)
             return 1;
-        return high.upper <= low.lower * more && (high.value < low.value * more) ? -1 : 0;
+        return high.upper * (1 + c_.tolerance) <= low.lower * more && high.value < low.value * more ? -1 : 0;
     }
 
     struct Sequence {

@@ -28,7 +28,8 @@ inline constexpr double case_level = 0.95;
 /// bound  holds if the interval of every number lies on the right side (`any`: of one), fails if that of one lies on
 ///        the wrong side (`any`: of every one); the number that decided is the worst one (`any`: the best).
 /// trend  at the PGA of the axis that the window holds (an onset needs none): holds if the last frequency's number
-///        differs from the first's in the right sense and no pair differs in the wrong one; fails if a pair does, and,
+///        differs from the first's in the right sense and no pair differs in the wrong one by more
+///        than the tolerance; fails if a pair does, and,
 ///        with `within_pga`, if every onset lies above the window.
 /// order  as a trend, but from the first level of the axis to the last, in every cell of the window: holds if the ends
 ///        differ rightly in all the cells where there is something to compare (`any`: in one, and no pair differs
