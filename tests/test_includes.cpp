@@ -187,7 +187,8 @@ TEST(House, NoFileIsTooLong)
 {
     for (const Text& file : texts()) {
         const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
-        const bool by_program = file.name.starts_with("bench/results/") || file.name == "docs/verification.md";
+        const bool by_program = file.name.starts_with("bench/results/") || file.name == "docs/verification.md" ||
+                                file.name == "docs/claims.md";
         EXPECT_TRUE(lines <= most_lines || by_program)
             << file.name << " has " << lines << " lines: look for a second noun";
     }
