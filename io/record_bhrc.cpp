@@ -99,14 +99,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
 
 std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
-    std::vector<Record> records;
-    for (std::size_t line = 0; line < text.lines.size();) {
-        if (trimmed(text.lines[line]).empty())
-            ++line;
-        else
-            records.push_back(read_component(text, line, given));
-    }
-    return records;
+    return one_after_another(text, given, read_component);
 }
 
 } // namespace

@@ -174,14 +174,7 @@ Record read_channel(const RecordText& text, std::size_t& line, const std::string
 
 std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
-    std::vector<Record> records;
-    for (std::size_t line = 0; line < text.lines.size();) {
-        if (trimmed(text.lines[line]).empty())
-            ++line;
-        else
-            records.push_back(read_channel(text, line, given));
-    }
-    return records;
+    return one_after_another(text, given, read_channel);
 }
 
 } // namespace

@@ -148,4 +148,18 @@ std::vector<double> read_numbers(const RecordText& text, std::size_t first_line,
     return values;
 }
 
+std::vector<Record> one_after_another(const RecordText& text, const std::string& given,
+                                      Record (*read)(const RecordText& text, std::size_t& line,
+                                                     const std::string& given))
+{
+    std::vector<Record> records;
+    for (std::size_t line = 0; line < text.lines.size();) {
+        if (trimmed(text.lines[line]).empty())
+            ++line;
+        else
+            records.push_back(read(text, line, given));
+    }
+    return records;
+}
+
 } // namespace stylobate

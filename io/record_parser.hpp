@@ -132,6 +132,12 @@ std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t firs
 std::vector<double> read_numbers(const RecordText& text, std::size_t first_line, std::size_t count,
                                  std::size_t* next_line = nullptr);
 
+/// The components of a file in which they follow one another, with blank lines between them or not.
+/// @param read takes the one that begins at line `line` and moves `line` behind it
+std::vector<Record> one_after_another(const RecordText& text, const std::string& given,
+                                      Record (*read)(const RecordText& text, std::size_t& line,
+                                                     const std::string& given));
+
 /// @throws InputError, naming line `i`, if dt is outside [shortest_dt_s, longest_dt_s]
 void check_dt(const RecordText& text, std::size_t i, double dt_s);
 
