@@ -94,8 +94,12 @@ STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const P
         o.normal_y = o.normal_y + share * dx;
     }
     const Real chord2 = o.normal_x * o.normal_x + o.normal_y * o.normal_y;
-    // two thirds of A^2 / L: exact for a triangle, which is what meets at a corner
-    o.elastic = Real(2.0 / 3.0) * o.area * o.area / sqrt_of(max_of(chord2, tiny));
+    // The bed's energy is the area's first moment about the face that presses. Two thirds of A^2 / L are that of a
+    // triangle, which is what meets at a corner; where a face lies in the other block, the moment about it is less.
+    const Real corner = Real(2.0 / 3.0) * o.area * o.area / sqrt_of(max_of(chord2, tiny));
+    const Real top = min_of(o.moment_depth, fnma(low, o.area, zero - o.moment_depth));
+    const Real side = fms(width, o.area, abs_of(o.moment_x));
+    o.elastic = max_of(min_of(corner, min_of(top, side)), zero);
     return o;
 }
 

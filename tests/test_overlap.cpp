@@ -532,6 +532,28 @@ TEST(Overlap, ForceIsTheGradientOfTheEnergy)
     EXPECT_GT(tried, 3000);
 }
 
+TEST(GeneralOverlap, EnergyIsThatOfTheBedOnEveryFace)
+{
+    const double b = 0.03, h = 0.05, L = 2 * 0.02, H = 2 * 0.01;
+    const PairSizes<double> sizes{b, h, 0.02, 0.01};
+    // (a depth of 1e-6 m is the difference of numbers of 0.1 m)
+    for (const double d : {1e-6, 1e-4, 2e-3}) {
+        // flat on the top face, under the bottom face, and beside either side; and a corner at 45 degrees
+        EXPECT_NEAR(general_overlap<double>({0.004, d, 0, 1}, sizes).elastic, d * d * L / 2, 2e-5 * d * d * L);
+        EXPECT_NEAR(general_overlap<double>({-0.003, 2 * h + H - d, 0, 1}, sizes).elastic, d * d * L / 2,
+                    2e-5 * d * d * L);
+        for (const double side : {-1.0, 1.0})
+            EXPECT_NEAR(general_overlap<double>({side * (b + 0.02 - d), h + H / 2, 0, 1}, sizes).elastic, d * d * H / 2,
+                        2e-5 * d * d * H);
+        const double half = std::sqrt(0.5);
+        // turned by 45 degrees, the lowest corner is the bottom left one of a block whose bottom middle is at (x,
+        // depth)
+        const Overlap<double> corner = general_overlap<double>({0.02 * half, d - 0.02 * half, half, half}, sizes);
+        EXPECT_NEAR(corner.area, d * d, 2e-5 * d * d);
+        EXPECT_NEAR(corner.elastic, d * d * d / 3, 2e-5 * d * d * d);
+    }
+}
+
 TEST(Overlap, GeneralEnergyIsTheClosedFormsForACorner)
 {
     // a triangle in both: a corner pressed into the middle of a face
