@@ -171,16 +171,7 @@ private:
     STYLOBATE_INLINE void overlap(int joint, Scratch& s, bool audit) const
     {
         const auto [lower, upper] = topology_.joint[joint];
-        auto fits = s.place.sine < s.place.sine;
-        Overlap<Real> o;
-        if constexpr (Kind::at_rest) {
-            o = stacked_overlap(s.place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
-                                get(OfJoint::depth_limit, joint), fits);
-            if (any(!fits)) [[unlikely]]
-                fall_back(joint, s.place, fits, o);
-        } else {
-            o = general(joint, s.place);
-        }
+        const Overlap<Real> o = meet<Kind>(joint, s.place);
 
         // one division for both: 1 / (area x chord)
         const Real zero(0.0);
@@ -196,6 +187,21 @@ private:
         s.normal_y = o.normal_y * per_chord;
         if (audit)
             put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
+    }
+
+    /// (A function of its own, so that what it returns is never copied: in halves, that stalls the AVX2 kernel.)
+    template <class Kind>
+    STYLOBATE_INLINE Overlap<Real> meet(int joint, const Placement<Real>& place) const
+    {
+        if constexpr (!Kind::at_rest)
+            return general(joint, place);
+        const auto [lower, upper] = topology_.joint[joint];
+        auto fits = place.sine < place.sine;
+        Overlap<Real> o = stacked_overlap(place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
+                                          get(OfJoint::depth_limit, joint), fits);
+        if (any(!fits)) [[unlikely]]
+            fall_back(joint, place, fits, o);
+        return o;
     }
 
     STYLOBATE_INLINE Overlap<Real> general(int joint, const Placement<Real>& place) const
