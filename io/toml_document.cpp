@@ -55,7 +55,10 @@ toml::table parse(std::string_view text)
     }
 }
 
-TomlValue convert(const toml::node& node, std::string key, const TomlPlace& place)
+/// No study nests so deep: what is there is refused as an unknown key above it, and must not use up the stack.
+constexpr int deepest = 64;
+
+TomlValue convert(const toml::node& node, std::string key, const TomlPlace& place, int depth = 0)
 {
     using Type = TomlValue::Type;
     TomlValue out;
@@ -64,10 +67,12 @@ TomlValue convert(const toml::node& node, std::string key, const TomlPlace& plac
     if (const auto* table = node.as_table()) {
         out.type = Type::table;
         for (const auto& [name, value] : *table) {
+            if (depth == deepest)
+                break;
             TomlPlace own = place;
             if (!place.command_line)
                 own.line = static_cast<long>(name.source().begin.line);
-            out.entries.push_back(convert(value, std::string(name.str()), own));
+            out.entries.push_back(convert(value, std::string(name.str()), own, depth + 1));
         }
     } else if (const auto* boolean = node.as_boolean()) {
         out.type = Type::boolean;
@@ -85,10 +90,12 @@ TomlValue convert(const toml::node& node, std::string key, const TomlPlace& plac
     } else if (const auto* array = node.as_array()) {
         out.type = Type::array;
         for (const auto& entry : *array) {
+            if (depth == deepest)
+                break;
             TomlPlace own = place;
             if (!place.command_line)
                 own.line = static_cast<long>(entry.source().begin.line);
-            out.entries.push_back(convert(entry, std::to_string(out.entries.size()), own));
+            out.entries.push_back(convert(entry, std::to_string(out.entries.size()), own, depth + 1));
         }
     } else {
         out.type = Type::date;
