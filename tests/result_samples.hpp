@@ -3,6 +3,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/result_store.hpp"
+#include "tests/outcome_bits.hpp"
 
 #include <bit>
 #include <cmath>
@@ -112,39 +113,9 @@ inline ResultRow sample_row(std::uint64_t index)
 /// Every value of a row as bits.
 inline std::vector<std::uint64_t> bits(const ResultRow& row)
 {
-    const Outcome& o = row.outcome;
-    std::vector<std::uint64_t> result = {row.index,
-                                         row.cell,
-                                         static_cast<std::uint64_t>(o.state),
-                                         static_cast<std::uint64_t>(o.invalid_reason),
-                                         static_cast<std::uint32_t>(o.first_collapse_block),
-                                         static_cast<std::uint32_t>(o.fallen_blocks),
-                                         static_cast<std::uint32_t>(o.unseated_block),
-                                         o.steps};
-    std::vector<double> values = {row.frequency_hz,
-                                  row.pga_m_s2,
-                                  o.collapse_time_s,
-                                  o.peak_top_displacement_m,
-                                  o.residual_top_displacement_m,
-                                  o.total_sliding_m,
-                                  o.total_rocking_rad,
-                                  o.sliding_path_m,
-                                  o.max_relative_rotation_rad,
-                                  o.energy_kinetic_j,
-                                  o.energy_potential_j,
-                                  o.energy_spring_j,
-                                  o.energy_friction_j,
-                                  o.energy_damping_j,
-                                  o.energy_base_work_j,
-                                  o.energy_residual,
-                                  o.end_time_s,
-                                  o.step_s,
-                                  o.unseating_time_s,
-                                  o.total_collapse_time_s,
-                                  o.top_path_m,
-                                  o.residual_sliding_m,
-                                  o.rocking_path_rad};
-    values.insert(values.end(), o.fall_time_s.begin(), o.fall_time_s.end());
+    std::vector<std::uint64_t> result = outcome_bits(row.outcome);
+    result.insert(result.end(), {row.index, row.cell});
+    std::vector<double> values = {row.frequency_hz, row.pga_m_s2};
     values.insert(values.end(), row.inputs.begin(), row.inputs.end());
     for (const double value : values)
         result.push_back(std::bit_cast<std::uint64_t>(value));

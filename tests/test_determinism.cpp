@@ -8,6 +8,7 @@
 #include "io/study_file.hpp"
 #include "studies/block_names.hpp"
 #include "studies/trajectory.hpp"
+#include "tests/outcome_bits.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,42 +48,6 @@ Study quiet()
 
 using Bits = std::vector<std::uint64_t>;
 
-/// Every number of an outcome, as bits.
-Bits bits_of(const Outcome& o)
-{
-    Bits bits{static_cast<std::uint64_t>(o.state),
-              static_cast<std::uint64_t>(o.invalid_reason),
-              static_cast<std::uint64_t>(o.first_collapse_block),
-              static_cast<std::uint64_t>(o.fallen_blocks),
-              static_cast<std::uint64_t>(o.unseated_block),
-              o.steps};
-    for (const double value : {o.collapse_time_s,
-                               o.peak_top_displacement_m,
-                               o.residual_top_displacement_m,
-                               o.total_sliding_m,
-                               o.total_rocking_rad,
-                               o.sliding_path_m,
-                               o.max_relative_rotation_rad,
-                               o.energy_kinetic_j,
-                               o.energy_potential_j,
-                               o.energy_spring_j,
-                               o.energy_friction_j,
-                               o.energy_damping_j,
-                               o.energy_base_work_j,
-                               o.energy_residual,
-                               o.end_time_s,
-                               o.step_s,
-                               o.unseating_time_s,
-                               o.total_collapse_time_s,
-                               o.top_path_m,
-                               o.residual_sliding_m,
-                               o.rocking_path_rad})
-        bits.push_back(std::bit_cast<std::uint64_t>(value));
-    for (const double time : o.fall_time_s)
-        bits.push_back(std::bit_cast<std::uint64_t>(time));
-    return bits;
-}
-
 struct Result {
     std::map<std::uint64_t, Bits> outcomes;
     Progress progress;
@@ -96,7 +61,7 @@ Result run(const Study& study, Isa isa, int threads)
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [&](const Realization& realization, const Outcome& outcome) {
-        const bool fresh = result.outcomes.emplace(realization.index, bits_of(outcome)).second;
+        const bool fresh = result.outcomes.emplace(realization.index, outcome_bits(outcome)).second;
         EXPECT_TRUE(fresh) << "realization " << realization.index << " came twice";
         ++result.states[outcome.state];
     };
@@ -174,7 +139,8 @@ TEST(Determinism, LaneAndNeighboursDoNotMatter)
                     if (other != lane && lanes.outcome(other))
                         lanes.load(other, sampler.realization(neighbour++ % study.total()));
             }
-            EXPECT_EQ(bits_of(*lanes.outcome(lane)), want.outcomes.at(index)) << to_string(isa) << ", lane " << lane;
+            EXPECT_EQ(outcome_bits(*lanes.outcome(lane)), want.outcomes.at(index))
+                << to_string(isa) << ", lane " << lane;
         }
     }
 }
@@ -188,7 +154,7 @@ TEST(Determinism, OneRealizationFollowedStepByStepHasTheBitsOfTheEnsemble)
     for (const std::uint64_t index : {0U, 13U, 27U, 39U})
         for (const Isa isa : usable_isas()) {
             const FollowedRealization f = follow(loaded, index, isa);
-            EXPECT_EQ(bits_of(f.outcome), want.outcomes.at(index)) << to_string(isa) << ", realization " << index;
+            EXPECT_EQ(outcome_bits(f.outcome), want.outcomes.at(index)) << to_string(isa) << ", realization " << index;
             // samples from 0 to the end, evenly
             ASSERT_FALSE(f.trajectory.time_s.empty());
             EXPECT_EQ(f.trajectory.time_s.front(), 0);
@@ -232,7 +198,7 @@ TEST(Determinism, ABrokenLaneIsSetAsideAndItsNeighboursKeepTheirBits)
             EXPECT_EQ(lanes.outcome(1)->invalid_reason, InvalidReason::not_finite);
         }
         for (int lane = 2; lane < table.lanes; ++lane)
-            EXPECT_EQ(bits_of(*lanes.outcome(lane)), want.outcomes.at(static_cast<std::uint64_t>(20 + lane)))
+            EXPECT_EQ(outcome_bits(*lanes.outcome(lane)), want.outcomes.at(static_cast<std::uint64_t>(20 + lane)))
                 << to_string(isa) << ", lane " << lane;
     }
 }
@@ -289,7 +255,7 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
     EXPECT_GT(parts, 1) << "it was never stopped";
     const ResultReader reader(file);
     for (std::uint64_t index = 0; index < study.total(); ++index)
-        ASSERT_EQ(bits_of(reader.row(index).outcome), want.outcomes.at(index)) << "realization " << index;
+        ASSERT_EQ(outcome_bits(reader.row(index).outcome), want.outcomes.at(index)) << "realization " << index;
     std::filesystem::remove(file);
 }
 

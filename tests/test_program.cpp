@@ -306,8 +306,7 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
             const std::size_t last = (nt - 1) * nb + block;
             const double corner = std::atan(t.half_width_m[block] / t.half_height_m[block]);
             const double face = t.y_m[0] + t.half_height_m[0]; // of the fixed drum: heights count from there
-            EXPECT_TRUE(t.y_m[last] - face < 0.65 * (t.y_m[block] - face) ||
-                        std::abs(t.theta_rad[last]) > 0.9 * corner)
+            EXPECT_TRUE(t.y_m[last] - face < 0.65 * (t.y_m[block] - face) || std::abs(t.theta_rad[last]) > 0.9 * corner)
                 << t.y_m[last] << " of " << t.y_m[block] << ", " << t.theta_rad[last];
         } else {
             EXPECT_NEAR(residual, o.residual_top_displacement_m, 0.05 * peak); // the mean of the last vibrations

@@ -358,8 +358,9 @@ TEST(Wide, OrderOfTheJointsDoesNotMoveTheBlocks)
                         true);
             const Bundle a = bind_bundle(upward.topology, 1, want.data()),
                          c = bind_bundle(upward.topology, 1, back.data());
-            for (auto field : {OfRealization::slip, OfRealization::path, OfRealization::rocking_path, OfRealization::friction_energy,
-                               OfRealization::dashpot_energy, OfRealization::shear_energy}) {
+            for (auto field :
+                 {OfRealization::slip, OfRealization::path, OfRealization::rocking_path, OfRealization::friction_energy,
+                  OfRealization::dashpot_energy, OfRealization::shear_energy}) {
                 const double scale = std::fabs(a.at(field, 0)) + 1e-12;
                 ASSERT_NEAR(c.at(field, 0), a.at(field, 0), 1e-9 * scale) << "field " << field;
                 c.at(field, 0) = a.at(field, 0);

@@ -121,7 +121,7 @@ struct Range {
     Window frequency;
 };
 
-/// Words for the page, chosen by the verdict; `claim_page.hpp` lists their placeholders.
+/// Words for the page, chosen by the verdict; `claim_page.hpp` lists their fields in braces.
 struct Reasons {
     std::string confirmed, refuted, depends, untestable;
 };
@@ -177,7 +177,7 @@ std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const
 /// "K_N 1e8, smooth start": the levels in words; an axis with one level is left out.
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels);
 
-/// "AXIS=LEVEL AXIS=LEVEL", for placeholders and file names.
+/// "AXIS=LEVEL AXIS=LEVEL", for fields in braces and file names.
 std::string variant_key(const std::vector<VariantAxis>& axes, const Levels& levels);
 
 } // namespace stylobate::claims

@@ -68,7 +68,7 @@ std::string value_of(const std::string& name, const std::string& words, const Re
                 return fmt::format("{:.4g}", name == "f1" ? sample.f1_hz : sample.rigid_m_s2);
         return "(not run)";
     }
-    throw InputError(fmt::format("{}: claim {}: {{{}}} is no placeholder.\n  Known: cases, holds, fails, undecided, "
+    throw InputError(fmt::format("{}: claim {}: {{{}}} is no field.\n  Known: cases, holds, fails, undecided, "
                                  "by, split, number, finding, f1, rigid.",
                                  r.file->file, r.test->id, name));
 }

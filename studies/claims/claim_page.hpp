@@ -1,7 +1,7 @@
 #pragma once
 /// The page: every claim with its criterion, verdict, numbers and reason, as Markdown.
 ///
-/// The words of a claim file may hold placeholders that are filled with what was computed:
+/// The words of a claim file may hold fields in braces that are filled with what was computed:
 ///   {cases} {holds} {fails} {undecided}   counts of cases
 ///   {by} {split}                          depends: the axes that separate, and what holds for which of their levels
 ///   {number:WORDS}                        the number, with its interval, of the first case that the words pick
@@ -28,7 +28,7 @@ struct Result {
 /// In the order of the paper's claims: P2 before P10, P14a before P14b.
 bool comes_before(const std::string& a, const std::string& b);
 
-/// Fills the placeholders of a text. @throws InputError with the file and the claim for an unknown one
+/// Fills the fields in braces of a text. @throws InputError with the file and the claim for an unknown one
 std::string filled(const std::string& text, const Result& result);
 
 /// The whole page. Nothing in it depends on time, machine or number of threads.
@@ -36,7 +36,7 @@ std::string filled(const std::string& text, const Result& result);
 /// @param results in any order
 /// @param images  name of the folder of the pictures as the page names it, "images/claims"
 /// @param version of the code that writes the page
-/// @throws InputError if a test names a figure that no file has, or has an unknown placeholder
+/// @throws InputError if a test names a figure that no file has, or has an unknown field
 std::string claims_page(std::vector<Result> results, const std::string& images, const std::string& version);
 
 } // namespace stylobate::claims
