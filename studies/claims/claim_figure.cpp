@@ -164,11 +164,11 @@ void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<
         x_axis += fmt::format("set xlabel '{}'\n",
                               figure.x == "frequency" ? "frequency [Hz]" : "peak ground acceleration [m/s²]");
     }
-    const std::string y_axis = of_probability ? "set yrange [-0.02:1.02]\nset ytics 0,0.2,1\n"
-                               : figure.log_y
-                                   ? fmt::format("set logscale y 2\nset ytics format '%g'\nset yrange [{}:{}]\n",
-                                                 lowest / 1.2, std::max(highest, lowest) * 1.2)
-                                   : fmt::format("set yrange [0:{}]\n", highest > 0 ? 1.05 * highest : 1);
+    const std::string y_axis =
+        of_probability ? "set yrange [-0.02:1.02]\nset ytics 0,0.2,1\n"
+        : figure.log_y ? fmt::format("set logscale y {}\nset ytics format '%g'\nset yrange [{}:{}]\n",
+                                     highest > 100 * lowest ? 10 : 2, lowest / 1.2, std::max(highest, lowest) * 1.2)
+                       : fmt::format("set yrange [0:{}]\n", highest > 0 ? 1.05 * highest : 1);
     // as many columns as the longest label leaves room for
     std::size_t longest = figure.line_label.size();
     for (const Curve& curve : curves)
