@@ -164,11 +164,13 @@ void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<
         x_axis += fmt::format("set xlabel '{}'\n",
                               figure.x == "frequency" ? "frequency [Hz]" : "peak ground acceleration [m/s²]");
     }
-    const std::string y_axis =
-        of_probability ? "set yrange [-0.02:1.02]\nset ytics 0,0.2,1\n"
-        : figure.log_y ? fmt::format("set logscale y {}\nset ytics format '%g'\nset yrange [{}:{}]\n",
-                                     highest > 100 * lowest ? 10 : 2, lowest / 1.2, std::max(highest, lowest) * 1.2)
-                       : fmt::format("set yrange [0:{}]\n", highest > 0 ? 1.05 * highest : 1);
+    const bool decades = figure.log_y && highest > 100 * lowest; // their labels take more room
+    const std::string y_axis = of_probability ? "set yrange [-0.02:1.02]\nset ytics 0,0.2,1\n"
+                               : figure.log_y
+                                   ? fmt::format("set logscale y {}\nset yrange [{}:{}]\n",
+                                                 decades ? "10\nset ytics format '%g'" : "2\nset ytics format '%g'",
+                                                 lowest / 1.2, std::max(highest, lowest) * 1.2)
+                                   : fmt::format("set yrange [0:{}]\n", highest > 0 ? 1.05 * highest : 1);
     // as many columns as the longest label leaves room for
     std::size_t longest = figure.line_label.size();
     for (const Curve& curve : curves)
@@ -179,10 +181,10 @@ void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<
     const std::string script =
         data + gnuplot_heading(figure.title, file.what) + x_axis + y_axis +
         fmt::format(
-            "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.115\n"
+            "set lmargin at screen {3}\nset rmargin at screen 0.97\nset bmargin at screen 0.115\n"
             "set tmargin at screen {0}\nset key horizontal center bottom at screen 0.535, screen {1} maxcols {2} "
             "samplen 2 font ',19'\n",
-            0.87 - 0.024 * rows, 0.88 - 0.024 * rows, columns) +
+            0.87 - 0.024 * rows, 0.88 - 0.024 * rows, columns, decades ? 0.13 : 0.1) +
         "set border 3 linewidth 0.8\nset tics out nomirror\n"
         "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n" +
         fmt::format("set ylabel {}\nplot {}\n", gnuplot_text(figure.y_label), plots.empty() ? "1/0 notitle" : plots);
