@@ -16,6 +16,40 @@ enum class BlockRole : std::uint8_t {
     ground    ///< what a structure stands on, and what has fallen lies on
 };
 
+/// What the extensions of the model (`kernels/mechanisms/`) make of a joint. Every default is neutral.
+struct JointExtension {
+    double dynamic_ratio = 1;         ///< stribeck: mu_d / mu
+    double stribeck_velocity_m_s = 1; ///< stribeck: v_s
+    double wear_per_m = 0;            ///< friction_wear: mu (1 - k S), S the slip of the joint so far
+    double adhesion_n_m = 0;          ///< adhesion: c, force per contact length, until the joint first slips
+    double dowel_stiffness_n_m = 0;   ///< dowel: k_d
+    double dowel_yield_n = 0;         ///< dowel: F_d
+    double dowel_gap_m = 0;           ///< dowel: free play to either side
+    double force_exponent = 1;        ///< hertz: q in F = K A^q, scaled to the force at the reference overlap
+    double reference_overlap_m2 = 1;  ///< hertz: where the law has the force of the linear one
+    double rate_s_m = 0;              ///< rate_damping: Hunt and Crossley's lambda
+    double face_damping = 0;          ///< share of the normal dashpot that acts at the ends of the contact
+    double chip_left_m = 0;           ///< corner_loss: contact face lost at its left end
+    double chip_right_m = 0;          ///< corner_loss: at its right end
+    double corner_wear_m_rad = 0;     ///< corner_wear: further loss at both ends per path of the relative rotation
+    double wedge_rad = 0;             ///< wedge: the lower block's face is turned by this, counter-clockwise
+    friend bool operator==(const JointExtension&, const JointExtension&) = default;
+};
+
+/// The same of a block.
+struct BlockExtension {
+    double drag_n_s2_m2 = 0;   ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
+    double eccentricity_m = 0; ///< eccentricity: centre of mass from the geometric centre, along the width
+    friend bool operator==(const BlockExtension&, const BlockExtension&) = default;
+};
+
+/// The same of the base, beside what changes its horizontal motion alone (gain, offset in time, distortion).
+struct BaseExtension {
+    double pitch_rad_s2_m = 0; ///< table_pitch: rotation of the table about the middle of the base, per acceleration
+    double vertical_ratio = 0; ///< vertical_motion: vertical over horizontal acceleration of the base
+    friend bool operator==(const BaseExtension&, const BaseExtension&) = default;
+};
+
 /// A rigid rectangle in its place in the reference stack (faces just touching, before the static overlaps).
 struct Block {
     double half_width_m = 0;
@@ -27,6 +61,7 @@ struct Block {
     bool fixed = false;       ///< moves with the base
     BlockRole role = BlockRole::drum;
     int column = 0; ///< of a drum, from the left; -1 for all else
+    BlockExtension extension;
 };
 
 /// The bed between two blocks, or what becomes one if they meet.
@@ -39,6 +74,7 @@ struct Joint {
     double tangential_damping_n_s_m = 0;
     double damping_chord_m = 0; ///< contact length at which the dashpots have these coefficients; 0: at any length
     double friction = 0;
+    JointExtension extension;
 };
 
 struct Realization {
@@ -49,6 +85,7 @@ struct Realization {
     int drums = 0;             ///< blocks without the ground
 
     int beds() const { return static_cast<int>(joints.size()) - watched; }
+    BaseExtension base;
     double gravity_m_s2 = 9.81;
     double base_tilt_rad = 0;    ///< base out of level
     double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`

@@ -22,7 +22,15 @@ enum class DampingPer {
     chord    ///< in proportion to the length of the contact: no jump when a sliver of contact appears
 };
 
+/// How the faces of a bed carry (`kernels/mechanisms/README.md`). Pairs that are no bed meet by their area.
+enum class ContactForm {
+    area,       ///< the paper's: overlap area, at its centroid
+    two_corner, ///< springs at the two ends of the face
+    points      ///< Hertz-like springs at points along the face
+};
+
 struct ContactSpec {
+    ContactForm form = ContactForm::area;
     double normal_stiffness_n_m2 = 0;    ///< K_N, force per overlap area, for the whole depth
     double tangential_stiffness_n_m = 0; ///< K_T
     double normal_damping_ratio = 0.1;

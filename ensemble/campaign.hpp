@@ -1,0 +1,81 @@
+#pragma once
+/// A measured campaign: one specimen, put on a shaking table and shaken several times. Plain data, SI units; y up,
+/// angles counter-clockwise; (x, y) is a block's geometric centre in the frame of the laboratory.
+///
+/// What was not measured is empty. Values that are missing in a series (a block not seen, or after a collapse) are NaN.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// Samples at the clock of their run, with the standard deviation of their noise.
+struct Series {
+    std::vector<double> values;     ///< (nt), or (nt x n_block) row by row; empty: not measured
+    std::optional<double> noise_sd; ///< in the unit of the values; nothing: not known
+    bool empty() const { return values.empty(); }
+};
+
+/// x, y and rotation of one or several bodies, as cameras see them.
+struct SeenMotion {
+    Series x_m;
+    Series y_m;
+    Series theta_rad;
+    bool empty() const { return x_m.empty() && y_m.empty() && theta_rad.empty(); }
+};
+
+/// Where a base motion comes from.
+enum class BaseSource {
+    table_sensor, ///< measured on the table
+    command       ///< what the table was told to do
+};
+
+struct MeasuredRun {
+    std::string name;             ///< of its group or row: "004"
+    int motion_id = 0;            ///< runs with the same one repeat one commanded motion, the specimen put back by hand
+    int repeat = 0;               ///< which of the repeats
+    std::string kind;             ///< of motion: "harmonic", "sweep", "quake", ...; empty: not said
+    double rate_hz = 0;           ///< nominal, of the cameras
+    std::optional<int> run_order; ///< when it was run among the others
+    std::optional<bool> collapsed; ///< nothing: not said
+    double collapse_time_s = -1;   ///< -1: none, or not known
+    std::vector<double> time_s;    ///< (nt) the cameras' clock
+
+    BaseSource base_source = BaseSource::table_sensor;
+    Series base_acceleration_m_s2; ///< (nt)
+    Series base_displacement_m;    ///< (nt)
+    std::string base_clock;        ///< empty: the cameras'
+    SeenMotion table;              ///< (nt) the table, seen by the same cameras
+    SeenMotion blocks;             ///< (nt x n_block)
+};
+
+/// The specimen as planned. Blocks and joints are counted from 0.
+struct Specimen {
+    std::string name;
+    double gravity_m_s2 = 9.81;
+    std::optional<double> friction_nominal;
+    double mass_tolerance = 0.003;                 ///< 1 sigma, relative
+    double width_tolerance = 0.001;                ///< 1 sigma, relative
+    double placement_tolerance_m = 0;              ///< 1 sigma
+    std::optional<double> base_block_half_width_m; ///< a block fixed to the table, on which the lowest ones stand
+    double base_block_top_m = 0;                   ///< its top face above the table
+    std::vector<double> half_width_m;              ///< (n_block)
+    std::vector<double> half_height_m;             ///< (n_block)
+    std::vector<double> depth_m;                   ///< (n_block)
+    std::vector<double> mass_kg;                   ///< (n_block)
+    std::vector<double> rest_x_m;                  ///< (n_block) centre
+    std::vector<double> rest_y_m;                  ///< (n_block) centre, above the table
+    std::vector<std::pair<int, int>> joints;       ///< lower block (-1: the base), upper block
+
+    int blocks() const { return static_cast<int>(half_width_m.size()); }
+};
+
+struct Campaign {
+    std::string source; ///< file, for messages
+    Specimen specimen;
+    std::vector<MeasuredRun> runs; ///< in the order of their names
+};
+
+} // namespace stylobate
