@@ -17,6 +17,8 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
+    /// Where it lies until then: for libraries that want to write the content themselves.
+    const std::string& temporary() const { return temporary_; }
     /// @throws InputError if the content cannot be written (full disk)
     void write(std::string_view content);
     /// Makes the content safe on the disk and gives the file its name.

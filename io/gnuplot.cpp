@@ -2,6 +2,8 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/temporary_folder.hpp"
+#include "io/utf8.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,36 +26,6 @@ namespace stylobate {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is removed with everything in it at the end of the scope.
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-    {
-        std::error_code error;
-        const fs::path parent = fs::temp_directory_path(error);
-        std::string name = (parent / "stylobate-XXXXXX").string();
-        if (error || ::mkdtemp(name.data()) == nullptr)
-            throw InputError(fmt::format("cannot make a temporary folder in '{}': {}.\n  Set TMPDIR to a folder that "
-                                         "exists and can be written.",
-                                         parent.string(),
-                                         error ? error.message() : std::generic_category().message(errno)));
-        path_ = name;
-    }
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    fs::path operator/(const char* name) const { return path_ / name; }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 bool is_program(const fs::path& file)
 {
@@ -122,28 +94,6 @@ void check_fonts(const TemporaryFolder& folder)
     if (run_program(*lister, {}, folder.path(), log) == 0 && content_of(log).empty())
         throw InputError("no picture can be drawn: this machine has no fonts, its texts would be missing.\n"
                          "  Install some: apt install fonts-dejavu-core.");
-}
-
-/// Length of the UTF-8 character at the start of `text`, 0 if it is none.
-std::size_t utf8_length(std::string_view text)
-{
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    const std::size_t length = first < 0x80                    ? 1
-                               : first >= 0xc2 && first < 0xe0 ? 2
-                               : first >= 0xe0 && first < 0xf0 ? 3
-                               : first >= 0xf0 && first < 0xf5 ? 4
-                                                               : 0;
-    if (length > text.size())
-        return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xc0) != 0x80)
-            return 0;
-    // Overlong forms, surrogates, and what lies beyond the last code point.
-    if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) || (first == 0xf0 && byte(1) < 0x90) ||
-        (first == 0xf4 && byte(1) >= 0x90))
-        return 0;
-    return length;
 }
 
 } // namespace

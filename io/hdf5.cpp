@@ -264,6 +264,19 @@ void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::v
     write_new(parent, path, type, type, values, dims, "");
 }
 
+void write_texts(hid_t parent, const std::string& path, const std::vector<std::string>& texts)
+{
+    const Handle type = text_type();
+    const char* none = ""; // the library wants a fill value where texts have no fixed length
+    const Handle dataset = create_dataset(parent, path, type.id(), {texts.size()}, &none);
+    std::vector<const char*> values;
+    for (const std::string& text : texts)
+        values.push_back(text.c_str());
+    if (!values.empty())
+        call("cannot write '" + path + "'",
+             [&] { return H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+}
+
 std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims)
 {
     return read_whole<double>(parent, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dims);
@@ -282,6 +295,18 @@ std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, c
 std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims)
 {
     return read_whole<std::uint8_t>(parent, path, type, type, dims);
+}
+
+std::vector<std::string> read_texts(hid_t parent, const std::string& path, const Dims& dims)
+{
+    const Handle type = text_type();
+    const std::vector<char*> values = read_whole<char*>(parent, path, type.id(), type.id(), dims);
+    std::vector<std::string> texts;
+    for (char* value : values) {
+        texts.emplace_back(value ? value : "");
+        H5free_memory(value);
+    }
+    return texts;
 }
 
 void write_text(hid_t object, const std::string& name, const std::string& text)

@@ -72,11 +72,14 @@ void write_array(hid_t parent, const std::string& path, const std::vector<std::i
 /// Of one byte each, as `byte_enumeration` makes the type.
 void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::vector<std::uint8_t>& values,
                  const Dims& dims);
+/// UTF-8 of variable length, without NUL.
+void write_texts(hid_t parent, const std::string& path, const std::vector<std::string>& texts);
 /// @throws Error if it has another type or shape
 std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims);
 std::vector<std::uint64_t> read_counts(hid_t parent, const std::string& path, const Dims& dims);
 std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, const Dims& dims);
 std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims);
+std::vector<std::string> read_texts(hid_t parent, const std::string& path, const Dims& dims);
 
 /// Scalar attributes. Text is UTF-8 of variable length; a number has the given type in the file.
 void write_text(hid_t object, const std::string& name, const std::string& text);

@@ -1,6 +1,8 @@
 #pragma once
 /// Machine-readable summaries on standard output.
 
+#include "io/utf8.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -41,32 +43,17 @@ private:
             const char c = text[i];
             if (c == '"' || c == '\\') {
                 quoted += {'\\', c};
-            } else if (const std::size_t length = utf8_length(text.substr(i)); length > 0) {
+            } else if (const std::size_t length = utf8_length(text.substr(i));
+                       length > 0 && static_cast<unsigned char>(c) >= 0x20) {
                 quoted += text.substr(i, length);
                 i += length - 1;
-            } else {
+            } else { // a control character, or a byte that is no UTF-8: it is taken as Latin-1
                 quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
             }
         }
         return quoted + '"';
     }
 
-    /// Bytes of the character that `text` begins with; 0 for a control character, and for a byte that is no UTF-8 (in
-    /// an old record's title, say: it is then taken as Latin-1).
-    static std::size_t utf8_length(std::string_view text)
-    {
-        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : 0); };
-        const unsigned char lead = byte(0);
-        if (lead < 0x80)
-            return lead >= 0x20 ? 1 : 0;
-        const std::size_t length = lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 0;
-        for (std::size_t i = 1; i < length; ++i)
-            if ((byte(i) & 0xc0) != 0x80)
-                return 0;
-        const bool overlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
-        const bool no_character = (lead == 0xed && byte(1) > 0x9f) || (lead == 0xf4 && byte(1) > 0x8f);
-        return overlong || no_character ? 0 : length;
-    }
     Json& raw(std::string_view key, std::string_view value) { return add(quote(key) + ": " + std::string(value)); }
     Json& add(std::string_view text)
     {

@@ -1,0 +1,35 @@
+#pragma once
+/// The pictures of a results file: what `export` writes and `report` shows.
+
+#include "io/result_store.hpp"
+#include "studies/command.hpp"
+#include "studies/limit_state.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace stylobate {
+
+/// @throws InputError if the run is not complete
+void check_complete(const ResultReader& reader, const std::string& results);
+
+/// Whether the realizations were followed beyond the first fall.
+bool followed_to_rest(const ResultReader& reader, const std::string& results);
+
+/// The surface of the store, or that of another limit state from the rows.
+/// @throws InputError if there is none, if the run is not complete, or if the limit state was not followed
+SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit);
+
+/// One realization over time: from the file's trajectory, or else run again.
+/// @throws InputError if there is no such realization, and as `plot_strip` does
+void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
+                   std::uint64_t index, const std::filesystem::path& png);
+
+/// Which blocks fall, in which order and when.
+/// @param cell of a surface; -1: all realizations
+/// @throws InputError if there is no such cell, if the run is not complete, and as `plot_order` does
+void order_picture(const ResultReader& reader, const std::string& results, long long cell,
+                   const std::filesystem::path& png);
+
+} // namespace stylobate
