@@ -1,0 +1,612 @@
+#include "studies/diagnosis/direct_tests.hpp"
+
+#include "studies/diagnosis/robust_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+// A block rides on the table while what accelerates it is below this part of what makes it slip or rock.
+constexpr double rides_below = 0.6;
+// Shorter rides tell nothing.
+constexpr std::size_t shortest_ride = 30; // samples
+
+double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to)
+{
+    return std::accumulate(v.begin() + static_cast<std::ptrdiff_t>(from), v.begin() + static_cast<std::ptrdiff_t>(to),
+                           0.0) /
+           static_cast<double>(to - from);
+}
+
+/// Blocks that stand on the table (or on what is fixed to it).
+std::vector<int> lowest_blocks(const Specimen& s)
+{
+    std::vector<int> blocks;
+    for (const auto& [lower, upper] : s.joints)
+        if (lower < 0)
+            blocks.push_back(upper);
+    return blocks;
+}
+
+/// One run at the spacing of the scales.
+struct Ride {
+    std::vector<double> base;               ///< displacement of the file [m]
+    std::vector<double> rate, acceleration; ///< of it, smoothed
+    std::vector<double> x, y, theta;        ///< of the lowest block, or of the table: raw samples
+    double height_m = 0;                    ///< of what is seen, above the table
+    double noise_x = 0, noise_y = 0, noise_theta = 0;
+    std::vector<std::pair<std::size_t, std::size_t>> parts; ///< in which it rides
+    bool harmonic = false;
+
+    /// Takes the base motion at a later time.
+    void shift(double by_s, const TrackScales& scales)
+    {
+        std::vector<double> time(base.size());
+        for (std::size_t i = 0; i < time.size(); ++i)
+            time[i] = scales.spacing_s * static_cast<double>(i);
+        base = resampled(time, base.data(), 1, by_s, scales.spacing_s, base.size());
+        rate = scales.rates.apply(1, base);
+        acceleration = scales.widths.back().apply(2, base);
+    }
+};
+
+struct Prepared {
+    std::vector<Ride> rides; ///< (runs that can be used)
+    bool table = false;      ///< the cameras see the table
+    std::string what;        ///< "the table" or "block 0"
+};
+
+/// The file's base displacement at the cameras' samples; of an acceleration alone its double integral less its trend.
+std::vector<double> base_displacement(const MeasuredRun& run)
+{
+    if (!run.base_displacement_m.empty())
+        return run.base_displacement_m.values;
+    const std::vector<double>& a = run.base_acceleration_m_s2.values;
+    std::vector<double> u(a.size(), 0.0);
+    double v = 0;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+        const double dt = run.time_s[i] - run.time_s[i - 1];
+        u[i] = u[i - 1] + v * dt + dt * dt * (a[i - 1] / 3 + a[i] / 6);
+        v += dt * (a[i - 1] + a[i]) / 2;
+    }
+    return u;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> stretches(const std::vector<char>& good, std::size_t least)
+{
+    std::vector<std::pair<std::size_t, std::size_t>> parts;
+    for (std::size_t i = 0; i < good.size();) {
+        std::size_t k = i;
+        while (k < good.size() && good[k])
+            ++k;
+        if (k - i >= least)
+            parts.emplace_back(i, k);
+        i = std::max(k, i + 1);
+    }
+    return parts;
+}
+
+Prepared prepare(const Campaign& campaign, const TrackScales& scales)
+{
+    const Specimen& s = campaign.specimen;
+    Prepared out;
+    out.table = std::any_of(campaign.runs.begin(), campaign.runs.end(),
+                            [](const MeasuredRun& run) { return !run.table.x_m.empty(); });
+    const int block = lowest_blocks(s).front();
+    const auto b = static_cast<std::size_t>(block);
+    out.what = out.table ? "the table" : fmt::format("block {}", block);
+    double half_width = std::numeric_limits<double>::infinity(), top = 0, bottom = s.rest_y_m[b] - s.half_height_m[b];
+    for (std::size_t i = 0; i < s.rest_y_m.size(); ++i) {
+        half_width = std::min(half_width, s.half_width_m[i]);
+        top = std::max(top, s.rest_y_m[i] + s.half_height_m[i]);
+    }
+    const double limit =
+        rides_below * s.gravity_m_s2 * std::min(s.friction_nominal.value_or(0.5), 2 * half_width / (top - bottom));
+    const LocalCubic& wide = scales.widths.back();
+    const double dt = scales.spacing_s;
+    for (const MeasuredRun& run : campaign.runs) {
+        const SeenMotion& seen = out.table ? run.table : run.blocks;
+        const bool has_base = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
+        if (run.time_s.size() < 2 || seen.x_m.empty() || !has_base)
+            continue;
+        const std::size_t stride = out.table ? 1 : static_cast<std::size_t>(s.blocks());
+        const std::size_t column = out.table ? 0 : b;
+        const auto n = static_cast<std::size_t>(std::floor((run.time_s.back() - run.time_s.front()) / dt + 1e-6)) + 1;
+        const auto sample = [&](const Series& series) {
+            return series.empty()
+                       ? std::vector<double>()
+                       : resampled(run.time_s, series.values.data() + column, stride, run.time_s.front(), dt, n);
+        };
+        Ride ride;
+        const std::vector<double> u = base_displacement(run);
+        ride.base = resampled(run.time_s, u.data(), 1, run.time_s.front(), dt, n);
+        ride.rate = scales.rates.apply(1, ride.base);
+        ride.acceleration = wide.apply(2, ride.base);
+        ride.x = sample(seen.x_m);
+        ride.y = sample(seen.y_m);
+        ride.theta = sample(seen.theta_rad);
+        ride.noise_x = seen.x_m.noise_sd.value_or(scales.noise_m);
+        ride.noise_y = seen.y_m.noise_sd.value_or(scales.noise_m);
+        ride.noise_theta = seen.theta_rad.noise_sd.value_or(scales.noise_rad);
+        ride.height_m = out.table ? 0 : s.rest_y_m[b];
+        ride.harmonic = run.kind == "harmonic";
+        std::vector<char> good(n, 0);
+        const auto margin = static_cast<std::size_t>(wide.half_width());
+        std::vector<double> shaken = ride.x, leaned = ride.theta;
+        for (double& v : shaken)
+            v = std::isfinite(v) ? v : 0;
+        for (double& v : leaned)
+            v = std::isfinite(v) ? v : 0;
+        const std::vector<double> pushed = wide.apply(2, shaken), angle = scales.rates.apply(0, leaned);
+        double rest_angle = 0;
+        if (!leaned.empty()) {
+            std::vector<double> first(leaned.begin(),
+                                      leaned.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(n, 40)));
+            std::nth_element(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(first.size() / 2), first.end());
+            rest_angle = first[first.size() / 2];
+        }
+        for (std::size_t i = margin; i + margin < n; ++i) {
+            const bool there = std::isfinite(ride.x[i]) && std::isfinite(ride.base[i]);
+            const bool still =
+                out.table || (std::fabs(pushed[i]) < limit &&
+                              (leaned.empty() ||
+                               std::fabs(angle[i] - rest_angle) <
+                                   std::max(scales.rotation_rad / 3, 4 * ride.noise_theta * scales.rates.noise(0))));
+            good[i] = there && still;
+        }
+        // to a side of what moves, the smoothing has seen it
+        if (!out.table) {
+            std::vector<char> inside = good;
+            for (std::size_t i = 0; i < n; ++i)
+                if (!good[i])
+                    for (std::size_t k = i < margin ? 0 : i - margin; k < std::min(n, i + margin + 1); ++k)
+                        inside[k] = 0;
+            good = inside;
+        }
+        ride.parts = stretches(good, shortest_ride);
+        if (!ride.parts.empty())
+            out.rides.push_back(std::move(ride));
+    }
+    return out;
+}
+
+/// Regression of what is seen in all rides, with an offset of its own for each stretch.
+/// @param column(ride, i, k) k-th regressor   @return fit of the k regressors
+struct RideFit {
+    std::vector<double> size, sd;
+    std::vector<double> gain; ///< of each, over the fit without it [nats]
+    double scale = 1;
+    std::size_t samples = 0;
+};
+
+template <class Value, class Column>
+RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)
+{
+    std::vector<std::vector<double>> rows;
+    std::vector<double> values, sds;
+    for (const Ride& ride : rides)
+        for (const auto& [from, to] : ride.parts) {
+            std::vector<double> mean(static_cast<std::size_t>(regressors) + 1, 0);
+            for (std::size_t i = from; i < to; ++i) {
+                mean.back() += value(ride, i).first;
+                for (int k = 0; k < regressors; ++k)
+                    mean[static_cast<std::size_t>(k)] += column(ride, i, k);
+            }
+            for (double& m : mean)
+                m /= static_cast<double>(to - from);
+            for (std::size_t i = from; i < to; ++i) {
+                std::vector<double> row;
+                for (int k = 0; k < regressors; ++k)
+                    row.push_back(column(ride, i, k) - mean[static_cast<std::size_t>(k)]);
+                rows.push_back(std::move(row));
+                values.push_back(value(ride, i).first - mean.back());
+                sds.push_back(value(ride, i).second);
+            }
+        }
+    RideFit out;
+    out.samples = rows.size();
+    out.size.assign(static_cast<std::size_t>(regressors), 0);
+    out.sd.assign(static_cast<std::size_t>(regressors), std::numeric_limits<double>::infinity());
+    out.gain.assign(static_cast<std::size_t>(regressors), 0);
+    if (rows.empty())
+        return out;
+    RegressionData data;
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    data.columns.resize(n, regressors);
+    data.values = Eigen::Map<const Eigen::VectorXd>(values.data(), n);
+    data.sd = Eigen::Map<const Eigen::VectorXd>(sds.data(), n);
+    data.group.assign(rows.size(), 0);
+    data.prior_sd = Eigen::VectorXd::Constant(regressors, std::numeric_limits<double>::infinity());
+    std::vector<double> unit(static_cast<std::size_t>(regressors), 0);
+    for (const auto& row : rows)
+        for (std::size_t k = 0; k < row.size(); ++k)
+            unit[k] = std::max(unit[k], std::fabs(row[k]));
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index k = 0; k < regressors; ++k) {
+            const double by = unit[static_cast<std::size_t>(k)];
+            data.columns(i, k) = by > 0 ? rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] / by : 0;
+        }
+    const RobustFit fit = robust_fit(data);
+    out.scale = fit.scale(0);
+    for (int k = 0; k < regressors; ++k) {
+        const auto c = static_cast<std::size_t>(k);
+        if (unit[c] == 0)
+            continue;
+        out.size[c] = fit.coefficients(k) / unit[c];
+        out.sd[c] = std::sqrt(fit.covariance(k, k)) / unit[c];
+        // Wald's: enough for what is tens of standard deviations away, and for what is none
+        out.gain[c] = 0.5 * std::pow(out.size[c] / out.sd[c], 2);
+    }
+    return out;
+}
+
+/// Circular frequency of a harmonic ride.
+double omega_of(const Ride& ride)
+{
+    double u2 = 0, v2 = 0;
+    const double mean = mean_of(ride.base, 0, ride.base.size());
+    for (std::size_t i = 0; i < ride.base.size(); ++i) {
+        u2 += std::pow(ride.base[i] - mean, 2);
+        v2 += ride.rate[i] * ride.rate[i];
+    }
+    return u2 > 0 ? std::sqrt(v2 / u2) : 0;
+}
+
+/// Harmonic 2 or 3 of a nearly harmonic motion, of the same amplitude, in phase or in quadrature.
+double harmonic_term(double u, double quadrature, int order, bool sine)
+{
+    const double amplitude = std::hypot(u, quadrature);
+    if (amplitude < 1e-9)
+        return 0;
+    const double phase = std::atan2(u, quadrature); // u = A sin(phase)
+    return amplitude * (sine ? std::sin(order * phase) : std::cos(order * phase));
+}
+
+/// Whether a finding is beyond its threshold and its noise.
+bool beyond(double value, double sd, double threshold, double sds)
+{
+    return std::fabs(value) > threshold && std::fabs(value) > sds * sd;
+}
+
+DataTest told(std::string name, std::string place, double value, double sd, double threshold, std::string unit,
+              bool found, const std::string& sentence)
+{
+    DataTest test;
+    test.name = std::move(name);
+    test.place = std::move(place);
+    test.value = value;
+    if (std::isfinite(sd))
+        test.sd = sd;
+    test.threshold = threshold;
+    test.unit = std::move(unit);
+    test.outcome = found ? TestOutcome::failed : TestOutcome::passed;
+    test.sentence = sentence;
+    return test;
+}
+
+DataTest cannot(std::string name, const std::string& why)
+{
+    DataTest test;
+    test.name = std::move(name);
+    test.place = "base";
+    test.outcome = TestOutcome::not_judged;
+    test.sentence = why;
+    return test;
+}
+
+CauseFit cause_of(const char* mechanism, const std::string& place, const char* parameter, const char* unit,
+                  double neutral, double size, double sd, double gain)
+{
+    CauseFit fit;
+    fit.cause = {mechanism, place, parameter, unit, neutral};
+    fit.size = size;
+    fit.sd = sd;
+    fit.gain = gain;
+    return fit;
+}
+
+/// The common vertical motion of all blocks while everything rides.
+struct VerticalMotion {
+    double rms_over_noise = 0; ///< beyond what noise makes
+    double ratio = 0, ratio_sd = 0;
+    double peak_m_s2 = 0;
+    std::size_t samples = 0;
+};
+
+VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scales)
+{
+    VerticalMotion out;
+    double square = 0, noise = 0;
+    for (const Ride& ride : prepared.rides) {
+        if (ride.y.empty())
+            continue;
+        std::vector<double> y = ride.y;
+        for (double& v : y)
+            v = std::isfinite(v) ? v : 0;
+        const std::vector<double> smooth = scales.rates.apply(0, y), rise = scales.widths.back().apply(2, y);
+        for (const auto& [from, to] : ride.parts) {
+            const double mean = mean_of(smooth, from, to);
+            for (std::size_t i = from; i < to; ++i) {
+                square += std::pow(smooth[i] - mean, 2);
+                noise += std::pow(ride.noise_y * scales.rates.noise(0), 2);
+                out.peak_m_s2 = std::max(out.peak_m_s2, std::fabs(rise[i]));
+                ++out.samples;
+            }
+        }
+    }
+    if (out.samples == 0)
+        return out;
+    const double n = static_cast<double>(out.samples);
+    const double per_noise = prepared.rides.front().noise_y;
+    out.rms_over_noise = std::sqrt(std::max(0.0, square / n - noise / n)) / per_noise;
+    const RideFit fit = fit_rides(
+        prepared.rides, 1,
+        [](const Ride& r, std::size_t i) {
+            return std::pair{r.y.empty() ? 0 : r.y[i], r.noise_y};
+        },
+        [](const Ride& r, std::size_t i, int) { return r.base[i]; });
+    out.ratio = fit.size[0];
+    out.ratio_sd = fit.sd[0];
+    return out;
+}
+
+void test_base(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared,
+               DirectResult& out)
+{
+    const std::string place = "base";
+    std::size_t samples = 0;
+    for (const Ride& ride : prepared.rides)
+        for (const auto& [from, to] : ride.parts)
+            samples += to - from;
+    if (samples < 4 * shortest_ride) {
+        for (const char* name : {"harmonic_distortion", "table_pitch", "vertical_motion", "time_offset", "sensor_gain"})
+            out.base_tests.push_back(cannot(name, "No block rides on the table long enough: before anything rocks or "
+                                                  "slides there must be some tenths of a second of motion."));
+        return;
+    }
+    // rotation of what is seen against the base's acceleration
+    const bool turns = !prepared.rides.front().theta.empty();
+    RideFit pitch;
+    if (turns)
+        pitch = fit_rides(
+            prepared.rides, 1,
+            [](const Ride& r, std::size_t i) {
+                return std::pair{r.theta[i], r.noise_theta};
+            },
+            [](const Ride& r, std::size_t i, int) { return r.acceleration[i]; });
+    const double slope = turns ? pitch.size[0] : 0;
+    const bool pitches = turns && beyond(slope, pitch.sd[0], limits.pitch_rad_s2_m, limits.sds);
+
+    // x = c + gain u + (gain x offset) u' + harmonics - height x pitch
+    const auto lean = [&](const Ride& r, std::size_t i) {
+        return pitches ? -r.height_m * slope * r.acceleration[i] : 0;
+    };
+    std::vector<double> omegas;
+    for (const Ride& ride : prepared.rides)
+        omegas.push_back(omega_of(ride));
+    const auto harmonic = [&](const Ride& r, std::size_t i, int k) {
+        if (!r.harmonic)
+            return 0.0;
+        const double omega = omegas[static_cast<std::size_t>(&r - prepared.rides.data())];
+        return omega > 0 ? harmonic_term(r.base[i], r.rate[i] / omega, 2 + k / 2, k % 2 == 0) : 0;
+    };
+    const bool any_harmonic =
+        std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return r.harmonic; });
+    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.x[i] - lean(r, i), r.noise_x}; };
+    // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
+    // that the linear term is all there is to it.
+    double offset = 0;
+    for (int i = 0; i < 4; ++i) {
+        const RideFit first = fit_rides(prepared.rides, 2, value, [](const Ride& r, std::size_t k, int which) {
+            return which == 0 ? r.base[k] : r.rate[k];
+        });
+        const double more = first.size[1] / first.size[0];
+        for (Ride& ride : prepared.rides)
+            ride.shift(more, scales);
+        offset += more;
+    }
+    const RideFit fit =
+        fit_rides(prepared.rides, any_harmonic ? 6 : 2, value, [&](const Ride& r, std::size_t i, int k) {
+            return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : harmonic(r, i, k - 2);
+        });
+    const double gain = fit.size[0], offset_sd = fit.sd[1] / gain;
+    offset += fit.size[1] / gain;
+    const double narrower = prepared.table ? limits.with_table : 1;
+
+    double distortion = 0, distortion_sd = 0, distortion_gain = 0;
+    if (any_harmonic) {
+        for (int order = 0; order < 2; ++order) {
+            const auto s = static_cast<std::size_t>(2 + 2 * order), c = s + 1;
+            const double size = std::hypot(fit.size[s], fit.size[c]);
+            if (size > distortion) {
+                distortion = size;
+                distortion_sd = std::max(fit.sd[s], fit.sd[c]);
+                distortion_gain = fit.gain[s] + fit.gain[c];
+            }
+        }
+        distortion /= gain;
+        distortion_sd /= gain;
+        const bool found = beyond(distortion, distortion_sd, limits.distortion, limits.sds);
+        out.base_tests.push_back(
+            told("harmonic_distortion", place, distortion, distortion_sd, limits.distortion, "", found,
+                 fmt::format("Second and third harmonic of the table in harmonic runs: {:.4f} of the fundamental.",
+                             distortion)));
+        if (found)
+            out.found.push_back(
+                cause_of("harmonic_distortion", place, "ratio", "", 0, distortion, distortion_sd, distortion_gain));
+    } else {
+        out.base_tests.push_back(cannot("harmonic_distortion", "No run has a harmonic motion."));
+    }
+    if (turns) {
+        out.base_tests.push_back(
+            told("table_pitch", place, slope, pitch.sd[0], limits.pitch_rad_s2_m, "rad s2/m", pitches,
+                 fmt::format("{} turns by {:.2e} rad for each m/s2 of the base.", prepared.what, slope)));
+        if (pitches) {
+            out.found.push_back(
+                cause_of("table_pitch", place, "pitch_rad_s2_m", "rad s2/m", 0, slope, pitch.sd[0], pitch.gain[0]));
+            out.pitch_rad_s2_m = slope;
+        }
+    } else {
+        out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
+    }
+    const VerticalMotion vertical = vertical_motion(prepared, scales);
+    if (vertical.samples > 0) {
+        const bool found = vertical.rms_over_noise > limits.vertical;
+        const bool follows =
+            std::fabs(vertical.ratio) > limits.sds * vertical.ratio_sd && std::fabs(vertical.ratio) > 0.02;
+        out.base_tests.push_back(told(
+            "vertical_motion", place, vertical.rms_over_noise, std::numeric_limits<double>::quiet_NaN(),
+            limits.vertical, "of the noise", found,
+            fmt::format("{} moves up and down by {:.2f} of the cameras' noise (rms){}.", prepared.what,
+                        vertical.rms_over_noise,
+                        found && follows ? fmt::format(", {:.3f} times the horizontal motion", vertical.ratio) : "")));
+        if (found)
+            out.found.push_back(follows
+                                    ? cause_of("vertical_motion", place, "ratio", "", 0, vertical.ratio,
+                                               vertical.ratio_sd, 0.5 * std::pow(vertical.ratio / vertical.ratio_sd, 2))
+                                    : cause_of("vertical_motion", place, "peak_m_s2", "m/s2", 0, vertical.peak_m_s2,
+                                               0.1 * vertical.peak_m_s2, 100));
+    } else {
+        out.base_tests.push_back(cannot("vertical_motion", "Heights were not measured."));
+    }
+    const bool late = beyond(offset, offset_sd, narrower * limits.offset_s, limits.sds);
+    out.base_tests.push_back(
+        told("time_offset", place, offset, offset_sd, narrower * limits.offset_s, "s", late,
+             fmt::format("{} is {:.2f} ms ahead of the base motion of the file.", prepared.what, 1e3 * offset)));
+    if (late)
+        out.found.push_back(cause_of("time_offset", place, "offset_s", "s", 0, offset, offset_sd, fit.gain[1]));
+    const bool wrong = beyond(gain - 1, fit.sd[0], narrower * limits.gain, limits.sds);
+    out.base_tests.push_back(
+        told("sensor_gain", place, gain, fit.sd[0], 1 + narrower * limits.gain, "", wrong,
+             fmt::format("{} moves {:.4f} times as far as the base motion of the file.", prepared.what, gain)));
+    if (wrong)
+        out.found.push_back(
+            cause_of("sensor_gain", place, "gain", "", 1, gain, fit.sd[0], 0.5 * std::pow((gain - 1) / fit.sd[0], 2)));
+
+    // the base motion as it must have been
+    const bool distorted = any_harmonic && beyond(distortion, distortion_sd, limits.distortion, limits.sds);
+    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
+        const MeasuredRun& run = campaign.runs[r];
+        if (out.base_m[r].empty() || !(late || wrong || distorted))
+            continue;
+        Ride whole;
+        whole.base = out.base_m[r];
+        whole.shift(late ? offset : 0, scales);
+        const std::vector<double>& u = whole.base;
+        const double omega = omega_of(whole);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            double x = (wrong ? gain : 1) * u[i];
+            if (distorted && run.kind == "harmonic" && omega > 0)
+                for (int k = 0; k < 4; ++k)
+                    x += fit.size[static_cast<std::size_t>(2 + k)] *
+                         harmonic_term(u[i], whole.rate[i] / omega, 2 + k / 2, k % 2 == 0);
+            out.base_m[r][i] = x;
+        }
+    }
+}
+
+/// What lies askew before the shaking: means over the first samples of each run.
+void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out)
+{
+    const Specimen& s = campaign.specimen;
+    const auto n = static_cast<std::size_t>(s.blocks());
+    const auto first = static_cast<std::size_t>(std::max(20, 2 * scales.rates.half_width()));
+    std::vector<std::vector<double>> angle(n), place(n);
+    for (const MeasuredRun& run : campaign.runs) {
+        if (run.blocks.theta_rad.empty() || run.blocks.x_m.empty() || run.time_s.size() < first)
+            continue;
+        for (std::size_t b = 0; b < n; ++b) {
+            double turned = 0, moved = 0;
+            for (std::size_t i = 0; i < first; ++i) {
+                turned += run.blocks.theta_rad.values[i * n + b];
+                moved += run.blocks.x_m.values[i * n + b] - s.rest_x_m[b];
+            }
+            angle[b].push_back(turned / static_cast<double>(first));
+            place[b].push_back(moved / static_cast<double>(first));
+        }
+    }
+    if (angle.front().empty()) {
+        DataTest test = cannot("wedge", "Rotations and places of the blocks at rest were not measured.");
+        test.place = "joints";
+        out.sensor_tests.push_back(test);
+        return;
+    }
+    const auto runs = static_cast<double>(angle.front().size());
+    const auto judge = [&](const std::vector<double>& upper, const std::vector<double>* lower, double& mean,
+                           double& sd) {
+        std::vector<double> d;
+        for (std::size_t r = 0; r < upper.size(); ++r) {
+            const double difference = upper[r] - (lower ? (*lower)[r] : 0);
+            if (std::isfinite(difference))
+                d.push_back(difference);
+        }
+        mean = d.empty() ? 0 : std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size());
+        double squares = 0;
+        for (const double v : d)
+            squares += (v - mean) * (v - mean);
+        sd = d.size() < 2 ? std::numeric_limits<double>::infinity()
+                          : std::sqrt(squares / static_cast<double>(d.size() - 1) / static_cast<double>(d.size()));
+    };
+    for (std::size_t j = 0; j < s.joints.size(); ++j) {
+        const auto [lower, upper] = s.joints[j];
+        const auto u = static_cast<std::size_t>(upper);
+        const bool table = lower < 0;
+        double mean = 0, sd = 0;
+        judge(angle[u], table ? nullptr : &angle[static_cast<std::size_t>(lower)], mean, sd);
+        const double noise = scales.noise_rad * std::sqrt((table ? 1 : 2) / (static_cast<double>(first) * runs));
+        sd = std::isfinite(sd) ? std::max(sd, noise) : noise;
+        const std::string joint = fmt::format("joint {}", j);
+        // a block on two joints cannot lie on both wedges: only the one that it was measured over
+        const bool found = beyond(mean, sd, limits.wedge_rad, limits.sds);
+        out.sensor_tests.push_back(told("wedge", joint, mean, sd, limits.wedge_rad, "rad", found,
+                                        fmt::format("At rest block {} leans by {:.2e} rad against {}.", upper, mean,
+                                                    table ? "the horizontal" : fmt::format("block {}", lower))));
+        if (found) {
+            out.found.push_back(
+                cause_of("wedge", joint, "angle_rad", "rad", 0, mean, sd, 0.5 * std::pow(mean / sd, 2)));
+            out.found.back().cause.joint = static_cast<int>(j);
+        }
+        if (table)
+            continue;
+        judge(place[u], &place[static_cast<std::size_t>(lower)], mean, sd);
+        // both blocks were put down with the tolerance, each time anew
+        const double tolerance = std::sqrt(2.0) * s.placement_tolerance_m / std::sqrt(runs);
+        const double noise_m = scales.noise_m * std::sqrt(2 / (static_cast<double>(first) * runs));
+        sd = std::max({std::isfinite(sd) ? sd : 0, tolerance, noise_m});
+        const double threshold = limits.offset_in_tolerances * sd;
+        const bool off = std::fabs(mean) > threshold && std::fabs(mean) > 1.5 * s.placement_tolerance_m;
+        out.sensor_tests.push_back(
+            told("drum_offset", fmt::format("block {}", upper), mean, sd, threshold, "m", off,
+                 fmt::format("On the mean block {} lies {:.2e} m to the right of where it should on block {}.", upper,
+                             mean, lower)));
+        if (off) {
+            out.found.push_back(cause_of("drum_offset", fmt::format("block {}", upper), "offset_m", "m", 0, mean, sd,
+                                         0.5 * std::pow(mean / sd, 2)));
+            out.found.back().cause.block = upper;
+        }
+    }
+}
+
+} // namespace
+
+DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits)
+{
+    DirectResult out;
+    for (const MeasuredRun& run : campaign.runs) {
+        const bool has = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
+        out.base_m.push_back(has ? base_displacement(run) : std::vector<double>());
+    }
+    Prepared prepared = prepare(campaign, scales);
+    test_base(campaign, scales, limits, prepared, out);
+    test_rest(campaign, scales, limits, out);
+    return out;
+}
+
+} // namespace stylobate

@@ -1,0 +1,44 @@
+#pragma once
+/// What the base and the sensors did, before any simulation is blamed.
+///
+/// As long as nothing rocks or slides, the lowest blocks ride on the table, and what the cameras see of them is the
+/// table's motion: compared with the file's base motion it tells gain, offset of the clocks, distortion, pitch and
+/// vertical motion. Where the cameras see the table itself, that is used instead, over whole runs. What lies askew at
+/// rest (wedges, offsets of drums) is seen at once, too.
+
+#include "ensemble/campaign.hpp"
+#include "studies/diagnosis/balance_fit.hpp"
+#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/track.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// Beyond which a test has found something. They stand well above what campaigns without any effect show, and below
+/// what changes a response.
+struct DirectThresholds {
+    double distortion = 0.02;        ///< of a harmonic, over the fundamental, in displacement
+    double pitch_rad_s2_m = 4e-4;    ///< soft contacts lean by a tenth of it
+    double vertical = 0.8;           ///< rms of the common vertical motion over the cameras' noise
+    double offset_s = 8e-4;          ///< without a view of the table; a tenth of it with one
+    double gain = 0.02;              ///< likewise
+    double with_table = 0.1;         ///< factor of the two above where the cameras see the table
+    double wedge_rad = 6e-4;         ///< between two blocks at rest
+    double offset_in_tolerances = 3; ///< mean offset of a block over the placement tolerance of that mean
+    double sds = 5;                  ///< and every one of them must be so many of its own standard deviations
+};
+
+/// What was found and how to correct for it.
+struct DirectResult {
+    std::vector<DataTest> base_tests;            ///< in the order in which they are judged
+    std::vector<DataTest> sensor_tests;          ///< at rest
+    std::vector<CauseFit> found;                 ///< named causes, gain in nats; sizes in the parameters' units
+    std::vector<std::vector<double>> base_m;     ///< (runs)(nt) corrected base displacement; empty where there is none
+    std::vector<std::vector<double>> vertical_m; ///< (runs)(nt) vertical displacement of the table; empty: none found
+    double pitch_rad_s2_m = 0;
+};
+
+DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits = {});
+
+} // namespace stylobate

@@ -1,0 +1,342 @@
+#include "studies/diagnosis/law_samples.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+// Joints that carry less than this part of their weight are about to open, or have just been hit.
+constexpr double least_normal = 0.25;
+// A combination counts as free of unknowns below this part of the law's own size.
+constexpr double cancelled = 1e-9;
+
+/// What a joint does at one sample: kinematics of its contact.
+struct JointMotion {
+    double rotation = 0; ///< upper - lower
+    double slip = 0;     ///< velocity
+    double corner_x = 0, corner_y = 0;
+    double face = 0;  ///< direction of the face that is touched [rad]
+    int sliding = 0;  ///< sign, 0: sticks
+    int rocking = 0;  ///< sign of the rotation, 0: closed
+    double width = 0; ///< half width of the narrower face
+};
+
+class Balance {
+public:
+    Balance(const Specimen& specimen, const TrackScales& scales, const Track& track, double friction)
+        : s_(specimen), scales_(scales), track_(track), friction_(friction), weights_(rest_weights(specimen))
+    {
+        for (std::size_t i = 0; i < track.samples(); ++i) {
+            std::vector<JointMotion> joints;
+            for (const auto& [lower, upper] : s_.joints)
+                joints.push_back(motion(lower, upper, i));
+            motion_.push_back(std::move(joints));
+        }
+        sum_paths();
+    }
+
+    std::vector<LawSample> samples(int run) const
+    {
+        std::vector<LawSample> found;
+        const std::size_t n = track_.samples();
+        // The widest windows first: they see best. What they cover is not looked at again.
+        std::vector<std::vector<char>> covered(s_.joints.size() * 2, std::vector<char>(n, 0));
+        for (int w = static_cast<int>(scales_.widths.size()) - 1; w >= 0; --w) {
+            const auto half = static_cast<std::size_t>(scales_.widths[static_cast<std::size_t>(w)].half_width());
+            for (std::size_t i = half; i + half < n; ++i) {
+                const std::vector<LawTerm> laws = laws_of(i, half, covered);
+                if (laws.empty())
+                    continue;
+                balance(laws, w, i, run, found);
+                for (const LawTerm& law : laws)
+                    for (std::size_t k = i - half / 2; k <= i + half / 2; ++k)
+                        covered[slot(law.joint, law.law)][k] = 1;
+            }
+        }
+        std::sort(found.begin(), found.end(),
+                  [](const LawSample& a, const LawSample& b) { return a.time_s < b.time_s; });
+        return found;
+    }
+
+private:
+    static std::size_t slot(int joint, Law law)
+    {
+        return 2 * static_cast<std::size_t>(joint) + (law == Law::rocking ? 1 : 0);
+    }
+
+    JointMotion motion(int lower, int upper, std::size_t i) const
+    {
+        const auto u = static_cast<std::size_t>(upper);
+        const double xu = track_.now(0, in_x, upper, i), yu = track_.now(0, in_y, upper, i);
+        const double tu = track_.now(0, in_theta, upper, i), wu = track_.now(1, in_theta, upper, i);
+        const double bu = s_.half_width_m[u], hu = s_.half_height_m[u];
+        double xl, yl, tl = 0, wl = 0, vxl, vyl = 0, bl, hl;
+        if (lower >= 0) {
+            const auto l = static_cast<std::size_t>(lower);
+            xl = track_.now(0, in_x, lower, i);
+            yl = track_.now(0, in_y, lower, i);
+            tl = track_.now(0, in_theta, lower, i);
+            wl = track_.now(1, in_theta, lower, i);
+            vxl = track_.now(1, in_x, lower, i);
+            vyl = track_.now(1, in_y, lower, i);
+            bl = s_.half_width_m[l];
+            hl = s_.half_height_m[l];
+        } else {
+            xl = track_.base(0, i);
+            vxl = track_.base(1, i);
+            hl = 1;
+            yl = s_.base_block_top_m - hl;
+            bl = s_.base_block_half_width_m.value_or(1e3);
+        }
+        JointMotion m;
+        m.width = std::min(bu, bl);
+        m.rotation = tu - tl;
+        const double side = m.rotation >= 0 ? -1 : 1; // of the corner on which the upper block turns
+        const double cu = std::cos(tu), su = std::sin(tu), cl = std::cos(tl), sl = std::sin(tl);
+        // the upper block's corner lies on the lower one's face, or the lower one's on the upper one's
+        double px = xu + side * bu * cu + hu * su, py = yu + side * bu * su - hu * cu;
+        m.face = tl;
+        if (std::fabs((px - xl) * cl + (py - yl) * sl) > bl) {
+            px = xl + side * bl * cl - hl * sl;
+            py = yl + side * bl * sl + hl * cl;
+            m.face = tu;
+        }
+        m.corner_x = px;
+        m.corner_y = py;
+        // of closed faces any point will do: the middle
+        const double open = std::min(1.0, 3 * std::fabs(m.rotation) / scales_.rotation_rad);
+        const double cx = xu + hu * su + open * (px - xu - hu * su);
+        const double cy = yu - hu * cu + open * (py - yu + hu * cu);
+        const double vx = track_.now(1, in_x, upper, i) - wu * (cy - yu) - (vxl - wl * (cy - yl));
+        const double vy = track_.now(1, in_y, upper, i) + wu * (cx - xu) - (vyl + wl * (cx - xl));
+        m.slip = vx * std::cos(m.face) + vy * std::sin(m.face);
+        if (lower >= 0 || track_.has_base())
+            m.sliding = std::fabs(m.slip) > scales_.slip_m_s ? (m.slip > 0 ? 1 : -1) : 0;
+        m.rocking = std::fabs(m.rotation) > scales_.rotation_rad ? (m.rotation > 0 ? 1 : -1) : 0;
+        return m;
+    }
+
+    void sum_paths()
+    {
+        const std::size_t joints = s_.joints.size();
+        std::vector<LawTerm> sums(joints);
+        const double forget = std::exp(-scales_.spacing_s / scales_.time_s);
+        for (std::size_t i = 0; i < motion_.size(); ++i) {
+            for (std::size_t j = 0; j < joints; ++j) {
+                const JointMotion& m = motion_[i][j];
+                const double moved = m.sliding == 0 ? 0 : m.slip * scales_.spacing_s;
+                sums[j].slip_m += moved;
+                sums[j].slip_path_m += std::fabs(moved);
+                sums[j].recent_slip_m = forget * sums[j].recent_slip_m + std::fabs(moved);
+                if (i > 0 && (m.rocking != 0 || motion_[i - 1][j].rocking != 0))
+                    sums[j].rotation_path_rad += std::fabs(m.rotation - motion_[i - 1][j].rotation);
+            }
+            paths_.push_back(sums);
+        }
+    }
+
+    /// Whether a joint does the same thing all through a window.
+    bool steady(std::size_t joint, Law law, std::size_t i, std::size_t half) const
+    {
+        // velocities are known to the width of their own smoothing
+        const std::size_t margin = half + static_cast<std::size_t>(scales_.rates.half_width()) / 2;
+        if (!track_.usable(i, static_cast<int>(margin)))
+            return false;
+        const auto state = [&](std::size_t k) {
+            return law == Law::sliding ? motion_[k][joint].sliding : motion_[k][joint].rocking;
+        };
+        const int now = state(i);
+        if (now == 0)
+            return false;
+        for (std::size_t k = i - margin; k <= i + margin; ++k)
+            if (state(k) != now)
+                return false;
+        return true;
+    }
+
+    std::vector<LawTerm> laws_of(std::size_t i, std::size_t half, const std::vector<std::vector<char>>& covered) const
+    {
+        std::vector<LawTerm> laws;
+        for (std::size_t j = 0; j < s_.joints.size(); ++j)
+            for (const Law law : {Law::sliding, Law::rocking}) {
+                const auto& used = covered[slot(static_cast<int>(j), law)];
+                if (used[i - half / 2] || used[i] || used[i + half / 2] || !steady(j, law, i, half))
+                    continue;
+                const JointMotion& m = motion_[i][j];
+                LawTerm term = paths_[i][j];
+                term.law = law;
+                term.joint = static_cast<int>(j);
+                term.sign = law == Law::sliding ? m.sliding : m.rocking;
+                term.half_width_m = m.width;
+                term.rest_weight_n = weights_[j];
+                term.slip_m_s = m.slip;
+                term.rotation_rad = m.rotation;
+                laws.push_back(term);
+            }
+        return laws;
+    }
+
+    /// The combinations of these laws in which the joints' unknown forces cancel.
+    void balance(const std::vector<LawTerm>& laws, int width, std::size_t i, int run,
+                 std::vector<LawSample>& found) const
+    {
+        const Eigen::Index blocks = s_.blocks(), joints = static_cast<Eigen::Index>(s_.joints.size());
+        const Eigen::Index count = static_cast<Eigen::Index>(laws.size());
+        const auto at = [&](int d, Coordinate c, Eigen::Index b) {
+            return track_.of(width, d, c, static_cast<int>(b), i);
+        };
+        // unknowns: force x, force y on the upper block and moment about the joint's corner
+        Eigen::MatrixXd newton = Eigen::MatrixXd::Zero(3 * blocks, 3 * joints);
+        Eigen::VectorXd inertia(3 * blocks);
+        std::array<BlockValues, 3> motion;
+        for (Eigen::Index b = 0; b < blocks; ++b) {
+            const auto k = static_cast<std::size_t>(b);
+            const double m = s_.mass_kg[k];
+            inertia.segment<3>(3 * b) << m * at(2, in_x, b), m * (at(2, in_y, b) + s_.gravity_m_s2),
+                m * (std::pow(s_.half_width_m[k], 2) + std::pow(s_.half_height_m[k], 2)) / 3 * at(2, in_theta, b);
+            for (int d = 0; d < 3; ++d)
+                for (const Coordinate c : {in_x, in_y, in_theta})
+                    motion[static_cast<std::size_t>(d)][c].push_back(at(d, c, b));
+        }
+        for (Eigen::Index j = 0; j < joints; ++j) {
+            const JointMotion& m = motion_[i][static_cast<std::size_t>(j)];
+            const auto [lower, upper] = s_.joints[static_cast<std::size_t>(j)];
+            for (const auto& [block, sign] : {std::pair{upper, 1.0}, {lower, -1.0}}) {
+                if (block < 0)
+                    continue;
+                const Eigen::Index row = 3 * block;
+                const double arm_x = m.corner_x - at(0, in_x, block), arm_y = m.corner_y - at(0, in_y, block);
+                newton(row, 3 * j) = newton(row + 1, 3 * j + 1) = newton(row + 2, 3 * j + 2) = sign;
+                newton(row + 2, 3 * j) = -sign * arm_y;
+                newton(row + 2, 3 * j + 1) = sign * arm_x;
+            }
+        }
+        Eigen::MatrixXd law = Eigen::MatrixXd::Zero(count, 3 * joints);
+        for (Eigen::Index l = 0; l < count; ++l) {
+            const LawTerm& t = laws[static_cast<std::size_t>(l)];
+            const JointMotion& m = motion_[i][static_cast<std::size_t>(t.joint)];
+            const double c = std::cos(m.face), s = std::sin(m.face);
+            const double per = 1 / t.rest_weight_n;
+            if (t.law == Law::sliding)
+                law.block<1, 2>(l, 3 * t.joint) << per * (-t.sign * c + friction_ * s),
+                    per * (-t.sign * s - friction_ * c);
+            else
+                law(l, 3 * t.joint + 2) = per * t.sign / t.half_width_m;
+        }
+        // moments in lengths of the order of the blocks: the pseudo-inverse then knows no units
+        const double length = s_.half_width_m.front();
+        Eigen::VectorXd equation(3 * blocks), unknown(3 * joints);
+        for (Eigen::Index k = 0; k < 3 * blocks; ++k)
+            equation(k) = k % 3 == 2 ? 1 / length : 1;
+        for (Eigen::Index k = 0; k < 3 * joints; ++k)
+            unknown(k) = k % 3 == 2 ? length : 1;
+        const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(equation.asDiagonal() * newton *
+                                                                             unknown.asDiagonal());
+        const Eigen::MatrixXd inverse = unknown.asDiagonal() * solver.pseudoInverse() * equation.asDiagonal();
+        const Eigen::VectorXd carried = inverse * inertia;
+        const Eigen::MatrixXd by_newton = law * inverse; // (laws x 3 blocks)
+        const Eigen::MatrixXd left = (law - by_newton * newton) * unknown.asDiagonal();
+
+        // left-hand combinations that leave nothing of the unknowns; of a column every law by itself
+        Eigen::MatrixXd combinations;
+        if (left.cwiseAbs().maxCoeff() < cancelled * (law * unknown.asDiagonal()).cwiseAbs().maxCoeff()) {
+            combinations = Eigen::MatrixXd::Identity(count, count);
+        } else {
+            const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeFullU);
+            const double scale = (law * unknown.asDiagonal()).norm();
+            Eigen::Index rank = 0;
+            while (rank < svd.singularValues().size() && svd.singularValues()(rank) > 1e-6 * scale)
+                ++rank;
+            combinations = svd.matrixU().rightCols(count - rank).transpose();
+        }
+        const double noise = scales_.widths[static_cast<std::size_t>(width)].noise(2);
+        for (Eigen::Index r = 0; r < combinations.rows(); ++r) {
+            const Eigen::RowVectorXd u = combinations.row(r);
+            const Eigen::RowVectorXd v = u * by_newton;
+            LawSample sample;
+            sample.run = run;
+            sample.time_s = track_.time_s(i);
+            sample.value = v.dot(inertia);
+            double variance = 0;
+            for (Eigen::Index b = 0; b < blocks; ++b) {
+                const double m = s_.mass_kg[static_cast<std::size_t>(b)];
+                const double moment = inertia_of(b) * v(3 * b + 2);
+                variance += std::pow(noise, 2) *
+                            (std::pow(scales_.noise_m * m, 2) * (v(3 * b) * v(3 * b) + v(3 * b + 1) * v(3 * b + 1)) +
+                             std::pow(scales_.noise_rad * moment, 2));
+            }
+            sample.sd = std::sqrt(variance);
+            bool carries = true;
+            for (Eigen::Index l = 0; l < count; ++l) {
+                if (std::fabs(u(l)) < 1e-6)
+                    continue;
+                LawTerm term = laws[static_cast<std::size_t>(l)];
+                const JointMotion& m = motion_[i][static_cast<std::size_t>(term.joint)];
+                term.weight = u(l);
+                term.normal =
+                    (carried(3 * term.joint + 1) * std::cos(m.face) - carried(3 * term.joint) * std::sin(m.face)) /
+                    term.rest_weight_n;
+                carries = carries && term.normal > least_normal;
+                sample.terms.push_back(term);
+            }
+            if (!carries || sample.terms.empty())
+                continue;
+            sample.coefficients.assign(v.data(), v.data() + v.size());
+            sample.motion = motion;
+            sample.base_velocity_m_s = track_.base(1, i);
+            found.push_back(std::move(sample));
+        }
+    }
+
+    double inertia_of(Eigen::Index b) const
+    {
+        const auto k = static_cast<std::size_t>(b);
+        return s_.mass_kg[k] * (std::pow(s_.half_width_m[k], 2) + std::pow(s_.half_height_m[k], 2)) / 3;
+    }
+
+    const Specimen& s_;
+    const TrackScales& scales_;
+    const Track& track_;
+    double friction_;
+    std::vector<double> weights_;
+    std::vector<std::vector<JointMotion>> motion_; ///< [sample][joint]
+    std::vector<std::vector<LawTerm>> paths_;      ///< [sample][joint]: slip and rotation so far
+};
+
+} // namespace
+
+std::vector<double> rest_weights(const Specimen& specimen)
+{
+    // from the top: each block hands its load on to its joints in equal parts
+    std::vector<std::size_t> order(specimen.mass_kg.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return specimen.rest_y_m[a] > specimen.rest_y_m[b]; });
+    std::vector<double> load(order.size()), weights(specimen.joints.size(), 0);
+    for (const std::size_t block : order) {
+        load[block] += specimen.mass_kg[block] * specimen.gravity_m_s2;
+        std::vector<std::size_t> under;
+        for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+            if (specimen.joints[j].second == static_cast<int>(block))
+                under.push_back(j);
+        for (const std::size_t j : under) {
+            weights[j] = load[block] / static_cast<double>(under.size());
+            if (specimen.joints[j].first >= 0)
+                load[static_cast<std::size_t>(specimen.joints[j].first)] += weights[j];
+        }
+    }
+    return weights;
+}
+
+std::vector<LawSample> law_samples(const Specimen& specimen, const TrackScales& scales, const Track& track, int index,
+                                   double friction)
+{
+    return Balance(specimen, scales, track, friction).samples(index);
+}
+
+} // namespace stylobate

@@ -1,0 +1,66 @@
+#pragma once
+/// What the measured motion says of the laws of the joints, by Newton's law alone.
+///
+/// From the smoothed accelerations of the blocks follow the forces and moments that their joints carry: at every
+/// instant 3 equations for each block (its inertia and weight) in 3 unknowns for each joint. A column has as many of
+/// one as of the other; a colonnade has fewer equations. A joint that slides all through a smoothing window obeys
+/// |F_T| = mu F_N, one that rocks has no moment about the corner on which it turns: each such law is one equation more.
+/// Combinations of laws in which the unknowns cancel can be checked against the measurement: those are the samples.
+///
+///   value = sum over the laws of  weight x (what the law says is 0, over the weight that its joint carries at rest)
+///         = coefficients . (m a - m g)            linear in what was measured
+///
+/// No contact stiffness and no damping enters, and no simulation: nothing here is chaotic, and the noise is known.
+
+#include "ensemble/campaign.hpp"
+#include "studies/diagnosis/track.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+enum class Law {
+    sliding, ///< -sign F_T - mu F_N over the weight: 0
+    rocking  ///< sign x moment about the corner, over weight x half width: 0
+};
+
+/// One law in a sample, with what its joint does there.
+struct LawTerm {
+    Law law = Law::sliding;
+    int joint = 0;
+    int sign = 0;            ///< of the slip of the upper block; of the upper block's rotation (1: on its left corner)
+    double weight = 1;       ///< in the sample
+    double normal = 0;       ///< F_N over the weight that the joint carries at rest
+    double half_width_m = 0; ///< of the narrower face
+    double rest_weight_n = 0;
+    double slip_m_s = 0;     ///< velocity of the upper block against the lower one, where they touch
+    double slip_m = 0;       ///< how far it has slipped since the run began
+    double slip_path_m = 0;  ///< sum of |slip|
+    double rotation_rad = 0; ///< relative
+    double rotation_path_rad = 0;
+    double recent_slip_m = 0; ///< slip path with a memory of one time scale
+};
+
+struct LawSample {
+    int run = 0; ///< index in the campaign
+    double time_s = 0;
+    double value = 0;
+    double sd = 0; ///< of the cameras' noise
+    std::vector<LawTerm> terms;
+    std::vector<double> coefficients; ///< (3 n_block) of force x, force y, moment of each block: value per N, N m
+    /// Motion of the blocks at the sample: [derivative 0 to 2].
+    std::array<BlockValues, 3> motion;
+    double base_velocity_m_s = 0;
+};
+
+/// Samples of one run, far enough apart to be independent.
+///
+/// @param friction that the sliding law is written with; what the true one differs by is left to be fitted
+/// @param index of the run
+std::vector<LawSample> law_samples(const Specimen& specimen, const TrackScales& scales, const Track& track, int index,
+                                   double friction);
+
+/// Weight that each joint carries at rest [N]: of what stands on it, shared equally among a block's joints.
+std::vector<double> rest_weights(const Specimen& specimen);
+
+} // namespace stylobate

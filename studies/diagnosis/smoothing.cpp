@@ -1,0 +1,50 @@
+#include "studies/diagnosis/smoothing.hpp"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace stylobate {
+
+LocalCubic::LocalCubic(int half_width, double dt_s) : half_width_(half_width)
+{
+    const int n = 2 * half_width + 1;
+    Eigen::MatrixX4d powers(n, 4);
+    Eigen::VectorXd weights(n);
+    for (int i = 0; i < n; ++i) {
+        // in half widths: the equations stay well conditioned
+        const double t = static_cast<double>(i - half_width) / half_width;
+        powers.row(i) << 1, t, t * t, t * t * t;
+        const double inside = 1 - std::pow(static_cast<double>(i - half_width) / (half_width + 1), 2);
+        weights(i) = inside * inside;
+    }
+    const Eigen::Matrix4d normal = powers.transpose() * weights.asDiagonal() * powers;
+    const Eigen::MatrixXd fit = normal.ldlt().solve(powers.transpose() * weights.asDiagonal());
+    const double scale = half_width * dt_s;
+    for (int d = 0; d < 3; ++d) {
+        const double factor = (d == 2 ? 2 : 1) / std::pow(scale, d);
+        double squares = 0;
+        for (int i = 0; i < n; ++i) {
+            coefficients_[d].push_back(factor * fit(d, i));
+            squares += coefficients_[d].back() * coefficients_[d].back();
+        }
+        noise_[d] = std::sqrt(squares);
+    }
+}
+
+std::vector<double> LocalCubic::apply(int derivative, const std::vector<double>& series) const
+{
+    const std::vector<double>& c = coefficients_[derivative];
+    const auto n = static_cast<std::ptrdiff_t>(series.size());
+    std::vector<double> smooth(series.size(), 0.0);
+    for (std::ptrdiff_t i = half_width_; i + half_width_ < n; ++i) {
+        double sum = 0;
+        const double* from = series.data() + (i - half_width_);
+        for (std::size_t k = 0; k < c.size(); ++k)
+            sum += c[k] * from[k];
+        smooth[static_cast<std::size_t>(i)] = sum;
+    }
+    return smooth;
+}
+
+} // namespace stylobate
