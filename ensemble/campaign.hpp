@@ -11,6 +11,20 @@
 
 namespace stylobate {
 
+/// How much a finding weighs. What cannot be used at all is no finding: it is refused (InputError).
+enum class Severity {
+    note,   ///< worth knowing: a conversion, an assumption
+    warning ///< contradicts what the data say elsewhere, or spoils a part of them
+};
+
+/// What the checks of a campaign found: a plain sentence and where.
+struct Finding {
+    Severity severity = Severity::note;
+    std::string place; ///< "run 004, blocks/x_m, block 2"
+    std::string text;
+    friend bool operator==(const Finding&, const Finding&) = default;
+};
+
 /// Samples at the clock of their run, with the standard deviation of their noise.
 struct Series {
     std::vector<double> values;     ///< (nt), or (nt x n_block) row by row; empty: not measured
@@ -76,6 +90,7 @@ struct Campaign {
     std::string source; ///< file, for messages
     Specimen specimen;
     std::vector<MeasuredRun> runs; ///< in the order of their names
+    std::vector<Finding> findings; ///< of reading and checking it; not part of the file
 };
 
 } // namespace stylobate

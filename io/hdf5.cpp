@@ -91,6 +91,33 @@ Dims shape(hid_t dataset, const std::string& path)
     return dims;
 }
 
+/// @throws Error unless the library converts the type to a double
+void check_is_number(hid_t type, const std::string& what)
+{
+    const H5T_class_t kind = H5Tget_class(type);
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_ENUM)
+        throw Error(what + " does not hold numbers");
+}
+
+/// Type of an attribute that has one value. @throws Error if it has several or none
+Handle type_of_one(hid_t attribute, const std::string& name)
+{
+    const std::string what = "cannot read the attribute '" + name + "'";
+    const Handle space = handle(what, H5Sclose, [&] { return H5Aget_space(attribute); });
+    if (H5Sget_simple_extent_npoints(space.id()) != 1)
+        throw Error("the attribute '" + name + "' is not one value");
+    return handle(what, H5Tclose, [&] { return H5Aget_type(attribute); });
+}
+
+void write_attribute(hid_t object, const std::string& name, hid_t stored, hid_t native, const void* value)
+{
+    const std::string what = "cannot write the attribute '" + name + "'";
+    const Handle space = scalar();
+    const Handle attribute = handle(
+        what, H5Aclose, [&] { return H5Acreate2(object, name.c_str(), stored, space.id(), H5P_DEFAULT, H5P_DEFAULT); });
+    call(what, [&] { return H5Awrite(attribute.id(), native, value); });
+}
+
 template <class T>
 void write_new(hid_t parent, const std::string& path, hid_t stored, hid_t native, const std::vector<T>& values,
                const Dims& dims, const std::string& unit)
@@ -323,11 +350,7 @@ void write_text(hid_t object, const std::string& name, const std::string& text)
 
 void write_number(hid_t object, const std::string& name, hid_t type, std::uint64_t value)
 {
-    const std::string what = "cannot write the attribute '" + name + "'";
-    const Handle space = scalar();
-    const Handle attribute = handle(
-        what, H5Aclose, [&] { return H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT); });
-    call(what, [&] { return H5Awrite(attribute.id(), H5T_NATIVE_UINT64, &value); });
+    write_attribute(object, name, type, H5T_NATIVE_UINT64, &value);
 }
 
 void change_number(hid_t object, const std::string& name, std::uint64_t value)
@@ -365,6 +388,87 @@ std::uint64_t read_number(hid_t object, const std::string& name)
     std::uint64_t value = 0;
     call(what, [&] { return H5Aread(attribute.id(), H5T_NATIVE_UINT64, &value); });
     return value;
+}
+
+Numbers read_numbers(hid_t parent, const std::string& path)
+{
+    const Handle dataset =
+        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+    const Handle stored = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    check_is_number(stored.id(), "'" + path + "'");
+    Numbers numbers;
+    numbers.dims = shape(dataset.id(), path);
+    // what is promised is allocated, so it must be there: no filter in use packs a byte's worth tighter than deflate
+    const double bytes = static_cast<double>(H5Dget_storage_size(dataset.id()));
+    constexpr double tightest = 1100;
+    double count = 1;
+    for (const hsize_t n : numbers.dims)
+        count *= static_cast<double>(n);
+    if (count * static_cast<double>(H5Tget_size(stored.id())) > tightest * bytes)
+        throw Error("'" + path + "' promises more numbers than the file holds");
+    numbers.values.resize(static_cast<std::size_t>(count));
+    if (count > 0)
+        call("cannot read '" + path + "'", [&] {
+            return H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.values.data());
+        });
+    return numbers;
+}
+
+Handle open_object(hid_t parent, const std::string& path)
+{
+    return handle("no '" + path + "'", H5Oclose, [&] { return H5Oopen(parent, path.c_str(), H5P_DEFAULT); });
+}
+
+bool has_attribute(hid_t object, const std::string& name)
+{
+    return call("cannot look for the attribute '" + name + "'", [&] { return H5Aexists(object, name.c_str()); }) > 0;
+}
+
+double read_any_number(hid_t object, const std::string& name)
+{
+    const Handle attribute = open_attribute(object, name);
+    const Handle stored = type_of_one(attribute.id(), name);
+    check_is_number(stored.id(), "the attribute '" + name + "'");
+    double value = 0;
+    call("cannot read the attribute '" + name + "'",
+         [&] { return H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value); });
+    return value;
+}
+
+std::string read_any_text(hid_t object, const std::string& name)
+{
+    const std::string what = "cannot read the attribute '" + name + "'";
+    const Handle attribute = open_attribute(object, name);
+    const Handle stored = type_of_one(attribute.id(), name);
+    if (H5Tget_class(stored.id()) != H5T_STRING)
+        throw Error("the attribute '" + name + "' is not a text");
+    std::string text;
+    if (H5Tis_variable_str(stored.id()) > 0) {
+        char* value = nullptr;
+        call(what, [&] { return H5Aread(attribute.id(), stored.id(), &value); });
+        text = value ? value : "";
+        H5free_memory(value);
+    } else {
+        constexpr std::size_t longest = 65536; // of an attribute in the usual, compact place
+        const std::size_t size = H5Tget_size(stored.id());
+        if (size > longest)
+            throw Error("the attribute '" + name + "' is too long");
+        text.resize(size);
+        call(what, [&] { return H5Aread(attribute.id(), stored.id(), text.data()); });
+        text.resize(std::min(text.find('\0'), text.size()));
+    }
+    text.resize(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
+void write_real(hid_t object, const std::string& name, double value)
+{
+    write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+void write_integer(hid_t object, const std::string& name, std::int32_t value)
+{
+    write_attribute(object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
 }
 
 Handle byte_enumeration(const std::vector<std::pair<const char*, std::uint8_t>>& members)

@@ -89,6 +89,24 @@ void change_number(hid_t object, const std::string& name, std::uint64_t value);
 std::string read_text(hid_t object, const std::string& name);
 std::uint64_t read_number(hid_t object, const std::string& name);
 
+/// What other programs wrote, in whatever type they chose.
+struct Numbers {
+    std::vector<double> values; ///< row by row
+    Dims dims;                  ///< empty: a single number
+};
+/// A data set of numbers of any width, whole, real or true and false, compressed or not.
+/// @throws Error if it holds no numbers, or promises more of them than its bytes can hold
+Numbers read_numbers(hid_t parent, const std::string& path);
+/// A group or a data set, for its attributes.
+Handle open_object(hid_t parent, const std::string& path);
+bool has_attribute(hid_t object, const std::string& name);
+/// A number of any type, alone or a list of one.
+double read_any_number(hid_t object, const std::string& name);
+/// A text of fixed or variable length, alone or a list of one, without what pads it.
+std::string read_any_text(hid_t object, const std::string& name);
+void write_real(hid_t object, const std::string& name, double value);
+void write_integer(hid_t object, const std::string& name, std::int32_t value);
+
 /// An enumeration stored in one byte.
 Handle byte_enumeration(const std::vector<std::pair<const char*, std::uint8_t>>& members);
 

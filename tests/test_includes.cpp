@@ -33,6 +33,7 @@ const std::set<std::string> plain_data = {
     "ensemble/input_error.hpp", "ensemble/motion.hpp",      "ensemble/observer.hpp",
     "ensemble/outcome.hpp",     "ensemble/realization.hpp", "ensemble/study.hpp",
     "kernels/topology.hpp",     "ensemble/nominal.hpp",     "ensemble/structure.hpp",
+    "ensemble/campaign.hpp",
 };
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.

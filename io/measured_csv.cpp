@@ -1,0 +1,490 @@
+#include "ensemble/input_error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/file_handle.hpp"
+#include "io/key_reader.hpp"
+#include "io/measured_layout.hpp"
+#include "io/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+#include <unistd.h>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* toml_name = "campaign.toml";
+constexpr const char* format_name = "stylobate-measured";
+constexpr int most = std::numeric_limits<int>::max();
+/// Any number: whether it makes sense is asked where all layouts are checked.
+const Range any = {-1e300, 1e300, false, {}, 0};
+
+std::string content_of(const fs::path& path, std::uint64_t largest)
+{
+    const FileHandle file = FileHandle::open(path, false);
+    const std::uint64_t size = file.size();
+    if (size > largest)
+        throw InputError(path.string(), 0,
+                         fmt::format("has {} bytes, more than {}.\n  Is it the right file?", size, largest));
+    std::string text(size, '\0');
+    file.read(0, std::as_writable_bytes(std::span(text)));
+    return text;
+}
+
+/// The key of the noise of a series: "noise_base_acceleration_m_s2".
+std::string noise_key(const SeriesName& name)
+{
+    return fmt::format("noise_{}{}", name.column, name.suffix);
+}
+
+// ---- reading
+
+int whole(const KeyReader& table, const char* key, int absent)
+{
+    const auto value = table.maybe_number(key, {-static_cast<double>(most), static_cast<double>(most), false, {}, 0});
+    if (value && *value != std::floor(*value))
+        table.refuse(key, "is not a whole number");
+    return value ? static_cast<int>(*value) : absent;
+}
+
+/// The entries of an array, which is empty where the key is absent.
+const std::vector<TomlValue>& entries(const KeyReader& table, const char* key)
+{
+    static const std::vector<TomlValue> none;
+    const TomlValue* list = table.find(key);
+    if (!list)
+        return none;
+    if (list->type != TomlValue::Type::array)
+        table.refuse(key, "is " + list->type_name() + ", not a list");
+    return list->entries;
+}
+
+bool is_number(const TomlValue& value)
+{
+    return (value.type == TomlValue::Type::number || value.type == TomlValue::Type::integer) &&
+           std::isfinite(value.number);
+}
+
+void read_specimen(const KeyReader& table, Campaign& campaign)
+{
+    Specimen& specimen = campaign.specimen;
+    std::vector<std::string> known = {"friction_nominal", "base_block_half_width_m", "base_block_top_m", "joints"};
+    for (const SpecimenList& list : specimen_lists())
+        known.emplace_back(list.name);
+    for (const SpecimenNumber& number : specimen_numbers())
+        known.emplace_back(number.name);
+    table.allow_only(known);
+    for (const SpecimenList& list : specimen_lists())
+        for (const TomlValue& value : entries(table, list.name)) {
+            if (!is_number(value))
+                table.refuse(list.name, fmt::format("has the entry {}, which is no number", value.shown()));
+            (specimen.*list.member).push_back(value.number);
+        }
+    for (const SpecimenNumber& number : specimen_numbers())
+        specimen.*number.member = table.number_or(number.name, any, specimen.*number.member);
+    specimen.friction_nominal = table.maybe_number("friction_nominal", any);
+    specimen.base_block_half_width_m = table.maybe_number("base_block_half_width_m", any);
+    specimen.base_block_top_m = table.number_or("base_block_top_m", any, 0);
+    for (const TomlValue& pair : entries(table, "joints")) {
+        if (pair.type != TomlValue::Type::array || pair.entries.size() != 2 || !is_number(pair.entries[0]) ||
+            !is_number(pair.entries[1]))
+            table.refuse("joints", "should be pairs [lower block, upper block], -1 being the base");
+        specimen.joints.emplace_back(whole_number(campaign, "specimen.joints", pair.entries[0].number),
+                                     whole_number(campaign, "specimen.joints", pair.entries[1].number));
+    }
+}
+
+/// Where a column of a CSV file goes.
+struct Target {
+    const SeriesName* series = nullptr; ///< null: the clock
+    std::size_t block = 0;
+    double factor = 1; ///< to SI
+    std::string unit;  ///< as the name says it
+};
+
+/// @param name "x3_mm", "base_acceleration_g", "time_s"
+std::optional<Target> target_of(std::string_view name)
+{
+    const auto with_unit = [&](std::string_view unit, Dimension dimension,
+                               const SeriesName* series) -> std::optional<Target> {
+        const auto si = unit_in_si(unit, dimension);
+        return si ? std::optional(Target{series, 0, *si, std::string(unit)}) : std::nullopt;
+    };
+    if (name.starts_with("time_"))
+        return with_unit(name.substr(5), Dimension::time, nullptr);
+    for (const SeriesName& series : series_names()) {
+        if (!name.starts_with(series.column))
+            continue;
+        std::string_view rest = name.substr(std::string_view(series.column).size());
+        std::size_t block = 0;
+        if (series.per_block) {
+            constexpr std::size_t most_digits = 5;
+            const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+            if (digits == 0 || digits > most_digits)
+                continue;
+            std::from_chars(rest.data(), rest.data() + digits, block);
+            rest.remove_prefix(digits);
+        }
+        if (!rest.starts_with('_'))
+            continue;
+        if (auto target = with_unit(rest.substr(1), series.dimension, &series)) {
+            target->block = block;
+            return target;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    const std::size_t first = text.find_first_not_of(" \t\r\"");
+    return first == std::string_view::npos ? std::string_view()
+                                           : text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+std::vector<std::string_view> fields(std::string_view line)
+{
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t comma = line.find(',');
+        parts.push_back(trimmed(line.substr(0, comma)));
+        if (comma == std::string_view::npos)
+            return parts;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+/// A number; NaN of an empty field or "nan".
+double value_of(std::string_view field, const std::string& file, long line, std::string_view column)
+{
+    if (field.empty())
+        return std::numeric_limits<double>::quiet_NaN();
+    double value = 0;
+    const std::string_view digits = field.front() == '+' ? field.substr(1) : field;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size() || std::isinf(value))
+        throw InputError(file, line,
+                         fmt::format("{} = \"{}\" is no number.\n  Leave the field empty where nothing was measured.",
+                                     column, field.substr(0, 40)));
+    return value;
+}
+
+class RunTable {
+public:
+    RunTable(const fs::path& path, Campaign& campaign, MeasuredRun& run)
+        : text_(content_of(path, std::uint64_t{1} << 32)), file_(path.string()), campaign_(campaign), run_(run)
+    {
+    }
+
+    void read()
+    {
+        std::string_view rest = text_;
+        if (rest.starts_with("\xef\xbb\xbf"))
+            rest.remove_prefix(3); // a byte order mark
+        for (long line = 1; !rest.empty(); ++line) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view text = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            if (trimmed(text).empty() || trimmed(text).front() == '#')
+                continue;
+            if (targets_.empty())
+                read_header(text, line);
+            else
+                read_row(text, line);
+        }
+        if (targets_.empty())
+            throw InputError(file_, 0, "has no line of column names.\n  io/FORMAT.md has the layout.");
+    }
+
+private:
+    void read_header(std::string_view text, long line)
+    {
+        std::vector<std::string> known = {"time_s"};
+        for (const SeriesName& series : series_names())
+            known.push_back(fmt::format("{}{}{}", series.column, series.per_block ? "0" : "", series.suffix));
+        for (const std::string_view name : fields(text)) {
+            const auto target = target_of(name);
+            if (!target) {
+                const std::string meant = meant_key(name, known);
+                throw InputError(
+                    file_, line,
+                    fmt::format("the column \"{}\" is not known, or its unit is not.\n  {} The unit is "
+                                "part of the name.",
+                                name.substr(0, 60),
+                                meant.empty() ? "Columns are " + joined(known) + "." : "Did you mean " + meant + "?"));
+            }
+            for (const Target& other : targets_)
+                if (other.series == target->series && other.block == target->block)
+                    throw InputError(file_, line, fmt::format("the column \"{}\" is there twice.", name));
+            if (target->factor != 1)
+                campaign_.findings.push_back({Severity::note, fmt::format("run {}, {}", run_.name, name),
+                                              fmt::format("was converted from {} to SI.", target->unit)});
+            targets_.push_back(*target);
+            names_.emplace_back(name);
+        }
+        std::size_t blocks = block_count(campaign_);
+        if (blocks == 0)
+            for (const Target& target : targets_)
+                if (target.series && target.series->per_block)
+                    blocks = std::max(blocks, target.block + 1);
+        for (std::size_t c = 0; c < targets_.size(); ++c)
+            if (targets_[c].series && targets_[c].series->per_block && targets_[c].block >= blocks)
+                throw InputError(file_, line,
+                                 fmt::format("the column \"{}\" is of a block that is not there: they are 0 to {}.",
+                                             names_[c], static_cast<long>(blocks) - 1));
+        blocks_ = blocks;
+    }
+
+    void read_row(std::string_view text, long line)
+    {
+        const auto parts = fields(text);
+        if (parts.size() != targets_.size())
+            throw InputError(file_, line,
+                             fmt::format("has {} fields where there are {} columns: the file is damaged or truncated.",
+                                         parts.size(), targets_.size()));
+        std::vector<std::pair<Series*, std::size_t>> rows; // of the blocks, where this time begins
+        for (std::size_t c = 0; c < parts.size(); ++c) {
+            const Target& target = targets_[c];
+            const double value = value_of(parts[c], file_, line, names_[c]) * target.factor;
+            if (!target.series) {
+                run_.time_s.push_back(value);
+                continue;
+            }
+            Series& series = target.series->of(run_);
+            if (!target.series->per_block) {
+                series.values.push_back(value);
+                continue;
+            }
+            auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.first == &series; });
+            if (row == rows.end()) {
+                row = rows.insert(rows.end(), {&series, series.values.size()});
+                series.values.resize(series.values.size() + blocks_, std::numeric_limits<double>::quiet_NaN());
+            }
+            series.values[row->second + target.block] = value;
+        }
+    }
+
+    static std::string joined(const std::vector<std::string>& words)
+    {
+        std::string text;
+        for (const std::string& word : words)
+            text += (text.empty() ? "" : ", ") + word;
+        return text;
+    }
+
+    std::string text_, file_;
+    Campaign& campaign_;
+    MeasuredRun& run_;
+    std::vector<Target> targets_; ///< of the columns
+    std::vector<std::string> names_;
+    std::size_t blocks_ = 0;
+};
+
+/// A name that is one file in the folder `runs`, nowhere else.
+void check_run_name(const std::string& name, const KeyReader& table)
+{
+    const bool plain =
+        !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+                   c == '.';
+        });
+    if (!plain)
+        table.refuse("name", "is no name of a file", "Letters, digits, '_', '-' and '.'; the run is in runs/NAME.csv.");
+}
+
+MeasuredRun read_run(const KeyReader& table, const fs::path& folder, Campaign& campaign)
+{
+    std::vector<std::string> known = {"name",      "motion_id", "repeat",          "kind",        "rate_hz",
+                                      "run_order", "collapsed", "collapse_time_s", "base_source", "base_clock"};
+    for (const SeriesName& series : series_names())
+        known.push_back(noise_key(series));
+    table.allow_only(known);
+    MeasuredRun run;
+    run.name = table.text("name");
+    check_run_name(run.name, table);
+    run.motion_id = whole(table, "motion_id", 0);
+    run.repeat = whole(table, "repeat", 0);
+    run.kind = table.text_or_empty("kind");
+    run.rate_hz = table.number_or("rate_hz", any, 0);
+    if (table.has("run_order"))
+        run.run_order = whole(table, "run_order", 0);
+    if (table.has("collapsed"))
+        run.collapsed = table.boolean_or("collapsed", false);
+    run.collapse_time_s = table.number_or("collapse_time_s", any, -1);
+    if (table.has("base_source"))
+        run.base_source =
+            base_source(campaign, fmt::format("run {}: base_source", run.name), table.text("base_source"));
+    run.base_clock = table.text_or_empty("base_clock");
+    RunTable(folder / "runs" / (run.name + ".csv"), campaign, run).read();
+    for (const SeriesName& series : series_names())
+        series.of(run).noise_sd = table.maybe_number(noise_key(series), any);
+    return run;
+}
+
+// ---- writing
+
+std::string list_text(const std::vector<double>& values)
+{
+    std::string text;
+    for (const double value : values)
+        text += (text.empty() ? "" : ", ") + toml_number(value);
+    return "[" + text + "]";
+}
+
+std::string toml_text(const Campaign& campaign)
+{
+    const Specimen& specimen = campaign.specimen;
+    std::string text = fmt::format("[campaign]\nformat = \"{}\"\nformat_version = 1\n", format_name);
+    const auto add = [&](std::string_view key, const std::string& value) {
+        text += fmt::format("{} = {}\n", key, value);
+    };
+    if (!specimen.name.empty())
+        add("specimen", toml_quoted(specimen.name));
+    add("gravity_m_s2", toml_number(specimen.gravity_m_s2));
+    text += "\n[specimen]\n";
+    if (specimen.friction_nominal)
+        add("friction_nominal", toml_number(*specimen.friction_nominal));
+    for (const SpecimenNumber& number : specimen_numbers())
+        add(number.name, toml_number(specimen.*number.member));
+    if (specimen.base_block_half_width_m)
+        add("base_block_half_width_m", toml_number(*specimen.base_block_half_width_m));
+    add("base_block_top_m", toml_number(specimen.base_block_top_m));
+    for (const SpecimenList& list : specimen_lists())
+        if (!(specimen.*list.member).empty())
+            add(list.name, list_text(specimen.*list.member));
+    std::string joints;
+    for (const auto& [lower, upper] : specimen.joints)
+        joints += fmt::format("{}[{}, {}]", joints.empty() ? "" : ", ", lower, upper);
+    if (!joints.empty())
+        add("joints", "[" + joints + "]");
+    for (const MeasuredRun& run : campaign.runs) {
+        text += "\n[[run]]\n";
+        add("name", toml_quoted(run.name));
+        add("motion_id", fmt::format("{}", run.motion_id));
+        add("repeat", fmt::format("{}", run.repeat));
+        if (!run.kind.empty())
+            add("kind", toml_quoted(run.kind));
+        if (run.rate_hz != 0)
+            add("rate_hz", toml_number(run.rate_hz));
+        if (run.run_order)
+            add("run_order", fmt::format("{}", *run.run_order));
+        if (run.collapsed)
+            add("collapsed", *run.collapsed ? "true" : "false");
+        add("collapse_time_s", toml_number(run.collapse_time_s));
+        add("base_source", toml_quoted(to_string(run.base_source)));
+        if (!run.base_clock.empty())
+            add("base_clock", toml_quoted(run.base_clock));
+        for (const SeriesName& series : series_names())
+            if (const auto noise = series.in(run).noise_sd)
+                add(noise_key(series), toml_number(*noise));
+    }
+    return text;
+}
+
+std::string csv_text(const MeasuredRun& run, std::size_t blocks)
+{
+    std::string text = "time_s";
+    std::vector<std::pair<const double*, std::size_t>> columns = {{run.time_s.data(), 1}}; // first value, step
+    for (const SeriesName& name : series_names()) {
+        const Series& series = name.in(run);
+        if (series.empty())
+            continue;
+        if (!name.per_block) {
+            text += fmt::format(",{}{}", name.column, name.suffix);
+            columns.emplace_back(series.values.data(), 1);
+        }
+        for (std::size_t block = 0; name.per_block && block < blocks; ++block) {
+            text += fmt::format(",{}{}{}", name.column, block, name.suffix);
+            columns.emplace_back(series.values.data() + block, blocks);
+        }
+    }
+    text += '\n';
+    for (std::size_t i = 0; i < run.time_s.size(); ++i)
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const double value = columns[c].first[i * columns[c].second];
+            if (!std::isnan(value))
+                fmt::format_to(std::back_inserter(text), "{}", value); // shortest that reads back as the same double
+            text += c + 1 < columns.size() ? ',' : '\n';
+        }
+    return text;
+}
+
+void write_file(const fs::path& path, const std::string& text)
+{
+    AtomicFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+} // namespace
+
+Campaign read_measured_csv(const fs::path& folder)
+{
+    const fs::path file = folder / toml_name;
+    Campaign campaign;
+    campaign.source = folder.string();
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+        throw InputError(
+            folder.string(), 0,
+            fmt::format("is a folder without {}.\n  io/FORMAT.md has the layout of measured data.", toml_name));
+    const TomlValue root = parse_toml(content_of(file, std::uint64_t{1} << 26), file.string());
+    const KeyReader top(&root, "", {file.string(), 0, false});
+    top.allow_only({"campaign", "specimen", "run"});
+    const KeyReader head = top.table("campaign");
+    head.allow_only({"format", "format_version", "specimen", "gravity_m_s2"});
+    if (head.text("format") != format_name)
+        head.refuse("format", "is not measured data", fmt::format("It should be \"{}\".", format_name));
+    head.whole("format_version", 1, 1);
+    campaign.specimen.name = head.text_or_empty("specimen");
+    campaign.specimen.gravity_m_s2 = head.number_or("gravity_m_s2", any, campaign.specimen.gravity_m_s2);
+    read_specimen(top.table("specimen"), campaign);
+    for (const KeyReader& run : top.tables("run")) {
+        campaign.runs.push_back(read_run(run, folder, campaign));
+        const std::string& name = campaign.runs.back().name;
+        for (std::size_t i = 0; i + 1 < campaign.runs.size(); ++i)
+            if (campaign.runs[i].name == name)
+                run.refuse("name", "is the name of another run too");
+    }
+    std::sort(campaign.runs.begin(), campaign.runs.end(),
+              [](const MeasuredRun& a, const MeasuredRun& b) { return a.name < b.name; });
+    return campaign;
+}
+
+void write_measured_csv(const Campaign& campaign, const fs::path& folder)
+{
+    const auto fail = [&](const std::error_code& error) {
+        if (error)
+            throw InputError(folder.string(), 0,
+                             fmt::format("cannot be made: {}.\n  Name a new folder whose parent exists and can be "
+                                         "written; nothing was written.",
+                                         error.message()));
+    };
+    const fs::path target = folder.filename().empty() ? folder.parent_path() : folder;
+    if (fs::exists(target))
+        throw InputError(folder.string(), 0, "is there already.\n  Name a new folder; nothing was written.");
+    const fs::path making =
+        target.parent_path() / fmt::format(".{}.{}.creating", target.filename().string(), ::getpid());
+    std::error_code error;
+    fs::create_directory(making, error);
+    fail(error);
+    try {
+        fs::create_directory(making / "runs");
+        for (const MeasuredRun& run : campaign.runs)
+            write_file(making / "runs" / (run.name + ".csv"), csv_text(run, block_count(campaign)));
+        write_file(making / toml_name, toml_text(campaign));
+        fs::rename(making, target, error);
+        fail(error);
+    } catch (...) {
+        fs::remove_all(making, error);
+        throw;
+    }
+}
+
+} // namespace stylobate

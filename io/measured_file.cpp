@@ -1,0 +1,32 @@
+#include "io/measured_file.hpp"
+
+#include "io/measured_check.hpp"
+#include "io/measured_layout.hpp"
+
+#include <system_error>
+
+namespace stylobate {
+
+Campaign read_campaign(const std::filesystem::path& path)
+{
+    std::error_code ignored;
+    Campaign campaign = std::filesystem::is_directory(path, ignored) ? read_measured_csv(path)
+                        : path.extension() == ".toml"                ? read_measured_csv(path.parent_path())
+                                                                     : read_measured_hdf5(path);
+    check_shapes(campaign);
+    check_campaign(campaign);
+    return campaign;
+}
+
+void write_campaign(const Campaign& campaign, const std::filesystem::path& path)
+{
+    Campaign copy = campaign;
+    copy.source = path.string();
+    check_shapes(copy);
+    if (path.extension() == ".h5" || path.extension() == ".hdf5")
+        write_measured_hdf5(copy, path);
+    else
+        write_measured_csv(copy, path);
+}
+
+} // namespace stylobate

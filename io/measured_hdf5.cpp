@@ -1,0 +1,398 @@
+#include "ensemble/input_error.hpp"
+#include "io/file_handle.hpp"
+#include "io/hdf5.hpp"
+#include "io/measured_layout.hpp"
+#include "io/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace stylobate {
+namespace {
+
+constexpr const char* format_name = "stylobate-measured";
+constexpr int format_version = 1;
+
+class Reader {
+public:
+    explicit Reader(Campaign& campaign) : campaign_(campaign) {}
+
+    void read(hid_t file)
+    {
+        check_format(file);
+        known_only(file, "", {"specimen", "runs"});
+        Specimen& specimen = campaign_.specimen;
+        specimen.name = text(file, "specimen").value_or("");
+        specimen.gravity_m_s2 = number(file, "gravity_m_s2").value_or(specimen.gravity_m_s2);
+        if (hdf5::exists(file, "specimen"))
+            read_specimen(hdf5::open_group(file, "specimen").id());
+        if (!hdf5::exists(file, "runs"))
+            return;
+        const hdf5::Handle runs = hdf5::open_group(file, "runs");
+        for (const std::string& name : hdf5::names_in(runs.id())) {
+            place_ = "runs/" + name;
+            campaign_.runs.push_back(read_run(hdf5::open_group(runs.id(), name).id(), name));
+        }
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& text) const { throw InputError(campaign_.source, 0, text); }
+    void tell(const std::string& where, const std::string& text)
+    {
+        campaign_.findings.push_back({Severity::note, where, text});
+    }
+    std::string at(const std::string& name) const { return place_.empty() ? name : place_ + "/" + name; }
+
+    std::optional<double> number(hid_t object, const char* name) const
+    {
+        if (!hdf5::has_attribute(object, name))
+            return std::nullopt;
+        const double value = hdf5::read_any_number(object, name);
+        if (!std::isfinite(value))
+            refuse(fmt::format("{} = {} is no number.\n  Write one, or leave the attribute out.", at(name), value));
+        return value;
+    }
+    std::optional<std::string> text(hid_t object, const char* name) const
+    {
+        if (!hdf5::has_attribute(object, name))
+            return std::nullopt;
+        return hdf5::read_any_text(object, name);
+    }
+
+    void check_format(hid_t file) const
+    {
+        const std::string format = text(file, "format").value_or("");
+        if (format == "stylobate")
+            refuse("holds results, not measured data.\n  Give measured data; 'stylobate info' says what a file holds.");
+        if (format != format_name)
+            refuse(fmt::format("is no measured data: its attribute format is \"{}\", not \"{}\".\n  io/FORMAT.md has "
+                               "the layout.",
+                               format, format_name));
+        const double version = number(file, "format_version").value_or(0);
+        if (version != format_version)
+            refuse(fmt::format("has format_version {}; this program reads {}.", version, format_version));
+    }
+
+    /// What is not known is told, so that a misspelt data set is not silently absent.
+    void known_only(hid_t group, const std::string& path, const std::vector<std::string>& known)
+    {
+        for (const std::string& name : hdf5::names_in(group))
+            if (std::find(known.begin(), known.end(), name) == known.end()) {
+                const std::string meant = nearest_word(name, known);
+                tell(at(path + name),
+                     "is not known and not read." + (meant.empty() ? "" : " Did you mean " + meant + "?"));
+            }
+    }
+
+    /// A data set in SI, by its attribute `unit`; without one it is SI already.
+    /// @param factor receives what one of its units is
+    hdf5::Numbers quantity(hid_t group, const std::string& path, Dimension dimension, double& factor)
+    {
+        hdf5::Numbers numbers = hdf5::read_numbers(group, path);
+        const hdf5::Handle object = hdf5::open_object(group, path);
+        factor = 1;
+        if (const auto unit = text(object.id(), "unit")) {
+            const auto si = unit_in_si(*unit, dimension);
+            if (!si)
+                refuse(fmt::format("{}: its unit \"{}\" is not known.\n  Known ones: {}.", at(path), *unit,
+                                   known_units(dimension)));
+            factor = *si;
+        }
+        if (factor != 1) {
+            for (double& value : numbers.values)
+                value *= factor;
+            tell(at(path), fmt::format("was converted from {} to SI.", *text(object.id(), "unit")));
+        }
+        for (const double value : numbers.values)
+            if (std::isinf(value))
+                refuse(fmt::format("{} has an infinite value.\n  Write NaN where nothing was measured.", at(path)));
+        return numbers;
+    }
+
+    std::vector<double> list(hid_t group, const std::string& path, Dimension dimension)
+    {
+        double factor = 1;
+        hdf5::Numbers numbers = quantity(group, path, dimension, factor);
+        if (numbers.dims.size() != 1)
+            refuse(fmt::format("{} has {} dimensions; it should be a list.", at(path), numbers.dims.size()));
+        return std::move(numbers.values);
+    }
+
+    void read_specimen(hid_t group)
+    {
+        place_ = "specimen";
+        Specimen& specimen = campaign_.specimen;
+        std::vector<std::string> known = {"joints"};
+        for (const SpecimenList& names : specimen_lists()) {
+            known.emplace_back(names.name);
+            if (hdf5::exists(group, names.name))
+                specimen.*names.member = list(group, names.name, names.dimension);
+        }
+        known_only(group, "", known);
+        for (const SpecimenNumber& names : specimen_numbers())
+            specimen.*names.member = number(group, names.name).value_or(specimen.*names.member);
+        specimen.friction_nominal = number(group, "friction_nominal");
+        specimen.base_block_half_width_m = number(group, "base_block_half_width_m");
+        specimen.base_block_top_m = number(group, "base_block_top_m").value_or(0);
+        if (!hdf5::exists(group, "joints"))
+            return;
+        const hdf5::Numbers joints = hdf5::read_numbers(group, "joints");
+        if (joints.dims.size() != 2 || joints.dims[1] != 2)
+            refuse("specimen/joints should have a row for each joint and two columns: lower block, upper block.");
+        for (std::size_t j = 0; 2 * j + 1 < joints.values.size(); ++j)
+            specimen.joints.emplace_back(whole_number(campaign_, "specimen/joints", joints.values[2 * j]),
+                                         whole_number(campaign_, "specimen/joints", joints.values[2 * j + 1]));
+    }
+
+    MeasuredRun read_run(hid_t group, const std::string& name)
+    {
+        MeasuredRun run;
+        run.name = name;
+        known_only(group, "", {"time_s", "base", "blocks"});
+        const auto whole = [&](const char* key) -> std::optional<int> {
+            const auto value = number(group, key);
+            return value ? std::optional(whole_number(campaign_, at(key), *value)) : std::nullopt;
+        };
+        run.motion_id = whole("motion_id").value_or(0);
+        run.repeat = whole("repeat").value_or(0);
+        run.kind = text(group, "kind").value_or("");
+        run.rate_hz = number(group, "rate_hz").value_or(0);
+        run.run_order = whole("run_order");
+        if (const auto collapsed = number(group, "collapsed"))
+            run.collapsed = *collapsed != 0;
+        run.collapse_time_s = number(group, "collapse_time_s").value_or(-1);
+        if (hdf5::exists(group, "time_s"))
+            run.time_s = list(group, "time_s", Dimension::time);
+        for (const char* part : {"base", "blocks"})
+            if (hdf5::exists(group, part)) {
+                std::vector<std::string> known;
+                for (const SeriesName& series : series_names())
+                    if (const std::string path = series.path; path.starts_with(std::string(part) + "/"))
+                        known.push_back(path.substr(path.find('/') + 1));
+                known_only(hdf5::open_group(group, part).id(), std::string(part) + "/", known);
+                for (const SeriesName& series : series_names())
+                    if (const std::string path = series.path;
+                        path.starts_with(std::string(part) + "/") && hdf5::exists(group, path))
+                        read_series(group, series, run);
+            }
+        return run;
+    }
+
+    void read_series(hid_t group, const SeriesName& name, MeasuredRun& run)
+    {
+        double factor = 1;
+        hdf5::Numbers numbers = quantity(group, name.path, name.dimension, factor);
+        const std::size_t rank = name.per_block ? 2 : 1;
+        // of a single block a list is as good
+        if (numbers.dims.size() != rank && !(rank == 2 && numbers.dims.size() == 1 && block_count(campaign_) == 1))
+            refuse(fmt::format("{} has {} dimensions; it should be {}.", at(name.path), numbers.dims.size(),
+                               name.per_block ? "times x blocks" : "a list of times"));
+        const std::size_t blocks = block_count(campaign_);
+        if (numbers.dims.size() == 2 && blocks > 0 && numbers.dims[1] != blocks)
+            refuse(fmt::format("{} is {} x {} where there are {} blocks.\n  {}", at(name.path), numbers.dims[0],
+                               numbers.dims[1], blocks,
+                               numbers.dims[0] == blocks ? "It looks transposed: one row for each time."
+                                                         : "One column for each block."));
+        if (!run.time_s.empty() && numbers.dims[0] != run.time_s.size())
+            refuse(fmt::format("{} has {} rows where time_s has {} times.\n  One row for each time.", at(name.path),
+                               numbers.dims[0], run.time_s.size()));
+        Series& series = name.of(run);
+        series.values = std::move(numbers.values);
+        const hdf5::Handle object = hdf5::open_object(group, name.path);
+        if (const auto noise = number(object.id(), "noise_sd"))
+            series.noise_sd = *noise * factor;
+        if (std::string(name.path).starts_with("base/") && name.dimension != Dimension::angle) {
+            if (const auto source = text(object.id(), "source"))
+                take_source(base_source(campaign_, at(name.path) + "/source", *source), run);
+            if (const auto clock = text(object.id(), "clock"); clock && run.base_clock.empty())
+                run.base_clock = *clock;
+        }
+    }
+
+    void take_source(BaseSource source, MeasuredRun& run)
+    {
+        if (run.base_source == BaseSource::command && source != BaseSource::command)
+            tell(at("base"), "is partly a command and partly measured: all of it is taken as a command.");
+        if (source == BaseSource::command)
+            run.base_source = source;
+    }
+
+    Campaign& campaign_;
+    std::string place_; ///< group that is being read
+};
+
+/// @throws InputError
+Campaign read_file(const std::filesystem::path& path)
+{
+    Campaign campaign;
+    campaign.source = path.string();
+    try {
+        const hdf5::Handle file = hdf5::open_file(path, false);
+        Reader(campaign).read(file.id());
+    } catch (const hdf5::Error& error) {
+        throw InputError(campaign.source, 0,
+                         fmt::format("cannot be read as measured data: {}.\n  io/FORMAT.md has the layout; a folder of "
+                                     "CSV files with campaign.toml is read too.",
+                                     error.what()));
+    }
+    return campaign;
+}
+
+/// In the child process of `try_in_child`: reads the file, and writes to `out` why it is refused.
+[[noreturn]] void read_and_exit(const std::filesystem::path& path, std::uint64_t size, int out)
+{
+    for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+        std::signal(fatal, SIG_DFL);
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_CORE, &none);
+    constexpr std::uint64_t patience_s = 2, slowest_bytes_per_s = 5'000'000;
+    const rlimit seconds{patience_s + size / slowest_bytes_per_s, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_CPU, &seconds);
+    if (const int silent = ::open("/dev/null", O_WRONLY); silent >= 0)
+        ::dup2(silent, STDERR_FILENO);
+    try {
+        read_file(path);
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        ::_exit(::write(out, message.data(), message.size()) < 0 ? 1 : 0);
+    } catch (...) {
+        ::_exit(1);
+    }
+    ::_exit(0);
+}
+
+/// The HDF5 library breaks on some damaged files, or never comes back from them, and measured data have no seal that
+/// would tell (`result_seal.hpp`). So a child process reads the file first.
+/// @throws InputError if the file is refused, or if the child did not live
+void try_in_child(const std::filesystem::path& path, std::uint64_t size)
+{
+    int pipe[2] = {};
+    if (::pipe2(pipe, O_CLOEXEC) != 0)
+        throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+    const pid_t child = ::fork();
+    if (child == 0)
+        read_and_exit(path, size, pipe[1]);
+    ::close(pipe[1]);
+    std::string refusal;
+    char part[4096];
+    for (ssize_t n = 0; child > 0 && ((n = ::read(pipe[0], part, sizeof part)) > 0 || (n < 0 && errno == EINTR));)
+        refusal.append(part, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    ::close(pipe[0]);
+    if (child < 0)
+        throw std::system_error(errno, std::generic_category(), "cannot start a process to try the file");
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!refusal.empty())
+        throw InputError(refusal);
+    if (status != 0)
+        throw InputError(path.string(), 0,
+                         "is damaged: the HDF5 library breaks on it.\n  Take another copy of the file.");
+}
+
+void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
+{
+    const hdf5::Handle group = hdf5::create_group(runs, run.name);
+    hdf5::write_integer(group.id(), "motion_id", run.motion_id);
+    hdf5::write_integer(group.id(), "repeat", run.repeat);
+    if (!run.kind.empty())
+        hdf5::write_text(group.id(), "kind", run.kind);
+    if (run.rate_hz != 0)
+        hdf5::write_real(group.id(), "rate_hz", run.rate_hz);
+    if (run.run_order)
+        hdf5::write_integer(group.id(), "run_order", *run.run_order);
+    if (run.collapsed)
+        hdf5::write_integer(group.id(), "collapsed", *run.collapsed ? 1 : 0);
+    hdf5::write_real(group.id(), "collapse_time_s", run.collapse_time_s);
+    if (run.time_s.empty())
+        return;
+    hdf5::write_array(group.id(), "time_s", run.time_s, {run.time_s.size()}, "s");
+    hdf5::create_group(group.id(), "base");
+    hdf5::create_group(group.id(), "blocks");
+    for (const SeriesName& name : series_names()) {
+        const Series& series = name.in(run);
+        if (series.empty())
+            continue;
+        const hdf5::Dims dims = name.per_block ? hdf5::Dims{run.time_s.size(), blocks} : hdf5::Dims{run.time_s.size()};
+        hdf5::write_array(group.id(), name.path, series.values, dims, name.unit);
+        const hdf5::Handle object = hdf5::open_object(group.id(), name.path);
+        if (series.noise_sd)
+            hdf5::write_real(object.id(), "noise_sd", *series.noise_sd);
+        if (!std::string(name.path).starts_with("base/"))
+            continue;
+        hdf5::write_text(object.id(), "source", to_string(run.base_source));
+        if (!run.base_clock.empty())
+            hdf5::write_text(object.id(), "clock", run.base_clock);
+    }
+}
+
+void write_specimen(hid_t file, const Specimen& specimen)
+{
+    const hdf5::Handle group = hdf5::create_group(file, "specimen");
+    for (const SpecimenNumber& number : specimen_numbers())
+        hdf5::write_real(group.id(), number.name, specimen.*number.member);
+    if (specimen.friction_nominal)
+        hdf5::write_real(group.id(), "friction_nominal", *specimen.friction_nominal);
+    if (specimen.base_block_half_width_m)
+        hdf5::write_real(group.id(), "base_block_half_width_m", *specimen.base_block_half_width_m);
+    hdf5::write_real(group.id(), "base_block_top_m", specimen.base_block_top_m);
+    for (const SpecimenList& list : specimen_lists())
+        if (const std::vector<double>& values = specimen.*list.member; !values.empty())
+            hdf5::write_array(group.id(), list.name, values, {values.size()},
+                              list.dimension == Dimension::mass ? "kg" : "m");
+    std::vector<std::int32_t> joints;
+    for (const auto& [lower, upper] : specimen.joints)
+        joints.insert(joints.end(), {lower, upper});
+    if (!joints.empty())
+        hdf5::write_array(group.id(), "joints", joints, {specimen.joints.size(), 2}, "");
+}
+
+} // namespace
+
+Campaign read_measured_hdf5(const std::filesystem::path& path)
+{
+    try_in_child(path, FileHandle::open(path, false).size());
+    return read_file(path);
+}
+
+void write_measured_hdf5(const Campaign& campaign, const std::filesystem::path& path)
+{
+    const std::filesystem::path making =
+        path.parent_path() / fmt::format(".{}.{}.creating", path.filename().string(), ::getpid());
+    try {
+        hdf5::Handle file = hdf5::create_file(making, 0);
+        hdf5::write_text(file.id(), "format", format_name);
+        hdf5::write_integer(file.id(), "format_version", format_version);
+        if (!campaign.specimen.name.empty())
+            hdf5::write_text(file.id(), "specimen", campaign.specimen.name);
+        hdf5::write_real(file.id(), "gravity_m_s2", campaign.specimen.gravity_m_s2);
+        write_specimen(file.id(), campaign.specimen);
+        {
+            const hdf5::Handle runs = hdf5::create_group(file.id(), "runs");
+            const std::size_t blocks = block_count(campaign);
+            for (const MeasuredRun& run : campaign.runs)
+                write_run(runs.id(), run, blocks);
+        }
+        file.close();
+        rename_over(making, path);
+    } catch (const hdf5::Error& error) {
+        std::error_code ignored;
+        std::filesystem::remove(making, ignored);
+        throw InputError(
+            path.string(), 0,
+            fmt::format("cannot be written: {}.\n  Name a file in a folder that exists, can be written and "
+                        "has room; nothing was written.",
+                        error.what()));
+    }
+}
+
+} // namespace stylobate
