@@ -1,0 +1,171 @@
+#include "studies/diagnosis/diagnosis_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace stylobate {
+
+std::string number_words(MaybeReal value)
+{
+    return value && !std::isnan(*value) ? fmt::format("{:.3g}", *value) : "not known";
+}
+
+std::string interval_words(MaybeReal low, MaybeReal high)
+{
+    if (!low && !high)
+        return "";
+    if (!low)
+        return "up to " + number_words(high);
+    return high ? fmt::format("{:.3g} to {:.3g}", *low, *high) : number_words(low) + " or more";
+}
+
+std::string estimate_words(MaybeReal value, MaybeReal low, MaybeReal high, const std::string& unit)
+{
+    std::string text = number_words(value);
+    if (value && !unit.empty())
+        text += " " + unit;
+    const std::string interval = interval_words(low, high);
+    return interval.empty() ? text : text + " (" + interval + ")";
+}
+
+std::string probability_words(MaybeReal p)
+{
+    if (p && *p >= 0 && *p < 0.001)
+        return "< 0.001";
+    if (p && *p > 0.999 && *p < 1)
+        return "> 0.999";
+    return p ? fmt::format("{:.2g}", *p) : "not known";
+}
+
+std::string block_words(int block)
+{
+    return block < 0 ? "the base" : fmt::format("block {}", block);
+}
+
+std::string list_words(const std::vector<std::string>& list)
+{
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + list[i];
+    return text;
+}
+
+std::string count_words(std::uint64_t n, const std::string& one, const std::string& many)
+{
+    return n == 1 ? "one " + one : fmt::format("{} {}", n, many);
+}
+
+std::string mechanism_words(const std::string& mechanism)
+{
+    static const std::pair<const char*, const char*> table[] = {
+        {"stribeck", "friction that falls with the speed of sliding"},
+        {"joint_friction", "a joint whose friction differs from the others'"},
+        {"drag", "air drag"},
+        {"corner_loss", "chipped or rounded edges"},
+        {"hertz", "contact that stiffens under load"},
+        {"rate_damping", "contact damping that grows with the load"},
+        {"face_damping", "contact damping at the ends of the face"},
+        {"friction_wear", "friction that wears off as a joint slips"},
+        {"corner_wear", "edges that wear as a joint rocks"},
+        {"table_pitch", "a table that pitches as it moves"},
+        {"vertical_motion", "a table that moves vertically too"},
+        {"harmonic_distortion", "harmonics in the base motion that its record lacks"},
+        {"time_offset", "clocks of base and cameras that differ"},
+        {"sensor_gain", "a wrong gain of the base sensor"},
+        {"dowel", "dowels between the blocks"},
+        {"adhesion", "a joint that sticks until it first slips"},
+        {"eccentricity", "a centre of mass beside the geometric centre"},
+        {"wedge", "a bed that is not level"},
+        {"drum_offset", "blocks that stand off their places"}};
+    for (const auto& [name, words] : table)
+        if (mechanism == name)
+            return words;
+    return mechanism;
+}
+
+std::string verdict_heading(const Diagnosis& diagnosis)
+{
+    switch (diagnosis.verdict) {
+    case Verdict::none:
+        return "Nothing is wrong beyond what chance explains";
+    case Verdict::named: {
+        std::vector<std::string> names;
+        for (const Candidate* cause : named_causes(diagnosis))
+            if (std::find(names.begin(), names.end(), cause->mechanism) == names.end())
+                names.push_back(cause->mechanism);
+        return names.empty() ? "A cause is named" : "The cause: " + list_words(names);
+    }
+    default:
+        return "Something is wrong that no known mechanism explains";
+    }
+}
+
+std::string verdict_words(const Diagnosis& diagnosis)
+{
+    if (!diagnosis.verdict_text.empty())
+        return diagnosis.verdict_text;
+    if (diagnosis.verdict == Verdict::none)
+        return "Simulation and measurement agree within noise, repeats and tolerances; no mechanism is needed.";
+    std::string text;
+    for (const Candidate* cause : named_causes(diagnosis)) {
+        text += fmt::format("{}{} at {}: {}, {} {}", text.empty() ? "" : " ", cause->mechanism, cause->place,
+                            mechanism_words(cause->mechanism), cause->parameter,
+                            estimate_words(cause->size, cause->low, cause->high, cause->unit));
+        text += cause->probability ? ", probability " + probability_words(cause->probability) + "." : ".";
+    }
+    if (diagnosis.indistinguishable.size() > 1)
+        text += fmt::format("{}These data cannot tell {} apart.", text.empty() ? "" : " ",
+                            list_words(diagnosis.indistinguishable));
+    if (diagnosis.unexplained) {
+        const Unexplained& u = *diagnosis.unexplained;
+        text += fmt::format("{}What remains is at {}, {}", text.empty() ? "" : " ", block_words(u.block), u.coordinate);
+        text += u.depends_on.empty() ? "." : ", and depends on " + u.depends_on + ".";
+    }
+    return text;
+}
+
+std::string gain_words(const ModelGain& gain)
+{
+    if (!gain.error_before || !gain.error_after)
+        return "";
+    const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
+    std::string text =
+        fmt::format("On {} left out of the search, the error goes from {:.3g}{} to {:.3g}{}",
+                    gain.runs_left_out.empty() ? "runs" : count_words(gain.runs_left_out.size(), "run", "runs"),
+                    *gain.error_before, unit, *gain.error_after, unit);
+    if (gain.low || gain.high)
+        text += fmt::format(" (95 % interval {})", interval_words(gain.low, gain.high));
+    if (gain.floor)
+        text += fmt::format("; repeats of one motion differ by {:.3g}{} among themselves", *gain.floor, unit);
+    return text + ".";
+}
+
+std::string collapse_words(const ModelGain& gain)
+{
+    if (!gain.collapse)
+        return "";
+    const CollapsePrediction& c = *gain.collapse;
+    std::string text = fmt::format("Of {} with a known end, the baseline predicts {} rightly and the extended model {}",
+                                   count_words(c.runs, "run", "runs"), c.right_before, c.right_after);
+    if (c.score_before && c.score_after)
+        text += fmt::format("; the Brier score goes from {:.3g} to {:.3g}", *c.score_before, *c.score_after);
+    return text + "." + (c.text.empty() ? "" : " " + c.text);
+}
+
+std::string cost_words(const DiagnosisCost& cost)
+{
+    std::string text =
+        fmt::format("{} simulations of whole runs and {} of windows, {:.3g} block steps, in {:.3g} s", cost.simulations,
+                    cost.window_simulations, static_cast<double>(cost.block_steps), cost.seconds);
+    if (cost.threads > 0)
+        text += " with " + count_words(static_cast<std::uint64_t>(cost.threads), "thread", "threads");
+    if (cost.lockstep_speedup)
+        text += fmt::format("; lockstep is {:.3g} times as fast as one realization after the other",
+                            *cost.lockstep_speedup);
+    return text + ".";
+}
+
+} // namespace stylobate
