@@ -49,7 +49,7 @@ OperationCounts operations_per_block_step(int blocks)
         b.at(OfJoint::K_n, j, 0) = 1e8;
     }
     counted = {};
-    Stepper<Counted, Baseline, false>(topology, b, {}).run(0, 16);
+    Stepper<Counted, Baseline, false>(topology, b).run(0, 16);
     const long block_steps = 16L * (blocks - 1);
     return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
             counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,

@@ -69,6 +69,15 @@ BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Moti
     duration_s_ = cycles_ / rate_hz_;
 }
 
+BaseMotion BaseMotion::along(std::shared_ptr<const Motion> motion, double step_s)
+{
+    BaseMotion base;
+    base.own_ = std::move(motion);
+    base.step_s_ = step_s;
+    base.follow(*base.own_, 1, 1);
+    return base;
+}
+
 bool BaseMotion::on_host(ExcitationKind kind)
 {
     return kind == ExcitationKind::record || kind == ExcitationKind::noise || SyntheticMotion::covers(kind);

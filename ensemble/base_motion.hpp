@@ -20,6 +20,9 @@ public:
     ///        its own (noise) is driven by that
     BaseMotion(const ExcitationSpec& excitation, const Realization& realization, const Motion* record);
 
+    /// Along samples from time 0 on, for steps of `step_s`.
+    static BaseMotion along(std::shared_ptr<const Motion> motion, double step_s);
+
     static MotionFormula formula(ExcitationKind kind);
     /// Whether `fill` makes the table, not the kernels.
     static bool on_host(ExcitationKind kind);
@@ -33,6 +36,8 @@ public:
 
     /// End of the shaking [s].
     double duration_s() const { return duration_s_; }
+    /// Between the samples that it goes along [s]; 0 where it is in closed form.
+    double spacing_s() const { return spacing_s_; }
     /// Displacement of the base at a time [m].
     double displacement_m(double time_s) const;
 

@@ -1,9 +1,11 @@
 #include "ensemble/lanes.hpp"
 
+#include "ensemble/extension.hpp"
 #include "ensemble/static_state.hpp"
 #include "kernels/step.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
@@ -91,6 +93,7 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     topology_.joints = static_cast<int>(joints_.size());
     topology_.watched = pattern.watched;
     topology_.joint = joints_.data();
+    topology_.model = model_of(pattern);
     close_.resize(static_cast<std::size_t>(topology_.watched));
 
     memory_.reset(allocate(bundle_registers(topology_) * lanes_));
@@ -137,9 +140,10 @@ void LaneSet::store_state(int lane, const Realization& r)
             continue;
         bundle_.at(OfBlock::dt2_per_mass, k, lane) = dt2 / block.mass_kg;
         bundle_.at(OfBlock::dt2_per_inertia, k, lane) = dt2 / block.inertia_kg_m2;
-        bundle_.at(OfBlock::x, k, lane) = rest.x_m[i];
-        bundle_.at(OfBlock::y, k, lane) = rest.y_m[i];
-        bundle_.at(OfBlock::theta, k, lane) = rest.theta_rad[i];
+        const double e = block.extension.eccentricity_m, theta = rest.theta_rad[i];
+        bundle_.at(OfBlock::x, k, lane) = rest.x_m[i] - e * (1 - std::cos(theta));
+        bundle_.at(OfBlock::y, k, lane) = rest.y_m[i] + e * std::sin(theta);
+        bundle_.at(OfBlock::theta, k, lane) = theta;
     }
     for (int k = 0; k < topology_.joints; ++k) {
         const Joint& joint = r.joints[static_cast<std::size_t>(k)];
@@ -163,6 +167,8 @@ void LaneSet::store_state(int lane, const Realization& r)
         bundle_.at(OfJoint::spring, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
         bundle_.at(OfJoint::shear_force, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
     }
+    if (topology_.model.extended())
+        store_extension(r, order_, bundle_, lane);
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
     bundle_.at(OfRealization::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
     bundle_.at(OfRealization::skin, lane) = skin_part * places_[static_cast<std::size_t>(lane)].scales.least_size_m;
@@ -175,6 +181,7 @@ void LaneSet::first_increments(int lane)
     const std::size_t registers = bundle_registers(topology_) - chunk_steps; // the table of base motion stays at 0
     const std::unique_ptr<double[], AlignedFree> memory(allocate(registers + chunk_steps));
     const Bundle one = bind_bundle(topology_, 1, memory.get(), close_.data());
+    // (so do those of its rotation and of the vertical motion: the lane has just been cleared)
     for (std::size_t i = 0; i < registers; ++i)
         memory[i] = memory_[i * lanes_ + static_cast<std::size_t>(lane)];
     kernels(Isa::scalar).run(topology_, one, 0, 1);
@@ -190,6 +197,11 @@ void LaneSet::first_increments(int lane)
     place.start_spring_j = place.start_shear_j;
     for (int j = 0; j < topology_.joints; ++j)
         place.start_spring_j += one.at(OfJoint::elastic, j, 0);
+    if (topology_.model.extended())
+        for (int j = 0; j < topology_.beds(); ++j)
+            for (const auto field : {OfJointExtension::dowel_at, OfJointExtension::dowel_force})
+                bundle_.at(field, j, lane) = one.at(field, j, 0);
+    place.start_dowel_j = dowel_energy(lane);
 }
 
 void LaneSet::load(int lane, Realization realization)
@@ -200,12 +212,16 @@ void LaneSet::load(int lane, Realization realization)
     ++active_;
     place.realization = std::move(realization);
     const Realization& r = place.realization;
+    assert((!is_extended(r) || topology_.model.extended()) && r.form == topology_.model.form &&
+           "the realizations of a bundle follow the model of the pattern that it was made from");
     place.scales = scales_of(r);
     place.motion = BaseMotion(study_.excitation, r, record_);
     place.motion.store(parameters_, lane);
+    if (r.vertical != nullptr)
+        place.vertical = BaseMotion::along(r.vertical, r.step_s);
 
     const bool shaken = study_.excitation.kind != ExcitationKind::none;
-    place.shaking_end_s = place.motion.duration_s();
+    place.shaking_end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
     const double tail = shaken ? study_.excitation.tail_s.value_or(tail_after_shaking(r)) : 0;
     place.last_step = whole_chunks(place.shaking_end_s + tail, r.step_s);
     place.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
@@ -216,7 +232,7 @@ void LaneSet::load(int lane, Realization realization)
     first_increments(lane);
     read_motion(lane);
     place.start_offset_m = bed_offsets(r, place.moved);
-    place.start_top_x_m = bundle_.at(OfBlock::x, topology_.top, lane);
+    place.start_top_x_m = centre(topology_.top, lane).x_m;
 }
 
 void LaneSet::advance()
@@ -234,12 +250,83 @@ void LaneSet::advance(int first, int last)
         } else {
             kernels_.fill(BaseMotion::formula(study_.excitation.kind), parameters_, first_step_, bundle_.base_table);
         }
+        if (topology_.model.extended())
+            for (int lane = 0; lane < kernels_.lanes; ++lane)
+                if (!free(lane))
+                    fill_extension(lane);
     }
     kernels_.run(topology_, bundle_, first, last);
     if (last == chunk_steps)
         for (int lane = 0; lane < kernels_.lanes; ++lane)
             if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
                 look(lane);
+}
+
+/// Second differences of the base's displacement [m], for `chunk_steps` steps from one of the realization's own on.
+std::array<double, chunk_steps> LaneSet::base_chunk(int lane, double first_step) const
+{
+    std::array<double, chunk_steps> table{};
+    const BaseMotion& base = motion(lane);
+    if (BaseMotion::on_host(study_.excitation.kind)) {
+        base.fill(first_step, table.data(), 1);
+        return table;
+    }
+    std::array<double, 8> values{};
+    const FormulaParameters one{&values[0], &values[1], &values[2], &values[3],
+                                &values[4], &values[5], &values[6], &values[7]};
+    base.store(one, 0);
+    kernels(Isa::scalar).fill(BaseMotion::formula(study_.excitation.kind), one, &first_step, table.data());
+    return table;
+}
+
+void LaneSet::fill_extension(int lane)
+{
+    const Place& place = places_[static_cast<std::size_t>(lane)];
+    const Realization& r = place.realization;
+    const double first = first_step_[lane];
+    if (place.vertical)
+        place.vertical->fill(first, bundle_.vertical_table + lane, kernels_.lanes);
+    else if (r.base.vertical_ratio != 0)
+        for (std::size_t k = 0; k < chunk_steps; ++k)
+            bundle_.vertical_table[k * lanes_ + static_cast<std::size_t>(lane)] =
+                r.base.vertical_ratio * bundle_.base_table[k * lanes_ + static_cast<std::size_t>(lane)];
+    if (r.base.pitch_rad_s2_m == 0)
+        return;
+    // Samples with straight lines between them have no second derivative: the rotation is their mean under a triangle
+    // as wide as two samples, whose second derivative is a difference of three values.
+    const double reach = std::max(1.0, std::round(place.motion.spacing_s() / r.step_s));
+    const auto before = base_chunk(lane, first - reach), now = base_chunk(lane, first),
+               after = base_chunk(lane, first + reach);
+    const double per = r.base.pitch_rad_s2_m / (r.step_s * r.step_s);
+    for (std::size_t k = 0; k < chunk_steps; ++k) {
+        const int step = static_cast<int>(k);
+        bundle_.at(OfPitch::angle, step, lane) = per * (before[k] + 10 * now[k] + after[k]) / 12;
+        bundle_.at(OfPitch::increment, step, lane) = per * (after[k] - before[k]) / (2 * reach);
+        bundle_.at(OfPitch::second, step, lane) = per * ((after[k] - now[k]) - (now[k] - before[k])) / (reach * reach);
+    }
+}
+
+void LaneSet::pull(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
+{
+    assert(topology_.model.extended() && "only the extended model can be pulled");
+    const int k = place_of_[static_cast<std::size_t>(block)];
+    const double dt = realization(lane).step_s, dt2 = dt * dt;
+    if (k < topology_.fixed)
+        return;
+    bundle_.at(OfBlockExtension::pull_x, k, lane) = dt2 * x_m_s2;
+    bundle_.at(OfBlockExtension::pull_y, k, lane) = dt2 * y_m_s2;
+    bundle_.at(OfBlockExtension::pull_theta, k, lane) = dt2 * theta_rad_s2;
+}
+
+double LaneSet::dowel_energy(int lane) const
+{
+    double energy = 0;
+    if (topology_.model.extended())
+        for (int j = 0; j < topology_.beds(); ++j) {
+            const double force = bundle_.at(OfJointExtension::dowel_force, j, lane);
+            energy += 0.5 * force * force * bundle_.at(OfJointExtension::per_dowel_stiffness, j, lane);
+        }
+    return energy;
 }
 
 double LaneSet::spring_energy(int lane) const
@@ -267,10 +354,28 @@ double LaneSet::audit(int lane, Outcome& o) const
     o.energy_damping_j = 0.5 * bundle_.at(OfRealization::dashpot_energy, lane) +
                          0.5 * bundle_.at(OfRealization::shear_energy, lane) - (tangential - place.start_shear_j) -
                          o.energy_friction_j;
+    if (topology_.model.extended()) {
+        const double held = dowel_energy(lane) - place.start_dowel_j;
+        o.energy_spring_j += held;
+        o.energy_damping_j += 0.5 * bundle_.at(OfRealizationExtension::joint_energy, lane) - held +
+                              0.5 * bundle_.at(OfRealizationExtension::drag_energy, lane) * per_dt2;
+    }
     o.energy_base_work_j = 0.5 * bundle_.at(OfRealization::base_energy, lane) * per_dt2;
     const double lacks = o.energy_kinetic_j + o.energy_potential_j + o.energy_spring_j + o.energy_friction_j +
                          o.energy_damping_j - o.energy_base_work_j;
     return lacks / (place.scales.barrier_j + std::fabs(o.energy_friction_j) + std::fabs(o.energy_damping_j));
+}
+
+BlockMotion LaneSet::centre(int k, int lane) const
+{
+    const double theta = bundle_.at(OfBlock::theta, k, lane);
+    BlockMotion moved{bundle_.at(OfBlock::x, k, lane), bundle_.at(OfBlock::y, k, lane), theta};
+    if (topology_.model.extended()) {
+        const double e = bundle_.at(OfBlockExtension::eccentricity, k, lane);
+        moved.x_m += e * (1 - std::cos(theta));
+        moved.y_m -= e * std::sin(theta);
+    }
+    return moved;
 }
 
 void LaneSet::read_motion(int lane)
@@ -278,8 +383,7 @@ void LaneSet::read_motion(int lane)
     Place& place = places_[static_cast<std::size_t>(lane)];
     place.moved.resize(place.realization.blocks.size());
     for (int k = topology_.fixed; k < topology_.blocks; ++k)
-        place.moved[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = {
-            bundle_.at(OfBlock::x, k, lane), bundle_.at(OfBlock::y, k, lane), bundle_.at(OfBlock::theta, k, lane)};
+        place.moved[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = centre(k, lane);
 }
 
 void LaneSet::look(int lane)
@@ -319,7 +423,7 @@ void LaneSet::look(int lane)
             place.quiet_looks = 0;
         }
         place.quiet = true;
-        place.quiet_top_m += bundle_.at(OfBlock::x, topology_.top, lane);
+        place.quiet_top_m += centre(topology_.top, lane).x_m;
         ++place.quiet_looks;
     } else {
         place.quiet = false;
@@ -341,8 +445,7 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     o.steps = place.steps;
     o.end_time_s = static_cast<double>(place.steps) * r.step_s;
     o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
-    const double top =
-        place.quiet ? place.quiet_top_m / place.quiet_looks : bundle_.at(OfBlock::x, topology_.top, lane);
+    const double top = place.quiet ? place.quiet_top_m / place.quiet_looks : centre(topology_.top, lane).x_m;
     o.residual_top_displacement_m = top - place.start_top_x_m;
     o.top_path_m = bundle_.at(OfRealization::top_path, lane);
     o.total_sliding_m = bundle_.at(OfRealization::slip, lane);
@@ -385,9 +488,10 @@ Snapshot LaneSet::snapshot(int lane) const
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {
         const Block& block = r.blocks[i];
         const int k = place_of_[i];
-        s.x_m.push_back(block.x_m + (k < 0 ? 0 : bundle_.at(OfBlock::x, k, lane)));
-        s.y_m.push_back(block.y_m + (k < 0 ? 0 : bundle_.at(OfBlock::y, k, lane)));
-        s.theta_rad.push_back(k < 0 ? 0 : bundle_.at(OfBlock::theta, k, lane));
+        const BlockMotion moved = k < 0 ? BlockMotion{} : centre(k, lane);
+        s.x_m.push_back(block.x_m + moved.x_m);
+        s.y_m.push_back(block.y_m + moved.y_m);
+        s.theta_rad.push_back(moved.theta_rad);
     }
     return s;
 }

@@ -8,6 +8,7 @@
 #include "ensemble/study.hpp"
 #include "kernels/isa.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,12 +40,17 @@ public:
     /// Part of a chunk, for trajectories: steps `first` to `last - 1`; the look comes with the chunk's last step.
     void advance(int first, int last);
 
+    /// Accelerates a block (of the realization's numbering) from outside until the next call, for the extended model:
+    /// how a simulation is made to follow measured motion. The work counts as the base's.
+    void pull(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2);
+
     /// The outcome of a realization that has ended.
     const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
     /// Frees a lane; its place is at rest and does nothing until the next `load`.
     void clear(int lane);
 
-    /// Where the blocks are now.
+    /// Where the blocks are now: in the frame of the base, which turns with `BaseExtension::pitch_rad_s2_m`
+    /// (`kernels/mechanisms/table_pitch.hpp` says how laboratory coordinates follow).
     Snapshot snapshot(int lane) const;
     const BaseMotion& motion(int lane) const { return places_[static_cast<std::size_t>(lane)].motion; }
 
@@ -54,6 +60,7 @@ private:
         Realization realization;
         Scales scales;
         BaseMotion motion;
+        std::optional<BaseMotion> vertical; ///< where it has a record of its own
         std::optional<Outcome> outcome;
         double shaking_end_s = 0; ///< no realization is at rest before
         std::uint64_t steps = 0;
@@ -67,14 +74,20 @@ private:
         LimitStates limits;
         std::vector<BlockMotion> moved;     ///< (blocks) at the last look
         std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
-        double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0;
+        double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0, start_dowel_j = 0;
         double start_top_x_m = 0;
     };
 
     /// Parameters and static rest of a realization into its lane.
     void store_state(int lane, const Realization& r);
     void first_increments(int lane);
+    std::array<double, chunk_steps> base_chunk(int lane, double first_step) const;
+    /// Tables of the vertical motion and of the base's rotation for the next chunk.
+    void fill_extension(int lane);
+    /// Displacement of a (kernel's) block's geometric centre.
+    BlockMotion centre(int k, int lane) const;
     double spring_energy(int lane) const;
+    double dowel_energy(int lane) const;
     /// Energy balance so far; also fills the energies of the outcome. Returns what it lacks, over its scale.
     double audit(int lane, Outcome& outcome) const;
     /// After every chunk: not finite? fallen? energy out of balance? at rest, or out of time?

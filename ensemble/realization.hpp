@@ -2,6 +2,7 @@
 /// One perturbed structure and its base motion: a pure function of (study, seed, index). Plain data, SI units.
 
 #include "ensemble/motion.hpp"
+#include "kernels/model.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -61,7 +62,7 @@ struct Block {
     bool fixed = false;       ///< moves with the base
     BlockRole role = BlockRole::drum;
     int column = 0; ///< of a drum, from the left; -1 for all else
-    BlockExtension extension;
+    BlockExtension extension{};
 };
 
 /// The bed between two blocks, or what becomes one if they meet.
@@ -74,7 +75,7 @@ struct Joint {
     double tangential_damping_n_s_m = 0;
     double damping_chord_m = 0; ///< contact length at which the dashpots have these coefficients; 0: at any length
     double friction = 0;
-    JointExtension extension;
+    JointExtension extension{};
 };
 
 struct Realization {
@@ -95,6 +96,10 @@ struct Realization {
     double phase_rad = 0;
     double pulse_gamma = 0;               ///< oscillatory character of a velocity pulse
     std::shared_ptr<const Motion> motion; ///< the base motion that is this realization's own (noise), else null
+    /// Vertical base motion of its own, instead of `base.vertical_ratio`; starts with the shaking. Null: none.
+    std::shared_ptr<const Motion> vertical;
+    ContactForm form = ContactForm::area;
+    bool extended = false; ///< run by the extended step even where every extension is neutral (`is_extended`)
     double step_s = 0;
     std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`
 };

@@ -32,11 +32,26 @@ Row relative_motion(double x, double y, double px, double py, const Pose& lower,
     return row;
 }
 
-JointForce joint_force(const Joint& joint, bool bed, const Block& lower, const Pose& l, const Block& upper,
-                       const Pose& u)
+/// Bottom face of the upper block, in the lower block's frame with its origin in the top face.
+Placement<double> placement(const Block& lower, const Pose& l, const Block& upper, const Pose& u)
 {
+    const double sine = std::sin(u.theta - l.theta), cosine = std::cos(u.theta - l.theta);
+    const double bx = u.x + upper.half_height_m * std::sin(u.theta) - l.x;
+    const double by = u.y - upper.half_height_m * std::cos(u.theta) - l.y;
+    const double x = bx * std::cos(l.theta) + by * std::sin(l.theta);
+    const double y = -bx * std::sin(l.theta) + by * std::cos(l.theta) - lower.half_height_m;
+    return {x, -y, sine, cosine};
+}
+
+/// @param law of a bed of an extended model, else null
+JointForce joint_force(const Realization& r, int index, const BedLaw* law, const Pose& l, const Pose& u)
+{
+    const Joint& joint = r.joints[static_cast<std::size_t>(index)];
+    const bool bed = index < r.beds();
+    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
     JointForce f;
-    const Overlap<double> o = overlap_of(lower, l, upper, u);
+    const Overlap<double> o = law == nullptr ? overlap_of(lower, l, upper, u) : bed_overlap_of(r, index, *law, l, u);
     const double chord = std::hypot(o.normal_x, o.normal_y);
     if (o.area <= 0 || chord < least_chord)
         return f;
@@ -50,18 +65,22 @@ JointForce joint_force(const Joint& joint, bool bed, const Block& lower, const P
     const Pose centroid = into_base(cx, cy);
     // a bed's stiffness acts at the middle of its length, from which the centroid is drawn towards the deeper end
     const double length = std::min(chord, 2 * std::min(lower.half_width_m, upper.half_width_m));
-    const double turn = std::sin(u.theta - l.theta);
-    const double aside = bed ? std::clamp(turn * length * length * length / (12 * o.area), -length / 2, length / 2) : 0;
+    const double turn = std::sin(u.theta - l.theta - (law == nullptr ? 0 : joint.extension.wedge_rad));
+    const double spread = law != nullptr && law->form == ContactForm::two_corner ? 4 : 12; // k_theta = k_n L2 / spread
+    const double aside =
+        bed ? std::clamp(turn * length * length * length / (spread * o.area), -length / 2, length / 2) : 0;
     const Pose middle = into_base(cx + aside, cy);
 
-    const double F_n = joint.normal_stiffness_n_m2 * o.area;
-    const double k_n = joint.normal_stiffness_n_m2 * length;
+    const double F_n = law == nullptr ? joint.normal_stiffness_n_m2 * o.area : law->force(o.area);
+    double k_n = joint.normal_stiffness_n_m2 * length;
+    if (law != nullptr)
+        k_n = F_n / o.area * length * (1 + law->exponent) * (law->form == ContactForm::points ? 1.5 : 1);
     const Row opening = relative_motion(nx, ny, middle.x, middle.y, l, u);
     f.stiffness = k_n * opening * opening.transpose();
     Row turning = Row::Zero();
     turning(2) = -1;
     turning(5) = 1;
-    f.stiffness += k_n * length * length / 12 * turning * turning.transpose();
+    f.stiffness += k_n * length * length / spread * turning * turning.transpose();
 
     double F_t = 0;
     if (bed) { // sliding since the reference stack, for small displacements
@@ -81,14 +100,35 @@ JointForce joint_force(const Joint& joint, bool bed, const Block& lower, const P
 
 Overlap<double> overlap_of(const Block& lower, const Pose& l, const Block& upper, const Pose& u)
 {
-    const double sine = std::sin(u.theta - l.theta), cosine = std::cos(u.theta - l.theta);
-    // bottom face of the upper block, then into the lower block's frame with its origin in the top face
-    const double bx = u.x + upper.half_height_m * std::sin(u.theta) - l.x;
-    const double by = u.y - upper.half_height_m * std::cos(u.theta) - l.y;
-    const double x = bx * std::cos(l.theta) + by * std::sin(l.theta);
-    const double y = -bx * std::sin(l.theta) + by * std::cos(l.theta) - lower.half_height_m;
-    return general_overlap<double>({x, -y, sine, cosine},
+    return general_overlap<double>(placement(lower, l, upper, u),
                                    {lower.half_width_m, lower.half_height_m, upper.half_width_m, upper.half_height_m});
+}
+
+Overlap<double> bed_overlap_of(const Realization& r, int bed, const BedLaw& law, const Pose& l, const Pose& u)
+{
+    const Joint& joint = r.joints[static_cast<std::size_t>(bed)];
+    const Placement<double> place = placement(r.blocks[static_cast<std::size_t>(joint.lower)], l,
+                                              r.blocks[static_cast<std::size_t>(joint.upper)], u);
+    const auto general = [](const Placement<double>& p, const PairSizes<double>& sizes, bool fits, Overlap<double>& o,
+                            auto& points) { take_general(p, sizes, fits, o, points); };
+    FormPoints<double, 0> none{};
+    FormPoints<double, 2> two{};
+    FormPoints<double, 5> five{};
+    switch (law.form) {
+    case ContactForm::two_corner:
+        return bed_overlap<ContactForm::two_corner>(place, law.faces, false, two, general);
+    case ContactForm::points:
+        return bed_overlap<ContactForm::points>(place, law.faces, false, five, general);
+    case ContactForm::area:
+        break;
+    }
+    return bed_overlap<ContactForm::area>(place, law.faces, false, none, general);
+}
+
+double bed_elastic_n(const Realization& r, int bed, const Pose& l, const Pose& u)
+{
+    const BedLaw law = bed_law(r, bed);
+    return law.force(bed_overlap_of(r, bed, law, l, u).area);
 }
 
 double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double>& spring_n)
@@ -110,6 +150,11 @@ double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double
         scale.segment<3>(first[b]) = Eigen::Vector3d(m * g, m * g, m * g * r.blocks[b].half_width_m);
     }
 
+    std::vector<BedLaw> laws; // with extensions
+    if (rests_otherwise(r))
+        for (int j = 0; j < r.beds(); ++j)
+            laws.push_back(bed_law(r, j));
+
     Eigen::MatrixXd K(size, size);
     Eigen::VectorXd residual(size);
     const auto add = [&](const Joint& joint, const JointForce& f) {
@@ -126,12 +171,18 @@ double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double
     const auto evaluate = [&](const std::vector<Pose>& at) {
         K.setZero();
         residual = weight;
+        for (std::size_t b = 0; b < r.blocks.size(); ++b) // a centre of mass beside the middle
+            if (first[b] >= 0) {
+                const double e = r.blocks[b].extension.eccentricity_m;
+                residual(first[b] + 2) +=
+                    e * (std::cos(at[b].theta) * weight(first[b] + 1) - std::sin(at[b].theta) * weight(first[b]));
+            }
         spring_n.assign(r.joints.size(), 0);
         for (std::size_t j = 0; j < r.joints.size(); ++j) {
             const Joint& joint = r.joints[j];
             const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
             const JointForce f =
-                joint_force(joint, static_cast<int>(j) < r.beds(), r.blocks[l], at[l], r.blocks[u], at[u]);
+                joint_force(r, static_cast<int>(j), j < laws.size() ? &laws[j] : nullptr, at[l], at[u]);
             spring_n[j] = f.spring;
             add(joint, f);
         }

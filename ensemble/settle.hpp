@@ -1,6 +1,7 @@
 #pragma once
 /// Static equilibrium of blocks under their contact forces.
 
+#include "ensemble/extension.hpp"
 #include "ensemble/realization.hpp"
 #include "kernels/overlap.hpp"
 
@@ -14,6 +15,12 @@ struct Pose {
 
 /// Overlap of two blocks, in the lower one's frame with the origin in the middle of its top face.
 Overlap<double> overlap_of(const Block& lower, const Pose& lower_pose, const Block& upper, const Pose& upper_pose);
+
+/// The same of a bed in the realization's model: in the other forms, what stands for the overlap.
+Overlap<double> bed_overlap_of(const Realization& realization, int bed, const BedLaw& law, const Pose& lower_pose,
+                               const Pose& upper_pose);
+/// Elastic normal force of a bed in the realization's model [N].
+double bed_elastic_n(const Realization& realization, int bed, const Pose& lower_pose, const Pose& upper_pose);
 
 /// Finds the poses in which the contact forces of all joints (Eqs. 1 to 3 at rest: K_N A_c, and K_T times the sliding
 /// since the reference stack, within the friction cone; watched pairs without friction) carry the weight.

@@ -1,5 +1,7 @@
 #include "ensemble/static_state.hpp"
 
+#include "ensemble/bedding.hpp"
+#include "ensemble/extension.hpp"
 #include "ensemble/settle.hpp"
 
 #include <algorithm>
@@ -42,28 +44,10 @@ Load load_above(const Realization& r, int bed)
     return {mass * r.gravity_m_s2 * std::cos(r.base_tilt_rad), x / mass, y / mass};
 }
 
-/// Depth at the middle of the contact, and rotation of the upper block against the lower one, of a bed of stiffness K
-/// per area on a contact of length L under the force N at the eccentricity e from its middle.
-struct Bedding {
-    double depth, rotation;
-};
-
-Bedding bedding(double K, double L, double N, double e)
-{
-    const double eccentric = std::fabs(e);
-    if (eccentric <= L / 6)
-        return {N / (K * L), -12 * N * e / (K * L * L * L)};
-    if (eccentric >= L / 2) // it cannot stand: let it fall from where it is
-        return {N / (K * L), 0};
-    const double pressed = 3 * (L / 2 - eccentric); // a triangle under the nearer edge
-    const double edge_depth = 2 * N / (K * pressed);
-    const double rotation = edge_depth / pressed;
-    return {edge_depth - rotation * L / 2, e > 0 ? -rotation : rotation};
-}
-
 /// Lowers some blocks, by bisection, until the beds between them and the others carry a weight.
 void sink(const Realization& r, std::vector<Pose>& poses, const std::vector<bool>& moved, double weight, double reach)
 {
+    const bool extended = rests_otherwise(r);
     double high = reach, low = -reach; // shift: in the air, and far too deep
     for (int i = 0; i < 200; ++i) {
         const double shift = 0.5 * (high + low);
@@ -75,7 +59,8 @@ void sink(const Realization& r, std::vector<Pose>& poses, const std::vector<bool
                 continue;
             Pose pose = poses[u];
             pose.y += shift;
-            force += joint.normal_stiffness_n_m2 * overlap_of(r.blocks[l], poses[l], r.blocks[u], pose).area;
+            force += extended ? bed_elastic_n(r, j, poses[l], pose)
+                              : joint.normal_stiffness_n_m2 * overlap_of(r.blocks[l], poses[l], r.blocks[u], pose).area;
         }
         (force > weight ? low : high) = shift;
     }
@@ -90,23 +75,6 @@ Pose corner(const Block& block, const Pose& p, double side, double end)
     const double sine = std::sin(p.theta), cosine = std::cos(p.theta);
     const double x = side * block.half_width_m, y = end * block.half_height_m;
     return {p.x + x * cosine - y * sine, p.y + x * sine + y * cosine, 0};
-}
-
-/// Weight that the epistyles bring onto a column, each shared equally by its seats [N].
-double epistyle_share(const Realization& r, int column)
-{
-    double mass = 0;
-    for (int j = 0; j < r.beds(); ++j) {
-        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
-        if (upper_of(r, j).role != BlockRole::epistyle ||
-            r.blocks[static_cast<std::size_t>(joint.lower)].column != column)
-            continue;
-        int seats = 0;
-        for (int k = 0; k < r.beds(); ++k)
-            seats += r.joints[static_cast<std::size_t>(k)].upper == joint.upper ? 1 : 0;
-        mass += upper_of(r, j).mass_kg / seats;
-    }
-    return mass * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
 }
 
 /// Turns the columns from `initial_tilt_block` up about that block's corner, sinks them in, and puts the epistyles on.
@@ -141,7 +109,7 @@ void lean(const Realization& r, std::vector<Pose>& poses)
             poses[i].y = about.y + sine * dx + cosine * dy;
             poses[i].theta += r.initial_tilt_rad;
         }
-        sink(r, poses, moved, load_above(r, bed).weight + epistyle_share(r, foot.column), foot.half_height_m);
+        sink(r, poses, moved, bed_load_n(r, bed), foot.half_height_m);
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
         if (r.blocks[i].role != BlockRole::epistyle)
@@ -186,15 +154,72 @@ void stack_up(const Realization& r, std::vector<Pose>& poses, StaticState& state
 
         // the bottom face is the line through (middle, -depth) with this rotation, in the lower block's frame
         const double X = upper.x_m - lower.x_m;
-        const double Y = -bed.depth + (upper.x_m - middle) * std::tan(bed.rotation);
+        const double Y = -bed.depth_m + (upper.x_m - middle) * std::tan(bed.rotation_rad);
         const Pose& l = poses[static_cast<std::size_t>(joint.lower)];
-        const double cx = X - upper.half_height_m * std::sin(bed.rotation);
-        const double cy = lower.half_height_m + Y + upper.half_height_m * std::cos(bed.rotation);
+        const double cx = X - upper.half_height_m * std::sin(bed.rotation_rad);
+        const double cy = lower.half_height_m + Y + upper.half_height_m * std::cos(bed.rotation_rad);
         poses[static_cast<std::size_t>(joint.upper)] = {l.x + cx * std::cos(l.theta) - cy * std::sin(l.theta),
                                                         l.y + cx * std::sin(l.theta) + cy * std::cos(l.theta),
-                                                        l.theta + bed.rotation};
+                                                        l.theta + bed.rotation_rad};
         const double limit = joint.friction * load.weight;
         state.spring_n.push_back(std::clamp(load.weight * slope, -limit, limit));
+    }
+}
+
+/// The same with extensions: on the faces as they are, under the load where it is. How the blocks lean decides where
+/// their loads act, so it is gone through until nothing moves.
+void stack_up_extended(const Realization& r, std::vector<Pose>& poses, StaticState& state)
+{
+    const double down_x = std::sin(r.base_tilt_rad), down_y = -std::cos(r.base_tilt_rad);
+    constexpr int most_passes = 100;
+    constexpr double still = 1e-15; // m, rad
+    double moved = 1;
+    for (int pass = 0; pass < most_passes && moved > still; ++pass) {
+        moved = 0;
+        state.spring_n.clear();
+        for (int j = 0; j < r.beds(); ++j) {
+            const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+            const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+            const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+            const Pose& l = poses[static_cast<std::size_t>(joint.lower)];
+            double mass = 0, x = 0, y = 0; // of what stands on the bed, at its centres of mass
+            for (int k = j; k < r.beds(); ++k) {
+                const auto i = static_cast<std::size_t>(r.joints[static_cast<std::size_t>(k)].upper);
+                const double m = r.blocks[i].mass_kg, e = r.blocks[i].extension.eccentricity_m;
+                mass += m;
+                x += m * (poses[i].x + e * std::cos(poses[i].theta));
+                y += m * (poses[i].y + e * std::sin(poses[i].theta));
+            }
+            // the lower face with its wedge: middle, tangent, normal
+            const double turn = l.theta + joint.extension.wedge_rad;
+            const double tx = std::cos(turn), ty = std::sin(turn), nx = -ty, ny = tx;
+            const double fx = l.x - lower.half_height_m * std::sin(l.theta);
+            const double fy = l.y + lower.half_height_m * std::cos(l.theta);
+            const double weight = mass * r.gravity_m_s2;
+            const double N = -weight * (down_x * nx + down_y * ny), T = weight * (down_x * tx + down_y * ty);
+            const double rx = x / mass - fx, ry = y / mass - fy;
+            const double crossing = rx * tx + ry * ty + (rx * nx + ry * ny) * T / N;
+
+            const BedLaw law = bed_law(r, j);
+            const double X = upper.x_m - lower.x_m;
+            const double left = std::max(-lower.half_width_m + law.faces.loss.lower_left,
+                                         X - upper.half_width_m + law.faces.loss.upper_left);
+            const double right = std::min(lower.half_width_m - law.faces.loss.lower_right,
+                                          X + upper.half_width_m - law.faces.loss.upper_right);
+            const double middle = 0.5 * (left + right), length = std::max(right - left, 1e-6 * upper.half_width_m);
+            const Bedding bed = bedding(law, length, N, crossing - middle);
+
+            const double Y = -bed.depth_m + (X - middle) * std::tan(bed.rotation_rad);
+            const double theta = turn + bed.rotation_rad;
+            const Pose put{fx + X * tx + Y * nx - upper.half_height_m * std::sin(theta),
+                           fy + X * ty + Y * ny + upper.half_height_m * std::cos(theta), theta};
+            Pose& pose = poses[static_cast<std::size_t>(joint.upper)];
+            moved = std::max(
+                {moved, std::fabs(put.x - pose.x), std::fabs(put.y - pose.y), std::fabs(put.theta - pose.theta)});
+            pose = put;
+            const double limit = joint.friction * N;
+            state.spring_n.push_back(std::clamp(T, -limit, limit));
+        }
     }
 }
 
@@ -207,7 +232,7 @@ StaticState static_state(const Realization& r)
         poses.push_back({block.x_m, block.y_m, 0});
     StaticState state;
     if (is_one_column(r))
-        stack_up(r, poses, state);
+        rests_otherwise(r) ? stack_up_extended(r, poses, state) : stack_up(r, poses, state);
     else
         settle(r, poses, state.spring_n);
     state.spring_n.resize(r.joints.size(), 0);

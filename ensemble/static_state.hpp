@@ -20,6 +20,8 @@ struct StaticState {
 /// not: there the equilibrium of the contact forces themselves is found (`settle`), friction counted from the reference
 /// stack on. Starting from the reference stack instead would make the structure bounce.
 ///
+/// With extensions a column's loads act where its blocks' centres of mass are, leaned as they rest.
+///
 /// With `initial_tilt_rad` each column, from `initial_tilt_block` up, then turns as one rigid body about the lower
 /// corner of that block, which sinks in until the bed carries what is above. Epistyles are carried along, level, on the
 /// corners that have risen.

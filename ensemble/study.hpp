@@ -5,6 +5,7 @@
 
 #include "ensemble/motion.hpp"
 #include "ensemble/structure.hpp"
+#include "kernels/model.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -20,13 +21,6 @@ enum class StudyKind { single, surface };
 enum class DampingPer {
     contact, ///< a constant for each pressed contact: Eq. 1 as it stands
     chord    ///< in proportion to the length of the contact: no jump when a sliver of contact appears
-};
-
-/// How the faces of a bed carry (`kernels/mechanisms/README.md`). Pairs that are no bed meet by their area.
-enum class ContactForm {
-    area,       ///< the paper's: overlap area, at its centroid
-    two_corner, ///< springs at the two ends of the face
-    points      ///< Hertz-like springs at points along the face
 };
 
 struct ContactSpec {

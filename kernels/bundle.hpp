@@ -93,6 +93,76 @@ struct OfNeighbourhood {
     };
 };
 
+/// Fields of a block's extensions (`mechanisms/`); only there with an extended model. In it the displacements of
+/// `OfBlock` are those of the centre of mass. All zero is neutral.
+struct OfBlockExtension {
+    enum Field : int {
+        reference_x,   ///< centre of mass in the reference stack, from the point about which the base turns [m]
+        reference_y,   ///< [m]
+        eccentricity,  ///< centre of mass from the geometric centre, along the width [m]
+        drag_per_mass, ///< c / m [1/m]
+        pull_x,        ///< dt2 x an acceleration from outside, which the host may write between two runs [m]
+        pull_y,        ///< [m]
+        pull_theta,    ///< [rad]
+        count
+    };
+};
+
+/// The same of a joint. "step": written by it.
+struct OfJointExtension {
+    enum Field : int {
+        friction_drop,       ///< stribeck: 1 - mu_d / mu_s
+        per_stribeck_step,   ///< stribeck: 1 / (v_s dt) [1/m]
+        wear,                ///< friction_wear: k [1/m]
+        adhesion,            ///< adhesion: c [N/m]
+        dowel_stiffness,     ///< dowel: k_d [N/m]
+        per_dowel_stiffness, ///< 1 / k_d, 0 without a dowel [m/N]
+        dowel_yield,         ///< dowel: F_d [N]
+        dowel_gap,           ///< dowel: [m]
+        exponent,            ///< hertz: q - 1
+        per_reference,       ///< hertz: 1 / reference overlap [1/m2]
+        rate_per_dt,         ///< rate_damping: lambda / dt [1/m]
+        face_dashpot,        ///< at the ends: area: share x C_N / (B dt) [N/m2]; other forms: C_N / dt [N/m]
+        chip_left,           ///< corner_loss [m]
+        chip_right,          ///< [m]
+        left_of_lower,       ///< 1 where the left end of the common face is the lower block's, else 0
+        right_of_lower,      ///< the same of the right end
+        corner_wear,         ///< corner_wear [m/rad]
+        wedge_sine,          ///< wedge: sine of the angle
+        wedge_versine,       ///< and 1 - its cosine
+        per_root_depth,      ///< points: 1 / sqrt(d_ref) [m^-1/2]
+        slip,                ///< of this joint so far [m]; step
+        turned,              ///< path of the relative rotation so far [rad]; step
+        broken,              ///< adhesion: 1 once it has slipped or opened; step
+        dowel_set,           ///< where the dowel's play is centred [m]; step
+        dowel_at,            ///< offset of the faces at the last step [m]; step
+        dowel_force,         ///< at the last step [N]; step
+        couple,              ///< moment of the dashpots at the ends at the last step [N m]; step
+        count
+    };
+};
+
+/// The same of a realization.
+struct OfRealizationExtension {
+    enum Field : int {
+        base_dx,      ///< increment of the base's displacement in the last step [m]; step
+        base_dy,      ///< the same upwards [m]; step
+        joint_energy, ///< 2 x what went into dowels and worn corners [J]; step
+        drag_energy,  ///< 2 dt2 x what drag took [J s2]; step
+        count
+    };
+};
+
+/// Values of one step in the table of the base's rotation.
+struct OfPitch {
+    enum Field : int {
+        angle,     ///< [rad], counter-clockwise
+        increment, ///< dt x its rate [rad]
+        second,    ///< its second difference [rad]
+        count
+    };
+};
+
 struct Bundle {
     int lanes = 0;
     double* blocks = nullptr;        ///< (blocks x OfBlock::count x lanes)
@@ -101,6 +171,12 @@ struct Bundle {
     double* neighbourhood = nullptr; ///< (blocks x OfNeighbourhood::count x lanes), with watched pairs
     int* close = nullptr;            ///< (watched) the close pairs, for the kernel alone
     double* base_table = nullptr;    ///< (chunk_steps x lanes) second difference of the base displacement [m]
+    // with an extended model:
+    double* block_extensions = nullptr;       ///< (blocks x OfBlockExtension::count x lanes)
+    double* joint_extensions = nullptr;       ///< (joints x OfJointExtension::count x lanes)
+    double* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
+    double* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
+    double* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
 
     double& at(OfBlock::Field field, int block, int lane) const
     {
@@ -111,14 +187,34 @@ struct Bundle {
         return joints[(joint * OfJoint::count + field) * lanes + lane];
     }
     double& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
+    double& at(OfBlockExtension::Field field, int block, int lane) const
+    {
+        return block_extensions[(block * OfBlockExtension::count + field) * lanes + lane];
+    }
+    double& at(OfJointExtension::Field field, int joint, int lane) const
+    {
+        return joint_extensions[(joint * OfJointExtension::count + field) * lanes + lane];
+    }
+    double& at(OfRealizationExtension::Field field, int lane) const
+    {
+        return realization_extensions[field * lanes + lane];
+    }
+    double& at(OfPitch::Field field, int step, int lane) const
+    {
+        return pitch_table[(step * OfPitch::count + field) * lanes + lane];
+    }
 };
 
 /// Registers that a bundle needs, each of `lanes` doubles.
 inline std::size_t bundle_registers(const Topology& topology)
 {
     const int neighbourhood = topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0;
+    const int extensions = topology.model.extended()
+                               ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
+                                     OfRealizationExtension::count + chunk_steps * (1 + OfPitch::count)
+                               : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + neighbourhood + chunk_steps);
+                                    OfRealization::count + neighbourhood + extensions + chunk_steps);
 }
 
 /// Lays a bundle out.
@@ -132,7 +228,16 @@ inline Bundle bind_bundle(const Topology& topology, int lanes, double* memory, i
     b.joints = b.blocks + topology.blocks * OfBlock::count * lanes;
     b.realizations = b.joints + topology.joints * OfJoint::count * lanes;
     b.neighbourhood = b.realizations + OfRealization::count * lanes;
-    b.base_table = b.neighbourhood + (topology.watched > 0 ? topology.blocks * OfNeighbourhood::count * lanes : 0);
+    double* tables = b.neighbourhood + (topology.watched > 0 ? topology.blocks * OfNeighbourhood::count * lanes : 0);
+    if (topology.model.extended()) {
+        b.block_extensions = tables;
+        b.joint_extensions = b.block_extensions + topology.blocks * OfBlockExtension::count * lanes;
+        b.realization_extensions = b.joint_extensions + topology.joints * OfJointExtension::count * lanes;
+        b.vertical_table = b.realization_extensions + OfRealizationExtension::count * lanes;
+        b.pitch_table = b.vertical_table + chunk_steps * lanes;
+        tables = b.pitch_table + chunk_steps * OfPitch::count * lanes;
+    }
+    b.base_table = tables;
     b.close = close;
     return b;
 }

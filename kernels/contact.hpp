@@ -25,6 +25,22 @@ struct ContactForce {
     Real excess;     ///< what slipping took from the spring's trial force, >= 0 [N]
 };
 
+/// What friction makes of the sliding of this step, within |F_T| <= limit.
+/// @param sliding of this step [m];  @param spring elastic part of F_T, carried from step to step [N]
+/// @return `normal` is left at 0
+template <class Real>
+STYLOBATE_INLINE ContactForce<Real> friction_force(const JointLaw<Real>& law, Real limit, Real length, Real sliding,
+                                                   Real spring)
+{
+    // elastic trial, then return to the Coulomb cone; the total with the dashpot stays in the cone too
+    const Real least = Real(0.0) - limit;
+    const Real trial = fma(law.K_t, sliding, spring);
+    const Real kept = clamp(trial, least, limit);
+    const Real C_t = fma(law.C_t_chord, length, law.C_t_per_dt);
+    const Real F_t = clamp(fma(C_t, sliding, kept), least, limit);
+    return {Real(0.0), F_t, kept, abs_of(trial - kept)};
+}
+
 /// Force between two blocks through their joint.
 ///
 ///   F_N = max(0, K_N A_c + C_N v_N)        |F_T| <= mu F_N
@@ -44,14 +60,9 @@ STYLOBATE_INLINE ContactForce<Real> contact_force(const JointLaw<Real>& law, Rea
     const Real C_n = fma(law.C_n_chord, length, law.C_n_per_dt);
     const Real F_n = max_of(fma(C_n, closing, law.K_n * area), zero);
 
-    // tangential: elastic trial, then return to the Coulomb cone; the total with the dashpot stays in the cone too
-    const Real limit = law.mu * F_n;
-    const Real least = zero - limit;
-    const Real trial = fma(law.K_t, sliding, spring);
-    const Real kept = clamp(trial, least, limit);
-    const Real C_t = fma(law.C_t_chord, length, law.C_t_per_dt);
-    const Real F_t = clamp(fma(C_t, sliding, kept), least, limit);
-    return {F_n, F_t, kept, abs_of(trial - kept)};
+    ContactForce<Real> force = friction_force(law, law.mu * F_n, length, sliding, spring);
+    force.normal = F_n;
+    return force;
 }
 
 } // namespace stylobate

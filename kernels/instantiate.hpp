@@ -27,13 +27,32 @@ double peak_fma(long count)
     return out[0];
 }
 
+/// The extended model as a type of the file that `Here` is of.
+template <class Here, ContactForm form>
+struct ExtendedHere : Extended<form> {
+};
+
+/// Runs the step that the bundle's model asks for.
+template <class Real, class Here>
+void run_model(const Topology& topology, const Bundle& bundle, int first, int last)
+{
+    if (!topology.model.extended())
+        return run_steps<Real, Here>(topology, bundle, first, last);
+    switch (topology.model.form) {
+    case ContactForm::area:
+        return run_steps<Real, ExtendedHere<Here, ContactForm::area>>(topology, bundle, first, last);
+    case ContactForm::two_corner:
+        return run_steps<Real, ExtendedHere<Here, ContactForm::two_corner>>(topology, bundle, first, last);
+    case ContactForm::points:
+        return run_steps<Real, ExtendedHere<Here, ContactForm::points>>(topology, bundle, first, last);
+    }
+}
+
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
 template <class Real, class Here>
 constexpr KernelTable kernel_table(Isa isa)
 {
-    return {isa, Lanes<Real>::count,
-            [](const Topology& t, const Bundle& b, int first, int last) { run_steps<Real, Here>(t, b, first, last); },
-            fill_base_table<Real, Here>, peak_fma<Real, Here>};
+    return {isa, Lanes<Real>::count, run_model<Real, Here>, fill_base_table<Real, Here>, peak_fma<Real, Here>};
 }
 
 } // namespace stylobate

@@ -15,7 +15,7 @@ struct KernelTable {
     Isa isa = Isa::scalar;
     int lanes = 1; ///< realizations in a register
 
-    /// Runs steps `first` to `last - 1` of the table of base motion.
+    /// Runs steps `first` to `last - 1` of the table of base motion, after the topology's model.
     void (*run)(const Topology&, const Bundle&, int first, int last) = nullptr;
     /// Fills the bundle's table of base motion by formula.
     void (*fill)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;

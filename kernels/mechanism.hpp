@@ -1,26 +1,25 @@
 #pragma once
-/// The place where extensions of the model go.
-///
-/// The step is a template over a mechanism. A mechanism is a type with the members of `Baseline`; each is inlined, so
-/// that a study that names none runs the baseline's instructions and no others. At its neutral value a mechanism must
-/// give the baseline's bits, which a test checks for each.
+/// Which model a step follows. The step is a template over this: a study that names no extension runs the baseline's
+/// instructions and no others. `mechanisms/extended.hpp` has the other one.
 
-#include "kernels/contact.hpp"
+#include "kernels/model.hpp"
 
 namespace stylobate {
 
 /// The paper's model, and nothing else.
 struct Baseline {
-    /// Per-step state and parameters of the mechanism; none here.
-    struct State {};
+    static constexpr bool extended = false;
+    static constexpr ContactForm form = ContactForm::area;
+    static constexpr int points = 0; ///< along a face, at which a form of its own has springs
+};
 
-    /// The contact law of joint `joint`.
-    template <class Real>
-    static STYLOBATE_INLINE ContactForce<Real> force(const State&, int /*joint*/, const JointLaw<Real>& law, Real area,
-                                                     Real length, Real closing, Real sliding, Real spring)
-    {
-        return contact_force(law, area, length, closing, sliding, spring);
-    }
+/// The paper's model with all extensions of `mechanisms/`, each of which may be neutral, realization by realization:
+/// where all are, it gives the baseline's bits.
+template <ContactForm form_>
+struct Extended {
+    static constexpr bool extended = true;
+    static constexpr ContactForm form = form_;
+    static constexpr int points = form == ContactForm::two_corner ? 2 : form == ContactForm::points ? 5 : 0;
 };
 
 } // namespace stylobate

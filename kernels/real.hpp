@@ -6,7 +6,9 @@
 /// each maps to one correctly rounded instruction, or to a selection that is spelled out (`min_of` is `a < b ? a : b`,
 /// which is also what the vector instructions do with signed zeros and NaN).
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 // Always inlined, in debug builds too: a function that is compiled for one instruction set must not be the copy that
 // the linker keeps for all.
@@ -75,6 +77,18 @@ STYLOBATE_INLINE double round_of(double a)
 STYLOBATE_INLINE double turn_sign(double a, double sign)
 {
     return std::signbit(sign) ? -a : a;
+}
+/// 2^k for an integer k from -1022 to 1023: the integer that a sum with 2^52 leaves in the mantissa, moved up.
+STYLOBATE_INLINE double power_of_two(double k)
+{
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + (0x1p52 + 1023)) << 52);
+}
+/// The largest integer e with 2^e <= a.
+/// @pre a > 0, not subnormal
+STYLOBATE_INLINE double exponent_of(double a)
+{
+    const std::uint64_t biased = std::bit_cast<std::uint64_t>(a) >> 52;
+    return std::bit_cast<double>(biased | std::bit_cast<std::uint64_t>(0x1p52)) - (0x1p52 + 1023);
 }
 STYLOBATE_INLINE bool any(bool mask)
 {

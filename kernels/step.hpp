@@ -16,9 +16,11 @@
 /// pairs come so close is looked for only when a block has strayed. Neither changes a bit of the result: a pair that
 /// does not touch adds nothing, so it makes no difference whether it was worked on for a neighbour's sake.
 
-#include "kernels/bundle.hpp"
+#include "kernels/contact.hpp"
 #include "kernels/mechanism.hpp"
+#include "kernels/mechanisms/extended.hpp"
 #include "kernels/overlap.hpp"
+#include "kernels/rows.hpp"
 #include "kernels/trig.hpp"
 
 namespace stylobate {
@@ -32,9 +34,18 @@ inline constexpr int joint_group = 8;
 inline constexpr double least_area = 1e-18;  // m2
 inline constexpr double least_chord = 1e-12; // m
 
-/// What the phases hand on, per joint.
+/// What a contact form hands on besides: nothing where it has no points of its own.
+template <class Real, int count>
+struct PointScratch {
+    FormPoints<Real, count> points; // overlap -> forces: shares of the force, and places along the contact
+};
 template <class Real>
-struct JointScratch {
+struct PointScratch<Real, 0> {
+};
+
+/// What the phases hand on, per joint.
+template <class Real, int points>
+struct JointScratch : PointScratch<Real, points> {
     Placement<Real> place;         // geometry -> overlap
     Real apart_x, apart_y;         // geometry -> faces: upper centre - lower centre, frame of the base
     Real area, chord;              // overlap -> forces
@@ -57,17 +68,14 @@ struct Pair {
 
 /// @tparam watching whether there are watched pairs
 template <class Real, class Mechanism, bool watching>
-class Stepper {
+class Stepper : Rows<Real> {
 public:
-    Stepper(const Topology& topology, const Bundle& bundle, const typename Mechanism::State& mechanism)
-        : topology_(topology), b_(bundle), mechanism_(mechanism)
-    {
-    }
+    Stepper(const Topology& topology, const Bundle& bundle) : Rows<Real>(bundle), topology_(topology) {}
 
     /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
     STYLOBATE_INLINE void run(int first, int last) const
     {
-        detail::JointScratch<Real> scratch[detail::joint_group];
+        Scratch scratch[detail::joint_group];
         const int beds = topology_.beds();
         [[maybe_unused]] int close = -1;
         for (int step = first; step < last; ++step) {
@@ -84,32 +92,28 @@ public:
     }
 
 private:
-    using L = Lanes<Real>;
-    using Scratch = detail::JointScratch<Real>;
+    using Scratch = detail::JointScratch<Real, Mechanism::points>;
 
-    STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
-    STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
-    STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * L::count]); }
-    STYLOBATE_INLINE Real get(OfNeighbourhood::Field f, int i) const
+    using Rows<Real>::get;
+    using Rows<Real>::put;
+    using Rows<Real>::b_;
+
+    /// Displacement of a block's geometric centre.
+    STYLOBATE_INLINE Real centre_x(int i) const
     {
-        return L::load(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)]);
+        if constexpr (Mechanism::extended)
+            return centre_from_mass_x(get(OfBlock::x, i), get(OfBlockExtension::eccentricity, i),
+                                      get(OfBlock::versine, i));
+        else
+            return get(OfBlock::x, i);
     }
-    STYLOBATE_INLINE void put(OfNeighbourhood::Field f, int i, Real v) const
+    STYLOBATE_INLINE Real centre_y(int i) const
     {
-        L::store(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfBlock::Field f, int i, Real v) const
-    {
-        L::store(&b_.blocks[row(i, OfBlock::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfJoint::Field f, int i, Real v) const
-    {
-        L::store(&b_.joints[row(i, OfJoint::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * L::count], v); }
-    STYLOBATE_INLINE static long row(int i, int fields, int f)
-    {
-        return (static_cast<long>(i) * fields + f) * L::count;
+        if constexpr (Mechanism::extended)
+            return centre_from_mass_y(get(OfBlock::y, i), get(OfBlockExtension::eccentricity, i),
+                                      get(OfBlock::sine, i));
+        else
+            return get(OfBlock::y, i);
     }
 
     /// From geometry to forces, for `count` joints; `joint(j)` is the j-th of them.
@@ -146,8 +150,8 @@ private:
         const Real su = get(OfBlock::sine, upper), vu = get(OfBlock::versine, upper);
         const Real one(1.0);
         const Real cl = one - vl, cu = one - vu;
-        const Real x = get(OfJoint::reference_x, joint) + (get(OfBlock::x, upper) - get(OfBlock::x, lower));
-        const Real rise = get(OfBlock::y, upper) - get(OfBlock::y, lower);
+        const Real x = get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower));
+        const Real rise = centre_y(upper) - centre_y(lower);
         const Real height = get(OfJoint::height, joint);
         const Real y = rise + height;
         const Real hu = get(OfBlock::half_height, upper);
@@ -158,6 +162,11 @@ private:
         s.place.x = fma(x, cl, fma(y, sl, hu * sine));
         s.apart_x = x;
         s.apart_y = y;
+        if constexpr (Mechanism::extended) { // from centre of mass to centre of mass
+            const Real el = get(OfBlockExtension::eccentricity, lower), eu = get(OfBlockExtension::eccentricity, upper);
+            s.apart_x = fma(eu, cu, fnma(el, cl, x));
+            s.apart_y = fma(eu, su, fnma(el, sl, y));
+        }
         if constexpr (!Kind::at_rest) {
             s.place.depth = fma(x, sl, fnma(y, cl, fma(hu, s.place.cosine, get(OfBlock::half_height, lower))));
             return;
@@ -171,7 +180,7 @@ private:
     STYLOBATE_INLINE void overlap(int joint, Scratch& s, bool audit) const
     {
         const auto [lower, upper] = topology_.joint[joint];
-        const Overlap<Real> o = meet<Kind>(joint, s.place);
+        const Overlap<Real> o = meet<Kind>(joint, s);
 
         // one division for both: 1 / (area x chord)
         const Real zero(0.0);
@@ -185,16 +194,28 @@ private:
         s.arm_y = fnma(o.moment_depth, per_area, get(OfBlock::half_height, lower));
         s.normal_x = o.normal_x * per_chord;
         s.normal_y = o.normal_y * per_chord;
+        if constexpr (Mechanism::extended)
+            s.arm_x = s.arm_x - get(OfBlockExtension::eccentricity, lower);
+        if constexpr (Mechanism::points > 0 && Kind::at_rest) {
+            const Real middle = s.points.moment * per_area;
+            for (int i = 0; i < Mechanism::points; ++i) {
+                s.points.x[i] = s.points.x[i] - middle;
+                s.points.area[i] = s.points.area[i] * per_area;
+            }
+        }
         if (audit)
             put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
     }
 
     /// (A function of its own, so that what it returns is never copied: in halves, that stalls the AVX2 kernel.)
     template <class Kind>
-    STYLOBATE_INLINE Overlap<Real> meet(int joint, const Placement<Real>& place) const
+    STYLOBATE_INLINE Overlap<Real> meet(int joint, Scratch& s) const
     {
+        const Placement<Real>& place = s.place;
         if constexpr (!Kind::at_rest)
             return general(joint, place);
+        else if constexpr (Mechanism::extended)
+            return meet_extended(joint, s);
         const auto [lower, upper] = topology_.joint[joint];
         auto fits = place.sine < place.sine;
         Overlap<Real> o = stacked_overlap(place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
@@ -202,6 +223,43 @@ private:
         if (any(!fits)) [[unlikely]]
             fall_back(joint, place, fits, o);
         return o;
+    }
+
+    STYLOBATE_INLINE Overlap<Real> meet_extended(int joint, Scratch& s) const
+    {
+        using J = OfJointExtension;
+        const auto [lower, upper] = topology_.joint[joint];
+        const PairSizes<Real> sizes{get(OfBlock::half_width, lower), get(OfBlock::half_height, lower),
+                                    get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)};
+        const Real narrow = min_of(sizes.lower_half_width, sizes.upper_half_width);
+        const Real wear = get(J::corner_wear, joint), turned = get(J::turned, joint);
+        const BedFaces<Real> faces{sizes,
+                                   get(OfJoint::depth_limit, joint),
+                                   face_loss(worn_corner(get(J::chip_left, joint), wear, turned, narrow),
+                                             worn_corner(get(J::chip_right, joint), wear, turned, narrow),
+                                             get(J::left_of_lower, joint), get(J::right_of_lower, joint)),
+                                   get(J::wedge_sine, joint),
+                                   get(J::wedge_versine, joint),
+                                   get(J::per_root_depth, joint)};
+        const auto far = [this](const Placement<Real>& place, const PairSizes<Real>& left, auto fits, Overlap<Real>& o,
+                                auto& points) { fall_back(place, left, fits, o, points); };
+        if constexpr (Mechanism::points > 0) {
+            return bed_overlap<Mechanism::form>(s.place, faces, s.place.sine < s.place.sine, s.points, far);
+        } else {
+            FormPoints<Real, 0> none;
+            return bed_overlap<Mechanism::form>(s.place, faces, s.place.sine < s.place.sine, none, far);
+        }
+    }
+
+    template <class Mask, int count>
+#if defined(__GNUC__)
+    __attribute__((noinline))
+#endif
+    void
+    fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits, Overlap<Real>& o,
+              FormPoints<Real, count>& points) const
+    {
+        take_general(place, sizes, fits, o, points);
     }
 
     STYLOBATE_INLINE Overlap<Real> general(int joint, const Placement<Real>& place) const
@@ -264,6 +322,7 @@ private:
         Real friction_energy = get(OfRealization::friction_energy);
         Real slip_sum = get(OfRealization::slip), path = get(OfRealization::path);
         Real rocking_path = get(OfRealization::rocking_path);
+        [[maybe_unused]] Real joint_energy(0.0);
         for (int j = 0; j < count; ++j) {
             const int joint = joint_of(j);
             const Scratch& s = scratch[j];
@@ -272,8 +331,25 @@ private:
                                      get(OfJoint::C_n_per_dt, joint), get(OfJoint::C_t_per_dt, joint),
                                      get(OfJoint::C_n_chord, joint),  get(OfJoint::C_t_chord, joint),
                                      get(OfJoint::mu, joint)};
-            const ContactForce<Real> f = Mechanism::force(mechanism_, joint, law, s.area, s.chord, s.closing, s.sliding,
-                                                          get(OfJoint::spring, joint));
+            const Real spring = get(OfJoint::spring, joint);
+            constexpr bool extended = Mechanism::extended && Kind::at_rest;
+            ContactForce<Real> f;
+            [[maybe_unused]] Real couple(0.0), mu = law.mu;
+            [[maybe_unused]] const Real turning = get(OfBlock::dtheta, upper) - get(OfBlock::dtheta, lower);
+            if constexpr (extended) {
+                const BedMotion<Real> motion{s.area,  s.chord,      s.closing,     s.sliding,
+                                             turning, s.place.sine, s.place.cosine};
+                BedForce<Real> bed;
+                if constexpr (Mechanism::points > 0)
+                    bed = bed_force(*this, joint, law, spring, motion, s.points);
+                else
+                    bed = bed_force(*this, joint, law, spring, motion, FormPoints<Real, 0>{});
+                f = bed.contact;
+                couple = bed.couple;
+                mu = bed.mu;
+            } else {
+                f = contact_force(law, s.area, s.chord, s.closing, s.sliding, spring);
+            }
             put(OfJoint::spring, joint, f.spring);
 
             const Real fx = fms(f.normal, s.normal_x, f.tangential * s.normal_y);
@@ -284,19 +360,29 @@ private:
             };
             sum(OfBlock::force_x, upper, get(OfBlock::force_x, upper) + fx);
             sum(OfBlock::force_y, upper, get(OfBlock::force_y, upper) + fy);
-            sum(OfBlock::moment, upper, get(OfBlock::moment, upper) + fms(s.upper_arm_x, fy, s.upper_arm_y * fx));
+            const Real upper_moment = fms(s.upper_arm_x, fy, s.upper_arm_y * fx);
+            const Real lower_moment = fms(s.lower_arm_x, fy, s.lower_arm_y * fx);
+            sum(OfBlock::moment, upper,
+                get(OfBlock::moment, upper) + (extended ? upper_moment + couple : upper_moment));
             sum(OfBlock::force_x, lower, get(OfBlock::force_x, lower) - fx);
             sum(OfBlock::force_y, lower, get(OfBlock::force_y, lower) - fy);
-            sum(OfBlock::moment, lower, get(OfBlock::moment, lower) - fms(s.lower_arm_x, fy, s.lower_arm_y * fx));
+            sum(OfBlock::moment, lower,
+                get(OfBlock::moment, lower) - (extended ? lower_moment + couple : lower_moment));
 
             // energy: the work of this step is its displacement times the mean of the forces at its two ends
             const Real dashpot = fnma(law.K_n, s.area, f.normal);
             dashpot_energy = fma(dashpot + get(OfJoint::dashpot_force, joint), s.closing, dashpot_energy);
+            if constexpr (extended) {
+                using J = OfJointExtension;
+                dashpot_energy = fnma(couple + get(J::couple, joint), turning, dashpot_energy);
+                put(J::couple, joint, couple);
+                joint_energy = joint_energy + after_force(joint, s, f, turning);
+            }
             put(OfJoint::dashpot_force, joint, dashpot);
             shear_energy = fma(f.tangential + get(OfJoint::shear_force, joint), s.sliding, shear_energy);
             put(OfJoint::shear_force, joint, f.tangential);
             const Real slip = f.excess * get(OfJoint::per_K_t, joint);
-            friction_energy = fma(slip, law.mu * f.normal, friction_energy);
+            friction_energy = fma(slip, (extended ? mu : law.mu) * f.normal, friction_energy);
             if constexpr (Kind::at_rest) {
                 slip_sum = slip_sum + slip;
                 path = path + abs_of(s.sliding);
@@ -309,6 +395,26 @@ private:
         put(OfRealization::slip, slip_sum);
         put(OfRealization::path, path);
         put(OfRealization::rocking_path, rocking_path);
+        if constexpr (Mechanism::extended && Kind::at_rest)
+            put(OfRealizationExtension::joint_energy, get(OfRealizationExtension::joint_energy) + joint_energy);
+    }
+
+    /// What follows the contact force of a bed: its dowel, and what its slip and its rocking wear off.
+    /// @return 2 x the energy that these took [J]
+    STYLOBATE_INLINE Real after_force(int joint, const Scratch& s, const ContactForce<Real>& f, Real turning) const
+    {
+        using J = OfJointExtension;
+        const auto [lower, upper] = topology_.joint[joint];
+        Real energy = add_dowel<Real>(*this, joint, lower, upper, s.place, s.apart_x, s.apart_y);
+        put(J::slip, joint, fma(f.excess, get(OfJoint::per_K_t, joint), get(J::slip, joint)));
+        const Real wear = get(J::corner_wear, joint);
+        if (any(wear != Real(0.0))) {
+            const Real path = abs_of(turning);
+            put(J::turned, joint, get(J::turned, joint) + path);
+            energy =
+                energy + Real(2.0) * worn_energy(get(OfJoint::K_n, joint), s.area, s.chord, s.place.sine, wear * path);
+        }
+        return energy;
     }
 
     /// Whether a block of any realization has moved so far since `look_around` that a pair may have come close unseen.
@@ -320,7 +426,9 @@ private:
             const Real x = abs_of(get(OfBlock::x, i) - get(OfNeighbourhood::x, i));
             const Real y = abs_of(get(OfBlock::y, i) - get(OfNeighbourhood::y, i));
             const Real turned = abs_of(get(OfBlock::theta, i) - get(OfNeighbourhood::theta, i));
-            const Real radius = get(OfBlock::half_width, i) + get(OfBlock::half_height, i);
+            Real radius = get(OfBlock::half_width, i) + get(OfBlock::half_height, i);
+            if constexpr (Mechanism::extended)
+                radius = radius + abs_of(get(OfBlockExtension::eccentricity, i));
             far = far | (fma(radius, turned, max_of(x, y)) > skin);
         }
         return any(far);
@@ -335,8 +443,8 @@ private:
         const Real su = abs_of(get(OfBlock::sine, upper)), cu = abs_of(one - get(OfBlock::versine, upper));
         const Real bl = get(OfBlock::half_width, lower), hl = get(OfBlock::half_height, lower);
         const Real bu = get(OfBlock::half_width, upper), hu = get(OfBlock::half_height, upper);
-        const Real x = abs_of(get(OfJoint::reference_x, joint) + (get(OfBlock::x, upper) - get(OfBlock::x, lower)));
-        const Real y = abs_of(get(OfJoint::height, joint) + (get(OfBlock::y, upper) - get(OfBlock::y, lower)));
+        const Real x = abs_of(get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower)));
+        const Real y = abs_of(get(OfJoint::height, joint) + (centre_y(upper) - centre_y(lower)));
         const Real reach_x = fma(bl, cl, fma(hl, sl, fma(bu, cu, hu * su)));
         const Real reach_y = fma(bl, sl, fma(hl, cl, fma(bu, su, hu * cu)));
         const Real carried = abs_of(get(OfJoint::spring, joint)) + abs_of(get(OfJoint::shear_force, joint)) +
@@ -393,16 +501,27 @@ private:
     STYLOBATE_INLINE void update(int step, bool audit) const
     {
         const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
-        const Real base = L::load(&b_.base_table[step * L::count]);
+        const Real base = this->base(step);
         const Real push = gx - base;
+        [[maybe_unused]] auto pull = [&] {
+            if constexpr (Mechanism::extended)
+                return ExtendedPull<Real>(*this, step);
+            else
+                return 0;
+        }();
         Real kinetic(0.0), potential(0.0), momentum(0.0);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             const Real dx = get(OfBlock::dx, i), dy = get(OfBlock::dy, i), dtheta = get(OfBlock::dtheta, i);
             const Real x = get(OfBlock::x, i), y = get(OfBlock::y, i);
             const Real per_mass = get(OfBlock::dt2_per_mass, i), mass = get(OfBlock::mass, i);
-            const Real ex = fma(per_mass, get(OfBlock::force_x, i), dx + push);
-            const Real ey = fma(per_mass, get(OfBlock::force_y, i), dy + gy);
-            const Real etheta = fma(get(OfBlock::dt2_per_inertia, i), get(OfBlock::moment, i), dtheta);
+            Real ex, ey, etheta;
+            if constexpr (Mechanism::extended) {
+                pull.step(i, dx, dy, dtheta, ex, ey, etheta);
+            } else {
+                ex = fma(per_mass, get(OfBlock::force_x, i), dx + push);
+                ey = fma(per_mass, get(OfBlock::force_y, i), dy + gy);
+                etheta = fma(get(OfBlock::dt2_per_inertia, i), get(OfBlock::moment, i), dtheta);
+            }
             momentum = fma(mass, dx, momentum);
             if (audit) {
                 const Real twice = fma(dx, ex, dy * ey);
@@ -417,7 +536,12 @@ private:
             put(OfBlock::theta, i, get(OfBlock::theta, i) + etheta);
         }
         const Real both = get(OfRealization::base_step) + base;
-        put(OfRealization::base_energy, fnma(both, momentum, get(OfRealization::base_energy)));
+        Real base_energy = fnma(both, momentum, get(OfRealization::base_energy));
+        if constexpr (Mechanism::extended) {
+            base_energy = base_energy + pull.drive_energy();
+            pull.end();
+        }
+        put(OfRealization::base_energy, base_energy);
         put(OfRealization::base_step, base);
         put(OfRealization::peak_top, max_of(get(OfRealization::peak_top), abs_of(get(OfBlock::x, topology_.top))));
         put(OfRealization::top_path, get(OfRealization::top_path) + abs_of(get(OfBlock::dx, topology_.top)));
@@ -428,19 +552,16 @@ private:
     }
 
     const Topology& topology_;
-    const Bundle b_;
-    const typename Mechanism::State& mechanism_;
 };
 
 /// Runs steps `first` to `last - 1` of the chunk for all realizations of the bundle.
 template <class Real, class Mechanism = Baseline>
-void run_steps(const Topology& topology, const Bundle& bundle, int first, int last,
-               const typename Mechanism::State& state = {})
+void run_steps(const Topology& topology, const Bundle& bundle, int first, int last)
 {
     if (topology.watched > 0)
-        Stepper<Real, Mechanism, true>(topology, bundle, state).run(first, last);
+        Stepper<Real, Mechanism, true>(topology, bundle).run(first, last);
     else
-        Stepper<Real, Mechanism, false>(topology, bundle, state).run(first, last);
+        Stepper<Real, Mechanism, false>(topology, bundle).run(first, last);
 }
 
 } // namespace stylobate

@@ -4,6 +4,8 @@
 /// The list begins with the beds, on which blocks lie at rest: they are worked on in every step. Behind them come the
 /// watched pairs, blocks that lie on no common bed but may meet: they are worked on only while they are close.
 
+#include "kernels/model.hpp"
+
 namespace stylobate {
 
 struct TopologyJoint {
@@ -21,6 +23,7 @@ struct Topology {
     int joints = 0;
     const TopologyJoint* joint = nullptr; ///< (joints)
     int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
+    Model model;                          ///< which step is run, and whether the bundle has the extensions' rows
     int beds() const { return joints - watched; }
     int free_blocks() const { return blocks - fixed; }
 };

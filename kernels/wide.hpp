@@ -96,6 +96,21 @@ STYLOBATE_INLINE Wide<Arch> turn_sign(Wide<Arch> a, Wide<Arch> sign)
 {
     return a.v ^ (sign.v & typename Wide<Arch>::Register(-0.0));
 }
+template <class Arch>
+STYLOBATE_INLINE Wide<Arch> power_of_two(Wide<Arch> k)
+{
+    using Bits = xsimd::batch<std::uint64_t, Arch>;
+    const Wide<Arch> moved = k + Wide<Arch>(0x1p52 + 1023);
+    return xsimd::bitwise_cast<typename Wide<Arch>::Register>(xsimd::bitwise_cast<Bits>(moved.v) << 52);
+}
+template <class Arch>
+STYLOBATE_INLINE Wide<Arch> exponent_of(Wide<Arch> a)
+{
+    using Bits = xsimd::batch<std::uint64_t, Arch>;
+    const Bits biased = xsimd::bitwise_cast<Bits>(a.v) >> 52;
+    const Bits whole = xsimd::bitwise_cast<Bits>(typename Wide<Arch>::Register(0x1p52));
+    return Wide<Arch>(xsimd::bitwise_cast<typename Wide<Arch>::Register>(biased | whole)) - Wide<Arch>(0x1p52 + 1023);
+}
 /// True if any realization of the register is meant.
 template <class T, class Arch>
 STYLOBATE_INLINE bool any(xsimd::batch_bool<T, Arch> mask)

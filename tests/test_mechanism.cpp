@@ -1,91 +1,146 @@
-/// The place for extensions of the model: one that is neutral gives the baseline's bits, one that is not changes them.
+/// Extensions of the model as a whole: neutral ones give the baseline's bits; others the same ones on every instruction
+/// set and beside any neighbour.
 
-#include "kernels/step.hpp"
+#include "tests/mechanism_runs.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <vector>
+#include <functional>
+#include <string>
 
 using namespace stylobate;
+using namespace stylobate::model;
 
 namespace {
 
-/// Friction of one joint times a factor: the smallest extension there is.
-struct OneJointsFriction {
-    struct State {
-        int joint = 0;
-        double factor = 1; // neutral
-    };
-    template <class Real>
-    static ContactForce<Real> force(const State& state, int joint, JointLaw<Real> law, Real area, Real length,
-                                    Real closing, Real sliding, Real spring)
-    {
-        law.mu = law.mu * Real(joint == state.joint ? state.factor : 1.0);
-        return contact_force(law, area, length, closing, sliding, spring);
-    }
-};
-
-constexpr int drums = 4;
-
-/// A column of drums on a base that is jerked away under it, after some steps.
-template <class Mechanism>
-std::vector<double> shaken_column(const typename Mechanism::State& state)
+/// Six uneven drums that rock and slide.
+Realization shaken_drums(unsigned seed, double pga_m_s2)
 {
-    std::vector<TopologyJoint> joints;
-    for (int i = 0; i < drums; ++i)
-        joints.push_back({i, i + 1});
-    const Topology topology{drums + 1, 1, drums, drums, joints.data()};
-    std::vector<double> memory(bundle_registers(topology), 0.0);
-    const Bundle b = bind_bundle(topology, 1, memory.data());
-    const double dt = 2e-5, mass = 0.1355, width = 0.048, height = 0.029;
-    for (int i = 0; i <= drums; ++i) {
-        b.at(OfBlock::half_width, i, 0) = width / 2;
-        b.at(OfBlock::half_height, i, 0) = height / 2;
-        b.at(OfBlock::mass, i, 0) = mass;
-        b.at(OfBlock::inertia, i, 0) = mass * (width * width + height * height) / 12;
-        b.at(OfBlock::y, i, 0) = -1e-6 * i;
-        if (i > 0) {
-            b.at(OfBlock::dt2_per_mass, i, 0) = dt * dt / mass;
-            b.at(OfBlock::dt2_per_inertia, i, 0) = dt * dt / b.at(OfBlock::inertia, i, 0);
-        }
-    }
-    for (int j = 0; j < drums; ++j) {
-        b.at(OfJoint::height, j, 0) = height;
-        b.at(OfJoint::depth_limit, j, 0) = 0.001;
-        b.at(OfJoint::K_n, j, 0) = 1e8;
-        b.at(OfJoint::K_t, j, 0) = 4.8e6;
-        b.at(OfJoint::per_K_t, j, 0) = 1 / 4.8e6;
-        b.at(OfJoint::C_n_per_dt, j, 0) = 160 / dt;
-        b.at(OfJoint::C_t_per_dt, j, 0) = 160 / dt;
-        b.at(OfJoint::mu, j, 0) = 0.3;
-    }
-    b.at(OfRealization::gravity_dy, 0) = -9.81 * dt * dt;
-    for (int k = 0; k < chunk_steps; ++k)
-        b.base_table[k] = 6.0 * dt * dt;
-    for (int chunk = 0; chunk < 40; ++chunk)
-        run_steps<double, Mechanism>(topology, b, 0, chunk_steps, state);
-    return memory;
+    Realization r = stack(uneven_drums(seed), {1e8, 0.1, 0.3}, 6e-5);
+    r.frequency_hz = 4;
+    r.pga_m_s2 = pga_m_s2;
+    return r;
 }
 
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b)
+/// A mechanism on its own, at a size that shows.
+struct Case {
+    std::string name;
+    std::function<void(Realization&)> set;
+};
+
+void each_joint(Realization& r, const std::function<void(JointExtension&)>& set)
 {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+    for (int j = 0; j < r.beds(); ++j)
+        set(r.joints[static_cast<std::size_t>(j)].extension);
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    const auto joint = [&](const char* name, void (*set)(JointExtension&)) {
+        all.push_back({name, [set](Realization& r) { each_joint(r, set); }});
+    };
+    joint("stribeck", [](JointExtension& e) {
+        e.dynamic_ratio = 0.6;
+        e.stribeck_velocity_m_s = 0.02;
+    });
+    joint("friction_wear", [](JointExtension& e) { e.wear_per_m = 5; });
+    joint("adhesion", [](JointExtension& e) { e.adhesion_n_m = 20; });
+    joint("dowel", [](JointExtension& e) {
+        e.dowel_stiffness_n_m = 1e5;
+        e.dowel_yield_n = 2;
+        e.dowel_gap_m = 1e-4;
+    });
+    joint("hertz", [](JointExtension& e) {
+        e.force_exponent = 1.4;
+        e.reference_overlap_m2 = 5e-8;
+    });
+    joint("rate_damping", [](JointExtension& e) { e.rate_s_m = 0.5; });
+    joint("face_damping", [](JointExtension& e) { e.face_damping = 0.7; });
+    joint("corner_loss", [](JointExtension& e) {
+        e.chip_left_m = 0.002;
+        e.chip_right_m = 0.001;
+    });
+    joint("corner_wear", [](JointExtension& e) { e.corner_wear_m_rad = 0.003; });
+    joint("wedge", [](JointExtension& e) { e.wedge_rad = 0.002; });
+    all.push_back({"drag", [](Realization& r) {
+                       for (Block& block : r.blocks)
+                           block.extension.drag_n_s2_m2 = 0.5;
+                   }});
+    all.push_back({"eccentricity", [](Realization& r) {
+                       for (Block& block : r.blocks)
+                           block.extension.eccentricity_m = block.fixed ? 0 : 0.001;
+                   }});
+    all.push_back({"table_pitch", [](Realization& r) { r.base.pitch_rad_s2_m = 1e-3; }});
+    all.push_back({"vertical_motion", [](Realization& r) { r.base.vertical_ratio = 0.3; }});
+    all.push_back({"two_corner", [](Realization& r) { r.form = ContactForm::two_corner; }});
+    all.push_back({"points", [](Realization& r) { r.form = ContactForm::points; }});
+    return all;
 }
 
 } // namespace
 
-TEST(Mechanism, NeutralOneGivesTheBaselinesBits)
+TEST(Mechanism, NeutralOnesGiveTheBaselinesBits)
 {
-    const std::vector<double> want = shaken_column<Baseline>({});
-    EXPECT_TRUE(same_bits(shaken_column<OneJointsFriction>({2, 1.0}), want));
+    const Study study = harmonic(8, 1);
+    std::vector<Realization> baseline;
+    for (unsigned seed = 1; seed <= 8; ++seed)
+        baseline.push_back(shaken_drums(seed, 1.5 + 0.5 * seed));
+    std::vector<Realization> neutral = baseline;
+    for (Realization& r : neutral)
+        r.extended = true;
+    const std::vector<Bits> want = run_bits(Isa::scalar, study, baseline, 300);
+    for (const Isa isa : usable_isas()) {
+        const std::vector<Bits> got = run_bits(isa, study, neutral, 300);
+        for (std::size_t i = 0; i < got.size(); ++i)
+            EXPECT_EQ(got[i], want[i]) << to_string(isa) << ' ' << i;
+    }
 }
 
-TEST(Mechanism, OneThatIsNotNeutralActsWhereItIs)
+TEST(Mechanism, NeutralOnesGiveTheBaselinesBitsInAColonnadeThatFalls)
 {
-    const std::vector<double> baseline = shaken_column<Baseline>({});
-    for (int joint = 0; joint < drums; ++joint) {
-        const std::vector<double> weak = shaken_column<OneJointsFriction>({joint, 0.5});
-        EXPECT_FALSE(same_bits(weak, baseline)) << joint;
+    Study study = harmonic(4, 0.5);
+    study.outcome.follow = Follow::rest;
+    Bed bed;
+    bed.xi = 0.1;
+    Realization r = colonnade(paper_colonnade(2), bed, 3e-5);
+    r.frequency_hz = 2;
+    r.pga_m_s2 = 12;
+    Realization neutral = r;
+    neutral.extended = true;
+    const std::vector<Bits> want = run_bits(best_isa(), study, {r}, 1500);
+    EXPECT_EQ(run_bits(best_isa(), study, {neutral}, 1500), want);
+    EXPECT_EQ(run_bits(Isa::scalar, study, {neutral}, 1500), want);
+}
+
+TEST(Mechanism, EachHasTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
+{
+    const Study study = harmonic(6, 1);
+    for (const ContactForm form : {ContactForm::area, ContactForm::two_corner, ContactForm::points}) {
+        std::vector<Realization> all;
+        std::vector<std::string> names;
+        Realization plain = shaken_drums(7, 3);
+        plain.extended = true;
+        plain.form = form;
+        plain.step_s = 3e-5; // safe for all
+        for (const Case& c : cases()) {
+            Realization r = plain;
+            c.set(r);
+            if (r.form != form || (form != ContactForm::area && c.name == "face_damping")) // their dashpots are there
+                continue;
+            all.push_back(r);
+            names.push_back(c.name);
+        }
+        std::vector<Bits> want;
+        for (const Realization& r : all)
+            want.push_back(run_bits(Isa::scalar, study, {r}, 200).front());
+        const Bits neutral = run_bits(Isa::scalar, study, {plain}, 200).front();
+        for (std::size_t i = 0; i < all.size(); ++i)
+            EXPECT_TRUE(want[i] != neutral || names[i] == "two_corner" || names[i] == "points") << names[i];
+        for (const Isa isa : usable_isas()) {
+            const std::vector<Bits> got = run_bits(isa, study, all, 200);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                EXPECT_EQ(got[i], want[i]) << names[i] << ' ' << to_string(isa);
+        }
     }
 }

@@ -1,0 +1,29 @@
+#pragma once
+/// A bond of the faces against sliding, until they first slip or part.
+///
+///   |F_T| <= mu F_N + c L,  L: contact length
+///
+/// Parameter: c [N/m].  Neutral: 0.  Acts in the friction of a bed; there is no tension across the faces.
+/// Signature: the first slip alone comes late, and with a jump (the friction spring lets go of c L).
+/// Confounded with mu where a run has one slip only.
+
+#include "kernels/real.hpp"
+
+namespace stylobate {
+
+/// @param broken 0 while the bond is whole, then 1
+/// @return the bound on |F_T| [N]
+template <class Real>
+STYLOBATE_INLINE Real adhesion_limit(Real friction, Real adhesion, Real length, Real broken)
+{
+    return fma(adhesion * (Real(1.0) - broken), length, friction);
+}
+
+/// @param excess what the friction spring had to give up in this step [N]
+template <class Real, class Mask>
+STYLOBATE_INLINE Real adhesion_broken(Real broken, Mask pressed, Real excess)
+{
+    return select(pressed, select(excess > Real(0.0), Real(1.0), broken), Real(1.0));
+}
+
+} // namespace stylobate

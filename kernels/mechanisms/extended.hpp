@@ -1,0 +1,282 @@
+#pragma once
+/// How the mechanisms act together: the overlap of a bed, its force, its dowel, and what moves a block besides.
+///
+/// What costs much is left out where it is neutral in all realizations of the register: at its neutral value it gives
+/// the same bits, so that a neighbour's mechanism changes nothing.
+
+#include "kernels/contact.hpp"
+#include "kernels/mechanism.hpp"
+#include "kernels/mechanisms/adhesion.hpp"
+#include "kernels/mechanisms/corner_loss.hpp"
+#include "kernels/mechanisms/corner_wear.hpp"
+#include "kernels/mechanisms/dowel.hpp"
+#include "kernels/mechanisms/drag.hpp"
+#include "kernels/mechanisms/eccentricity.hpp"
+#include "kernels/mechanisms/face_damping.hpp"
+#include "kernels/mechanisms/friction_wear.hpp"
+#include "kernels/mechanisms/hertz.hpp"
+#include "kernels/mechanisms/points.hpp"
+#include "kernels/mechanisms/rate_damping.hpp"
+#include "kernels/mechanisms/stribeck.hpp"
+#include "kernels/mechanisms/table_pitch.hpp"
+#include "kernels/mechanisms/two_corner.hpp"
+#include "kernels/mechanisms/vertical_motion.hpp"
+#include "kernels/mechanisms/wedge.hpp"
+#include "kernels/rows.hpp"
+
+namespace stylobate {
+
+/// The faces of a bed as the mechanisms left them.
+template <class Real>
+struct BedFaces {
+    PairSizes<Real> sizes;
+    Real depth_limit;
+    FaceLoss<Real> loss;
+    Real wedge_sine, wedge_versine;
+    Real per_root_depth; ///< of the form `points`
+};
+
+/// Overlap of a bed in the lower block's frame; `points` are in the frame of what is left of its face.
+/// @param general does the same for any position, in the lanes where the form does not hold:
+///        general(place, sizes, fits, overlap, points)
+template <ContactForm form, class Real, int count, class Mask, class General>
+STYLOBATE_INLINE Overlap<Real> bed_overlap(const Placement<Real>& place, const BedFaces<Real>& faces, Mask fits,
+                                           FormPoints<Real, count>& points, const General& general)
+{
+    const Placement<Real> turned = onto_wedge(place, faces.wedge_sine, faces.wedge_versine);
+    const ChippedPair<Real> pair =
+        chipped_pair(turned, faces.sizes.lower_half_width, faces.sizes.upper_half_width, faces.loss);
+    Overlap<Real> o;
+    if constexpr (form == ContactForm::two_corner)
+        o = two_corner_overlap(pair.place, pair.lower_half_width, pair.upper_half_width, faces.depth_limit, points,
+                               fits);
+    else if constexpr (form == ContactForm::points)
+        o = points_overlap(pair.place, pair.lower_half_width, pair.upper_half_width, faces.depth_limit,
+                           faces.per_root_depth, points, fits);
+    else
+        o = stacked_overlap(pair.place, pair.lower_half_width, pair.upper_half_width, faces.depth_limit, fits);
+    if (any(!fits)) [[unlikely]]
+        general(pair.place,
+                PairSizes<Real>{pair.lower_half_width, faces.sizes.lower_half_height, pair.upper_half_width,
+                                faces.sizes.upper_half_height},
+                fits, o, points);
+    o.moment_x = fma(pair.shift, o.area, o.moment_x);
+    off_wedge(o, faces.wedge_sine, faces.wedge_versine);
+    return o;
+}
+
+/// The general overlap in the lanes where a form does not hold; its points are then the ends of the chord.
+template <class Real, int count, class Mask>
+STYLOBATE_INLINE void take_general(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits,
+                                   Overlap<Real>& o, FormPoints<Real, count>& points)
+{
+    const Overlap<Real> g = general_overlap(place, sizes);
+    o.area = select(fits, o.area, g.area);
+    o.moment_x = select(fits, o.moment_x, g.moment_x);
+    o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
+    o.normal_x = select(fits, o.normal_x, g.normal_x);
+    o.normal_y = select(fits, o.normal_y, g.normal_y);
+    o.elastic = select(fits, o.elastic, g.elastic);
+    if constexpr (count > 0) {
+        const Real zero(0.0), area = max_of(g.area, Real(1e-300));
+        const Real length = sqrt_of(fma(g.normal_x, g.normal_x, g.normal_y * g.normal_y));
+        const Real right = lever_share(area, length, place.sine), middle = g.moment_x / area;
+        for (int i = 0; i < count; ++i) {
+            const bool end = i == 0 || i + 1 == count;
+            const Real share = end ? (i == 0 ? Real(1.0) - right : right) : zero;
+            const Real arm = end ? (i == 0 ? zero - right * length : (Real(1.0) - right) * length) : zero;
+            points.x[i] = select(fits, points.x[i], middle + arm);
+            points.area[i] = select(fits, points.area[i], share * area);
+            points.weight[i] = select(fits, points.weight[i], end ? Real(0.5) : zero);
+        }
+        points.moment = select(fits, points.moment, g.moment_x);
+    }
+}
+
+/// What the faces of a bed do in this step.
+template <class Real>
+struct BedMotion {
+    Real area, chord;
+    Real closing, sliding; ///< at the centroid [m]
+    Real turning;          ///< upper rotation - lower rotation [rad]
+    Real sine;             ///< of the relative rotation
+    Real cosine;
+};
+
+template <class Real>
+struct BedForce {
+    ContactForce<Real> contact;
+    Real couple; ///< on the upper block [N m]
+    Real mu;     ///< in this step
+};
+
+/// The contact law of a bed with its mechanisms.
+/// @param points shares and arms of the form's springs, in `FormPoints::area` and `x`
+template <class Real, int count>
+STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real>& rows, int joint, const JointLaw<Real>& law, Real spring,
+                                          const BedMotion<Real>& m, const FormPoints<Real, count>& points)
+{
+    using J = OfJointExtension;
+    const Real zero(0.0), one(1.0);
+    const auto pressed = m.area > zero;
+
+    // normal
+    Real elastic = law.K_n * m.area;
+    const Real exponent = rows.get(J::exponent, joint);
+    if (any(exponent != zero))
+        elastic = elastic * hertz_factor(exponent, rows.get(J::per_reference, joint), m.area);
+    const Real C_n =
+        rate_coefficient(rows.get(J::rate_per_dt, joint), elastic, fma(law.C_n_chord, m.chord, law.C_n_per_dt));
+    const Real bed = fma(C_n, m.closing, elastic);
+    Real F_n = max_of(bed, zero), couple = zero;
+    const Real dashpot = rows.get(J::face_dashpot, joint);
+    if constexpr (count > 0) {
+        FacePoints<Real, count> face;
+        for (int i = 0; i < count; ++i) {
+            face.share[i] = points.area[i];
+            face.arm[i] = points.x[i];
+            face.dashpot[i] = select(pressed, points.weight[i] * dashpot, zero);
+        }
+        const FaceForce<Real> f = face_force(face, bed, m.closing, m.turning);
+        F_n = f.normal;
+        couple = f.couple;
+    } else if (any(dashpot != zero)) {
+        const Real wedge =
+            fnma(m.cosine, rows.get(J::wedge_sine, joint), m.sine * (one - rows.get(J::wedge_versine, joint)));
+        const Real right = lever_share(select(pressed, m.area, one), m.chord, wedge);
+        const Real c = select(pressed, Real(0.5) * dashpot * m.chord, zero);
+        const FacePoints<Real, 2> face{{one - right, right}, {zero - right * m.chord, (one - right) * m.chord}, {c, c}};
+        const FaceForce<Real> f = face_force(face, bed, m.closing, m.turning);
+        F_n = select(dashpot > zero, f.normal, F_n);
+        couple = select((dashpot > zero) & pressed, f.couple, zero);
+    }
+
+    // friction
+    Real mu = law.mu;
+    const Real drop = rows.get(J::friction_drop, joint);
+    if (any(drop != zero))
+        mu = mu * stribeck_factor(drop, rows.get(J::per_stribeck_step, joint), m.sliding);
+    mu = mu * wear_factor(rows.get(J::wear, joint), rows.get(J::slip, joint));
+    const Real broken = rows.get(J::broken, joint);
+    const Real limit = adhesion_limit(mu * F_n, rows.get(J::adhesion, joint), m.chord, broken);
+    ContactForce<Real> contact = friction_force(law, select(pressed, limit, zero), m.chord, m.sliding, spring);
+    contact.normal = F_n;
+    rows.put(J::broken, joint, adhesion_broken(broken, pressed, contact.excess));
+    return {contact, couple, mu};
+}
+
+/// The dowel of a bed: adds to the sums of forces of its two blocks.
+/// @param place of the upper block's bottom face, from the lower one;  @param apart_x, apart_y from the lower centre of
+///        mass to the upper one, frame of the base
+/// @return 2 x the work of this step against it [J]
+template <class Real>
+STYLOBATE_INLINE Real add_dowel(const Rows<Real>& rows, int joint, int lower, int upper, const Placement<Real>& place,
+                                Real apart_x, Real apart_y)
+{
+    using J = OfJointExtension;
+    const Real stiffness = rows.get(J::dowel_stiffness, joint);
+    if (!any(stiffness != Real(0.0)))
+        return Real(0.0);
+    const Real offset = place.x - rows.get(OfJoint::reference_x, joint);
+    const DowelForce<Real> f =
+        dowel_force(stiffness, rows.get(J::per_dowel_stiffness, joint), rows.get(J::dowel_yield, joint),
+                    rows.get(J::dowel_gap, joint), offset, rows.get(J::dowel_set, joint));
+    const auto in = place.depth + Real(dowel_reach) * rows.get(OfJoint::depth_limit, joint) > Real(0.0);
+    const Real force = select(in, f.force, Real(0.0));
+    const Real work = (force + rows.get(J::dowel_force, joint)) * (offset - rows.get(J::dowel_at, joint));
+    rows.put(J::dowel_set, joint, select(in, f.set, rows.get(J::dowel_set, joint)));
+    rows.put(J::dowel_force, joint, force);
+    rows.put(J::dowel_at, joint, offset);
+
+    const Real sine = rows.get(OfBlock::sine, lower), cosine = Real(1.0) - rows.get(OfBlock::versine, lower);
+    const Real arm_x = place.x - rows.get(OfBlockExtension::eccentricity, lower);
+    const Real arm_y = rows.get(OfBlock::half_height, lower) - place.depth;
+    const Real lx = fms(arm_x, cosine, arm_y * sine), ly = fma(arm_x, sine, arm_y * cosine);
+    const Real ux = lx - apart_x, uy = ly - apart_y;
+    const Real fx = force * cosine, fy = force * sine; // on the lower block
+    rows.put(OfBlock::force_x, lower, rows.get(OfBlock::force_x, lower) + fx);
+    rows.put(OfBlock::force_y, lower, rows.get(OfBlock::force_y, lower) + fy);
+    rows.put(OfBlock::moment, lower, rows.get(OfBlock::moment, lower) + fms(lx, fy, ly * fx));
+    rows.put(OfBlock::force_x, upper, rows.get(OfBlock::force_x, upper) - fx);
+    rows.put(OfBlock::force_y, upper, rows.get(OfBlock::force_y, upper) - fy);
+    rows.put(OfBlock::moment, upper, rows.get(OfBlock::moment, upper) - fms(ux, fy, uy * fx));
+    return work;
+}
+
+/// What moves the blocks in one step besides the contacts, times dt2.
+template <class Real>
+class ExtendedPull {
+public:
+    STYLOBATE_INLINE ExtendedPull(const Rows<Real>& rows, int step)
+        : rows_(rows), pitch_{rows.get(OfPitch::angle, step), rows.get(OfPitch::increment, step),
+                              rows.get(OfPitch::second, step)},
+          gravity_x_(rows.get(OfRealization::gravity_dx)), gravity_y_(rows.get(OfRealization::gravity_dy)),
+          base_(rows.base(step)), vertical_(rows.vertical(step)), base_dx_(rows.get(OfRealizationExtension::base_dx)),
+          base_dy_(rows.get(OfRealizationExtension::base_dy)), level_x_(gravity_x_ - base_),
+          level_y_(vertical_pull(gravity_y_, vertical_)), x_(level_x_), y_(level_y_)
+    {
+        const Real zero(0.0);
+        pitched_ = any((pitch_.angle != zero) | (pitch_.increment != zero) | (pitch_.second != zero));
+        if (pitched_) {
+            const Pull<Real> turned = turned_pull(pitch_, level_x_, level_y_);
+            x_ = turned.x;
+            y_ = turned.y;
+        }
+        rows.put(OfRealizationExtension::base_dx, base_dx_ + base_);
+        rows.put(OfRealizationExtension::base_dy, base_dy_ + vertical_);
+    }
+
+    /// New increments of block `i` that had dx, dy, dtheta in the last step.
+    STYLOBATE_INLINE void step(int i, Real dx, Real dy, Real dtheta, Real& ex, Real& ey, Real& etheta)
+    {
+        using B = OfBlockExtension;
+        const Real mass = rows_.get(OfBlock::mass, i), inertia = rows_.get(OfBlock::inertia, i);
+        Real px = x_ + rows_.get(B::pull_x, i), py = y_ + rows_.get(B::pull_y, i);
+        Real ptheta = rows_.get(B::pull_theta, i);
+        Real lab_x = dx + base_dx_, lab_y = dy + base_dy_;
+        if (pitched_) {
+            const Real x = rows_.get(B::reference_x, i) + rows_.get(OfBlock::x, i);
+            const Real y = rows_.get(B::reference_y, i) + rows_.get(OfBlock::y, i);
+            const Pull<Real> turning = turning_pull(pitch_, x, y, dx, dy);
+            px = px + turning.x;
+            py = py + turning.y;
+            ptheta = ptheta - pitch_.second;
+            lab_x = fnma(pitch_.increment, y, lab_x);
+            lab_y = fma(pitch_.increment, x, lab_y);
+        }
+        Real slow_x(0.0), slow_y(0.0);
+        const Real drag = rows_.get(B::drag_per_mass, i);
+        const bool dragged = any(drag != Real(0.0));
+        if (dragged) {
+            const Real factor = drag_factor(drag, lab_x, lab_y);
+            slow_x = factor * lab_x;
+            slow_y = factor * lab_y;
+        }
+        ex = fma(rows_.get(OfBlock::dt2_per_mass, i), rows_.get(OfBlock::force_x, i), (dx + px) - slow_x);
+        ey = fma(rows_.get(OfBlock::dt2_per_mass, i), rows_.get(OfBlock::force_y, i), (dy + py) - slow_y);
+        etheta = fma(rows_.get(OfBlock::dt2_per_inertia, i), rows_.get(OfBlock::moment, i), dtheta + ptheta);
+        if (dragged)
+            drag_energy_ = fma(mass, fma(slow_x, dx + ex, slow_y * (dy + ey)), drag_energy_);
+        // beyond what the baseline's balance has: gravity and the base in the frame at rest
+        drive_energy_ = fma(mass, fma(px - level_x_, dx + ex, (py - gravity_y_) * (dy + ey)),
+                            fma(inertia * ptheta, dtheta + etheta, drive_energy_));
+    }
+
+    /// 2 dt2 x the work of the step's pull on all blocks.
+    STYLOBATE_INLINE Real drive_energy() const { return drive_energy_; }
+    STYLOBATE_INLINE void end() const
+    {
+        rows_.put(OfRealizationExtension::drag_energy, rows_.get(OfRealizationExtension::drag_energy) + drag_energy_);
+    }
+
+private:
+    const Rows<Real>& rows_;
+    const Pitch<Real> pitch_;
+    const Real gravity_x_, gravity_y_, base_, vertical_, base_dx_, base_dy_;
+    const Real level_x_, level_y_; ///< gravity and the base's acceleration, in the level frame
+    Real x_, y_;                   ///< the same in the base's
+    bool pitched_ = false;
+    Real drag_energy_{0.0}, drive_energy_{0.0};
+};
+
+} // namespace stylobate

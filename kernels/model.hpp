@@ -1,0 +1,23 @@
+#pragma once
+/// Which model a bundle's step follows: the paper's, or that with extensions (`mechanisms/`), and how faces carry.
+
+#include <cstdint>
+
+namespace stylobate {
+
+/// How the faces of a bed carry (`kernels/mechanisms/README.md`). Pairs that are no bed meet by their area.
+enum class ContactForm : std::uint8_t {
+    area,       ///< the paper's: overlap area, at its centroid
+    two_corner, ///< springs at the two ends of the face
+    points      ///< Hertz-like springs at points along the face
+};
+
+struct Model {
+    bool mechanisms = false; ///< an extension of a joint, a block or the base may be other than neutral
+    ContactForm form = ContactForm::area;
+    /// Whether the bundle has the rows of the extensions, and the extended step runs.
+    bool extended() const { return mechanisms || form != ContactForm::area; }
+    friend bool operator==(const Model&, const Model&) = default;
+};
+
+} // namespace stylobate

@@ -1,0 +1,72 @@
+#pragma once
+/// The rows of a bundle, register by register.
+
+#include "kernels/bundle.hpp"
+#include "kernels/real.hpp"
+
+namespace stylobate {
+
+template <class Real>
+class Rows {
+public:
+    explicit Rows(const Bundle& bundle) : b_(bundle) {}
+
+    STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
+    STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
+    STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * L::count]); }
+    STYLOBATE_INLINE Real get(OfNeighbourhood::Field f, int i) const
+    {
+        return L::load(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)]);
+    }
+    STYLOBATE_INLINE Real get(OfBlockExtension::Field f, int i) const
+    {
+        return L::load(&b_.block_extensions[row(i, OfBlockExtension::count, f)]);
+    }
+    STYLOBATE_INLINE Real get(OfJointExtension::Field f, int i) const
+    {
+        return L::load(&b_.joint_extensions[row(i, OfJointExtension::count, f)]);
+    }
+    STYLOBATE_INLINE Real get(OfRealizationExtension::Field f) const
+    {
+        return L::load(&b_.realization_extensions[f * L::count]);
+    }
+    STYLOBATE_INLINE Real get(OfPitch::Field f, int step) const
+    {
+        return L::load(&b_.pitch_table[row(step, OfPitch::count, f)]);
+    }
+    STYLOBATE_INLINE Real base(int step) const { return L::load(&b_.base_table[step * L::count]); }
+    STYLOBATE_INLINE Real vertical(int step) const { return L::load(&b_.vertical_table[step * L::count]); }
+
+    STYLOBATE_INLINE void put(OfBlock::Field f, int i, Real v) const
+    {
+        L::store(&b_.blocks[row(i, OfBlock::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfJoint::Field f, int i, Real v) const
+    {
+        L::store(&b_.joints[row(i, OfJoint::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * L::count], v); }
+    STYLOBATE_INLINE void put(OfNeighbourhood::Field f, int i, Real v) const
+    {
+        L::store(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfJointExtension::Field f, int i, Real v) const
+    {
+        L::store(&b_.joint_extensions[row(i, OfJointExtension::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfRealizationExtension::Field f, Real v) const
+    {
+        L::store(&b_.realization_extensions[f * L::count], v);
+    }
+
+protected:
+    using L = Lanes<Real>;
+    STYLOBATE_INLINE static long row(int i, int fields, int f)
+    {
+        return (static_cast<long>(i) * fields + f) * L::count;
+    }
+
+    const Bundle b_;
+};
+
+} // namespace stylobate
