@@ -277,8 +277,8 @@ std::vector<StructureFit> BalanceFit::describe(const std::vector<Cause>& given) 
 
     for (int block = -1; block < specimen_.blocks(); ++block) {
         const std::string who = block < 0 ? "each block" : fmt::format("block {}", block);
-        const auto force = [&](Coordinate to, const char* depends_on, const char* on, auto&& value) {
-            try_column({block, coordinate_names[static_cast<std::size_t>(to)], depends_on,
+        const auto force = [&](Component to, const char* depends_on, const char* on, auto&& value) {
+            try_column({block, component_names[static_cast<std::size_t>(to)], depends_on,
                         fmt::format("a {} on {} that goes with {}",
                                     to == in_x   ? "sideways force"
                                     : to == in_y ? "vertical force"
@@ -294,7 +294,7 @@ std::vector<StructureFit> BalanceFit::describe(const std::vector<Cause>& given) 
                            });
                        });
         };
-        for (const Coordinate to : {in_x, in_y}) {
+        for (const Component to : {in_x, in_y}) {
             force(to, "nothing", "nothing: it is constant", [](const LawSample&, std::size_t) { return 1.0; });
             force(to, "time", "time", [](const LawSample& s, std::size_t) { return s.time_s; });
             force(to, "velocity", "its sideways velocity",

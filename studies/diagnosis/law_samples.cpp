@@ -186,7 +186,7 @@ private:
     {
         const Eigen::Index blocks = s_.blocks(), joints = static_cast<Eigen::Index>(s_.joints.size());
         const Eigen::Index count = static_cast<Eigen::Index>(laws.size());
-        const auto at = [&](int d, Coordinate c, Eigen::Index b) {
+        const auto at = [&](int d, Component c, Eigen::Index b) {
             return track_.of(width, d, c, static_cast<int>(b), i);
         };
         // unknowns: force x, force y on the upper block and moment about the joint's corner
@@ -199,7 +199,7 @@ private:
             inertia.segment<3>(3 * b) << m * at(2, in_x, b), m * (at(2, in_y, b) + s_.gravity_m_s2),
                 m * (std::pow(s_.half_width_m[k], 2) + std::pow(s_.half_height_m[k], 2)) / 3 * at(2, in_theta, b);
             for (int d = 0; d < 3; ++d)
-                for (const Coordinate c : {in_x, in_y, in_theta})
+                for (const Component c : {in_x, in_y, in_theta})
                     motion[static_cast<std::size_t>(d)][c].push_back(at(d, c, b));
         }
         for (Eigen::Index j = 0; j < joints; ++j) {

@@ -12,8 +12,8 @@
 namespace stylobate {
 
 /// x, y or rotation of a block, as an index.
-enum Coordinate : int { in_x = 0, in_y = 1, in_theta = 2 };
-inline constexpr std::array coordinate_names = {"x", "y", "theta"};
+enum Component : int { in_x = 0, in_y = 1, in_theta = 2 };
+inline constexpr std::array component_names = {"x", "y", "theta"};
 
 /// What depends on the specimen and its cameras alone.
 struct TrackScales {
@@ -47,13 +47,13 @@ public:
     bool usable(std::size_t i, int margin) const;
 
     /// Smoothed by `widths[width]`; derivative 0 to 2.
-    double of(int width, int derivative, Coordinate coordinate, int block, std::size_t i) const
+    double of(int width, int derivative, Component coordinate, int block, std::size_t i) const
     {
         return smooth_[static_cast<std::size_t>(width)][static_cast<std::size_t>(derivative)][index(coordinate, block)]
                       [i];
     }
     /// Smoothed by `rates`; derivative 0 or 1.
-    double now(int derivative, Coordinate coordinate, int block, std::size_t i) const
+    double now(int derivative, Component coordinate, int block, std::size_t i) const
     {
         return now_[static_cast<std::size_t>(derivative)][index(coordinate, block)][i];
     }

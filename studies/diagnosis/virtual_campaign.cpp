@@ -1,0 +1,225 @@
+#include "studies/diagnosis/virtual_campaign.hpp"
+
+#include "ensemble/following.hpp"
+#include "ensemble/random.hpp"
+#include "ensemble/sampler.hpp"
+#include "ensemble/specimen.hpp"
+#include "io/measured_file.hpp"
+
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::array forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
+constexpr std::array form_names = {"area", "two_corner", "points"};
+// A fallen column tells nothing more.
+constexpr double fallen = 0.6;
+
+/// Numbers of one campaign, one after the other.
+class Draws {
+public:
+    Draws(std::uint64_t seed, std::uint64_t campaign, Stream stream) : seed_(seed), campaign_(campaign), stream_(stream)
+    {
+    }
+    double uniform() { return uniform01(seed_, campaign_, stream_, next_++); }
+    double normal() { return boost::math::quantile(boost::math::normal_distribution<>(), uniform()); }
+
+private:
+    std::uint64_t seed_, campaign_;
+    Stream stream_;
+    std::uint64_t next_ = 0;
+};
+
+/// One campaign's specimen: all but where its blocks are put.
+struct DrawnSpecimen {
+    Realization realization;
+    std::string contacts;
+};
+
+Realization nominal(const Study& about, const StructureSpec& structure)
+{
+    Study study = about;
+    study.kind = StudyKind::single;
+    study.surface.reset();
+    study.realizations = 1;
+    study.perturbations.clear();
+    study.structure = structure;
+    study.excitation = ExcitationSpec{};
+    study.excitation.duration_s = 1;
+    study.initial = InitialSpec{};
+    return Sampler(study, nullptr).realization(0);
+}
+
+DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const SpecimenStructure& built,
+                            std::uint64_t seed, std::uint64_t number, const HealthyScatter& scatter)
+{
+    Draws draw(seed, number, Stream::virtual_specimen);
+    Study study = about;
+    const std::size_t form = number % forms.size();
+    study.contact.form = forms[form];
+    const double stiffness = std::exp(scatter.stiffness * draw.normal());
+    study.contact.normal_stiffness_n_m2 *= stiffness;
+    study.contact.tangential_stiffness_n_m *= stiffness;
+    const double damping =
+        scatter.least_damping * std::pow(scatter.most_damping / scatter.least_damping, draw.uniform());
+    study.contact.normal_damping_ratio = damping;
+    study.contact.tangential_damping_ratio = std::min(damping, 0.2);
+    study.contact.normal_damping_n_s_m.reset();
+    study.contact.tangential_damping_n_s_m.reset();
+    const double friction = 1 + scatter.common_friction * draw.normal();
+    const double share = draw.uniform() < 0.5 ? draw.uniform() : 1;
+    const double exponent =
+        forms[form] == ContactForm::area ? 1 + (scatter.most_exponent - 1) * draw.uniform() * draw.uniform() : 1;
+    double height = 0;
+    for (std::size_t b = 0; b < measured.specimen.rest_y_m.size(); ++b)
+        height = std::max(height, measured.specimen.rest_y_m[b]);
+    const double rate =
+        scatter.most_rate_s_m * draw.uniform() / std::sqrt(measured.specimen.gravity_m_s2 * height) * 10;
+
+    DrawnSpecimen out;
+    Realization& r = out.realization;
+    r = nominal(study, built.structure);
+    r.form = forms[form];
+    for (Joint& joint : r.joints) {
+        joint.friction *= friction * (1 + scatter.friction * draw.normal());
+        joint.extension.face_damping = share;
+        if (exponent > 1) {
+            const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+            joint.extension.force_exponent = exponent;
+            joint.extension.reference_overlap_m2 =
+                upper.mass_kg * r.gravity_m_s2 / joint.normal_stiffness_n_m2;
+        }
+        joint.extension.rate_s_m = rate;
+    }
+    for (Block& block : r.blocks) {
+        const double wider = 1 + measured.specimen.width_tolerance * draw.normal();
+        const double heavier = 1 + measured.specimen.mass_tolerance * draw.normal();
+        if (block.fixed)
+            continue;
+        block.half_width_m *= wider;
+        block.mass_kg *= heavier;
+        block.inertia_kg_m2 *= heavier * wider * wider;
+    }
+    r.extended = true;
+    out.contacts = fmt::format("{}, K_N x {:.2f}, damping {:.2f} ({:.0f} % at the ends), exponent {:.2f}",
+                               form_names[form], stiffness, damping, 100 * share, exponent);
+    return out;
+}
+
+/// Where the blocks of the specimen are at the cameras' samples, with their noise.
+void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStructure& built, const Realization& r,
+         const Motion& base, const Readings& readings, Draws& noise, MeasuredRun& run)
+{
+    const Specimen& s = measured.specimen;
+    const std::size_t columns = s.half_width_m.size(), blocks = r.blocks.size(), n = source.time_s.size();
+    const auto missing = std::numeric_limits<double>::quiet_NaN();
+    run.blocks = source.blocks;
+    run.collapsed = false;
+    run.collapse_time_s = -1;
+    std::size_t fell = n;
+    for (std::size_t i = 0; i < n && fell == n; ++i)
+        for (std::size_t b = 0; b < columns; ++b) {
+            const auto k = static_cast<std::size_t>(built.block[b]);
+            const double y = r.blocks[k].y_m + readings.y_m[i * blocks + k];
+            if (!std::isfinite(y) || y - r.blocks[k].half_height_m < fallen * (r.blocks[k].y_m - r.blocks[k].half_height_m) - 1e-9 ||
+                std::fabs(readings.theta_rad[i * blocks + k]) > 0.8)
+                fell = i;
+        }
+    if (fell < n) {
+        run.collapsed = true;
+        run.collapse_time_s = source.time_s[fell];
+    }
+    for (Series* series : {&run.blocks.x_m, &run.blocks.y_m, &run.blocks.theta_rad})
+        series->values.assign(n * columns, missing);
+    for (std::size_t i = 0; i < fell; ++i) {
+        const double t = source.time_s[i] - source.time_s.front();
+        const double at = std::clamp(t / base.dt_s, 0.0, static_cast<double>(base.displacement_m.size() - 1));
+        const auto k0 = std::min(static_cast<std::size_t>(at), base.displacement_m.size() - 2);
+        const double part = at - static_cast<double>(k0);
+        const double moved = (1 - part) * base.displacement_m[k0] + part * base.displacement_m[k0 + 1];
+        for (std::size_t b = 0; b < columns; ++b) {
+            const auto k = static_cast<std::size_t>(built.block[b]);
+            const std::size_t row = i * blocks + k, out = i * columns + b;
+            run.blocks.x_m.values[out] = built.origin_x_m + r.blocks[k].x_m + readings.x_m[row] + moved +
+                                         source.blocks.x_m.noise_sd.value_or(0) * noise.normal();
+            run.blocks.y_m.values[out] = built.origin_y_m + r.blocks[k].y_m + readings.y_m[row] +
+                                         source.blocks.y_m.noise_sd.value_or(0) * noise.normal();
+            run.blocks.theta_rad.values[out] =
+                readings.theta_rad[row] + source.blocks.theta_rad.noise_sd.value_or(0) * noise.normal();
+        }
+    }
+}
+
+} // namespace
+
+VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
+                                   std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
+                                   const RunOptions& options, Observer& observer)
+{
+    VirtualCampaigns out;
+    const SpecimenStructure built = build_specimen(measured.specimen);
+    std::vector<FollowJob> jobs;
+    std::vector<std::pair<std::size_t, std::size_t>> job_of; // campaign, run
+    std::vector<std::shared_ptr<const Motion>> base(measured.runs.size());
+    std::vector<std::shared_ptr<const std::vector<double>>> times(measured.runs.size());
+    for (std::size_t i = 0; i < measured.runs.size(); ++i) {
+        const MeasuredRun& run = measured.runs[i];
+        const bool shaken = !run.base_acceleration_m_s2.empty() || !run.base_displacement_m.empty();
+        if (!shaken || run.time_s.size() < 2 || run.blocks.x_m.empty() || run.blocks.y_m.empty() ||
+            run.blocks.theta_rad.empty())
+            continue;
+        base[i] = std::make_shared<const Motion>(base_motion_of(run));
+        auto seen = std::make_shared<std::vector<double>>();
+        for (const double t : run.time_s)
+            seen->push_back(t - run.time_s.front());
+        times[i] = seen;
+    }
+    for (std::uint64_t c = 0; c < count; ++c) {
+        const DrawnSpecimen specimen = draw_specimen(measured, study, built, seed, first + c, scatter);
+        Campaign campaign;
+        campaign.source = fmt::format("virtual campaign {}", first + c);
+        campaign.specimen = measured.specimen;
+        campaign.runs = measured.runs;
+        out.contacts.push_back(specimen.contacts);
+        Draws put(seed, first + c, Stream::virtual_placement);
+        for (std::size_t i = 0; i < measured.runs.size(); ++i) {
+            campaign.runs[i].table = {};
+            FollowJob job;
+            job.realization = specimen.realization;
+            for (Block& block : job.realization.blocks)
+                if (!block.fixed)
+                    block.x_m += measured.specimen.placement_tolerance_m * put.normal();
+            if (!base[i])
+                continue;
+            job.realization.motion = base[i];
+            job.watched_s = times[i];
+            jobs.push_back(std::move(job));
+            job_of.emplace_back(static_cast<std::size_t>(c), i);
+        }
+        out.campaigns.push_back(std::move(campaign));
+    }
+    const FollowReport report = follow(jobs, options, observer);
+    out.simulations = jobs.size();
+    out.block_steps = report.block_steps;
+    out.complete = report.complete;
+    if (!out.complete)
+        return out;
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+        const auto [c, i] = job_of[j];
+        Draws noise(seed, (first + c) * measured.runs.size() + i, Stream::camera_noise);
+        see(measured, measured.runs[i], built, jobs[j].realization, *base[i], report.results[j].watched, noise,
+            out.campaigns[c].runs[i]);
+    }
+    return out;
+}
+
+} // namespace stylobate

@@ -1,0 +1,45 @@
+#pragma once
+/// Campaigns with nothing hidden: the same specimen, motions and cameras, simulated with healthy contacts of many kinds.
+///
+/// What a diagnosis would find in them is what it may find by chance. The contacts are drawn anew for each campaign, as
+/// nobody knows those of a real specimen: their form, stiffness, exponent, damping and where it acts, and its rate. So
+/// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
+/// the blocks were put.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What is drawn, 1 sigma where it is a spread.
+struct HealthyScatter {
+    double common_friction = 0.03; ///< relative
+    double friction = 0.03;        ///< relative, of each joint
+    double stiffness = 0.7;        ///< of ln K_N
+    double least_damping = 0.03;   ///< damping ratios, uniform in the logarithm
+    double most_damping = 0.5;
+    double most_exponent = 1.4;    ///< of the force, uniform from 1; contact form "area" alone
+    double most_rate_s_m = 1.0;    ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
+};
+
+struct VirtualCampaigns {
+    std::vector<Campaign> campaigns; ///< run by run as the measured one, without what a collapse ends
+    std::vector<std::string> contacts; ///< of each, in words
+    std::uint64_t simulations = 0;
+    std::uint64_t block_steps = 0;
+    bool complete = false; ///< false: the observer stopped it
+};
+
+/// @param study contacts about which is drawn; its structure is the specimen's
+/// @param first number of the first campaign: each is a pure function of (seed, number)
+VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
+                                   std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
+                                   const RunOptions& options, Observer& observer);
+
+} // namespace stylobate
