@@ -1,5 +1,6 @@
 #include "ensemble/base_motion.hpp"
 
+#include "ensemble/elementary.hpp"
 #include "ensemble/scales.hpp"
 
 #include <algorithm>
@@ -29,19 +30,20 @@ MotionFormula BaseMotion::formula(ExcitationKind kind)
 }
 
 BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Motion* record)
-    : formula_(formula(e.kind)), step_s_(r.step_s)
+    : formula_(formula(e.kind)), change_(r.change), step_s_(r.step_s)
 {
     if (e.kind == ExcitationKind::none) {
         duration_s_ = e.duration_s;
         return;
     }
-    if (e.kind == ExcitationKind::record) {
+    if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table) {
         // a surface's frequency axis is the record's predominant frequency, moved by stretching its time
-        follow(*record, record->predominant_frequency_hz / r.frequency_hz,
+        own_ = r.motion;
+        follow(own_ ? *own_ : *record, record->predominant_frequency_hz / r.frequency_hz,
                r.pga_m_s2 > 0 ? r.pga_m_s2 / record->pga_m_s2 : 1);
         return;
     }
-    if (e.kind == ExcitationKind::noise) {
+    if (r.motion) {
         own_ = r.motion;
         follow(*own_, 1, 1);
         return;
@@ -69,32 +71,36 @@ BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Moti
     duration_s_ = cycles_ / rate_hz_;
 }
 
-BaseMotion BaseMotion::along(std::shared_ptr<const Motion> motion, double step_s)
+BaseMotion BaseMotion::along(std::shared_ptr<const Motion> motion, double step_s, double offset_s)
 {
     BaseMotion base;
     base.own_ = std::move(motion);
     base.step_s_ = step_s;
+    base.change_.offset_s = offset_s;
     base.follow(*base.own_, 1, 1);
     return base;
 }
 
-bool BaseMotion::on_host(ExcitationKind kind)
+bool BaseMotion::on_host(const Study& study)
 {
-    return kind == ExcitationKind::record || kind == ExcitationKind::noise || SyntheticMotion::covers(kind);
+    const ExcitationKind kind = study.excitation.kind;
+    return kind == ExcitationKind::record || kind == ExcitationKind::table || kind == ExcitationKind::noise ||
+           SyntheticMotion::covers(kind) || study.names(Mechanism::time_offset) ||
+           study.names(Mechanism::harmonic_distortion);
 }
 
 void BaseMotion::follow(const Motion& motion, double stretch, double scale)
 {
     record_ = &motion;
     spacing_s_ = motion.dt_s * stretch;
-    scale_ = scale;
+    scale_ = scale * change_.gain;
     duration_s_ = motion.duration_s() * stretch;
 }
 
 void BaseMotion::store(const FormulaParameters& p, int lane) const
 {
     p.cycles_per_step[lane] = rate_hz_ * step_s_;
-    p.amplitude_m[lane] = amplitude_m_;
+    p.amplitude_m[lane] = amplitude_m_ * change_.gain;
     p.cycles[lane] = cycles_;
     p.phase_cycles[lane] = phase_cycles_;
     p.offset[lane] = offset_;
@@ -105,20 +111,38 @@ void BaseMotion::store(const FormulaParameters& p, int lane) const
 
 void BaseMotion::fill(double first_step, double* table, int lanes) const
 {
-    if (synthetic_)
+    if (record_ != nullptr)
+        fill_sampled(first_step, table, lanes);
+    else if (synthetic_)
         fill_synthetic(first_step, table, lanes);
     else
-        fill_sampled(first_step, table, lanes);
+        fill_formula(first_step, table, lanes);
+}
+
+void BaseMotion::fill_formula(double first_step, double* table, int lanes) const
+{
+    // as the kernels do it, at times between the steps; without an offset with the same bits
+    const double rate = rate_hz_ * step_s_, first = first_step + change_.offset_s / step_s_;
+    const double over = formula_ == MotionFormula::still ? 0 : cycles_ / rate;
+    double before = formula_displacement(rate, first - 1), now = formula_displacement(rate, first);
+    for (int k = 0; k < chunk_steps; ++k) {
+        const double n = first + k, next = formula_displacement(rate, n + 1);
+        table[k * lanes] = n - 1 >= over ? 0 : (next - now) - (now - before);
+        before = now;
+        now = next;
+    }
 }
 
 void BaseMotion::fill_synthetic(double first_step, double* table, int lanes) const
 {
     std::array<double, chunk_steps + 2> u; // from one step before the chunk to one after it
-    synthetic_->sample(first_step - 1, step_s_, u);
+    const double first = first_step + change_.offset_s / step_s_;
+    synthetic_->sample(first - 1, step_s_, u);
     for (std::size_t k = 0; k < chunk_steps; ++k) {
         // once it is over nothing but rounding is left of the difference
-        const bool over = (first_step + static_cast<double>(k) - 1) * step_s_ >= duration_s_;
-        table[k * static_cast<std::size_t>(lanes)] = over ? 0 : (u[k + 2] - u[k + 1]) - (u[k + 1] - u[k]);
+        const bool over = (first + static_cast<double>(k) - 1) * step_s_ >= duration_s_;
+        table[k * static_cast<std::size_t>(lanes)] =
+            over ? 0 : change_.gain * ((u[k + 2] - u[k + 1]) - (u[k + 1] - u[k]));
     }
 }
 
@@ -129,10 +153,18 @@ void BaseMotion::fill_sampled(double first_step, double* table, int lanes) const
     const std::vector<double>& a = record_->acceleration_m_s2;
     const double last = static_cast<double>(a.size() - 1);
     const double ratio = step_s_ / spacing_s_; // steps in samples
+    const double shift = change_.offset_s / spacing_s_;
     const double dt2 = step_s_ * step_s_ * scale_;
     const auto sample = [&](double i) { return i < 0 || i > last ? 0.0 : a[static_cast<std::size_t>(i)]; };
     for (int k = 0; k < chunk_steps; ++k) {
-        const double position = (first_step + k) * ratio;
+        const double position = (first_step + k) * ratio + shift;
+        if (shift != 0 && position < ratio) {
+            // about the start, where the acceleration may jump: the displacement is too small there to lose digits
+            const double t = position * spacing_s_;
+            table[k * lanes] = (own_displacement_m(t + step_s_) - own_displacement_m(t)) -
+                               (own_displacement_m(t) - own_displacement_m(t - step_s_));
+            continue;
+        }
         if (position - ratio > last + 1) { // the motion ends one sample after its last, at rest
             table[k * lanes] = 0;
             continue;
@@ -151,10 +183,14 @@ void BaseMotion::fill_sampled(double first_step, double* table, int lanes) const
 
 double BaseMotion::displacement_m(double time_s) const
 {
+    return own_displacement_m(time_s + change_.offset_s);
+}
+
+/// In the time of the motion itself.
+double BaseMotion::own_displacement_m(double time_s) const
+{
     if (time_s <= 0)
         return 0;
-    if (synthetic_)
-        return synthetic_->displacement_m(time_s);
     if (record_ != nullptr) {
         // the acceleration goes to 0 within one sample after the last one, as in `fill`; then the velocity stays
         const std::vector<double>& a = record_->acceleration_m_s2;
@@ -168,10 +204,43 @@ double BaseMotion::displacement_m(double time_s) const
         const double stretch = spacing_s_ / d;
         return u * scale_ * stretch * stretch;
     }
-    double rate = rate_hz_ * time_s, amplitude = amplitude_m_, cycles = cycles_, phase = phase_cycles_,
-           offset = offset_, start = start_ramps_per_cycle_, end = end_ramps_per_cycle_, velocity = end_velocity_;
-    const FormulaParameters p{&rate, &amplitude, &cycles, &phase, &offset, &start, &end, &velocity};
-    return base_displacement<double>(formula_, p, 1.0);
+    if (synthetic_)
+        return change_.gain * synthetic_->displacement_m(time_s);
+    return formula_displacement(rate_hz_ * time_s, 1);
+}
+
+FormulaParameters BaseMotion::parameters(std::array<double, 8>& v, double cycles_per_step) const
+{
+    v = {cycles_per_step,        amplitude_m_ * change_.gain, cycles_,      phase_cycles_, offset_,
+         start_ramps_per_cycle_, end_ramps_per_cycle_,        end_velocity_};
+    return {&v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7]};
+}
+
+/// U after so many steps, whole or not.
+double BaseMotion::formula_displacement(double cycles_per_step, double steps) const
+{
+    if (formula_ == MotionFormula::harmonic && change_.distorts())
+        return distorted_harmonic(cycles_per_step, steps);
+    std::array<double, 8> values;
+    return base_displacement<double>(formula_, parameters(values, cycles_per_step), steps);
+}
+
+double BaseMotion::distorted_harmonic(double cycles_per_step, double steps) const
+{
+    // time in cycles, as a rounded product and its rounding error, as in the kernels' formula
+    const double product = steps * cycles_per_step, error = fma(steps, cycles_per_step, -product);
+    const double c = std::clamp(product, 0.0, cycles_), rest = c != product ? 0 : error;
+    const double turn = (c - round_of(c)) + rest + phase_cycles_;
+    const bool holds = end_ramps_per_cycle_ == abrupt; // the last displacement
+    const double end = holds ? 1 : smooth_ramp((cycles_ - c) * end_ramps_per_cycle_);
+    const double at_start = start_ramps_per_cycle_ == abrupt ? wave(phase_cycles_) : 0;
+    return amplitude_m_ * change_.gain * smooth_ramp(c * start_ramps_per_cycle_) * end * (wave(turn) - at_start);
+}
+
+double BaseMotion::wave(double c) const
+{
+    return sine_of(c) + change_.second * sine_of(2 * c) + change_.second_quadrature * cosine_of(2 * c) +
+           change_.third * sine_of(3 * c) + change_.third_quadrature * cosine_of(3 * c);
 }
 
 double tail_after_shaking(const Realization& realization)

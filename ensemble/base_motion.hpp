@@ -1,6 +1,16 @@
 #pragma once
 /// The base motion of one realization: by the kernels' formulas (harmonic, half and full sine), by one in closed form
-/// on the host (the other pulses and sines), or along a record or noise.
+/// on the host (the other pulses and sines), or along samples (a record, a table, noise, what is distorted).
+///
+/// A realization may change it (`BaseChange`). A gain multiplies it. With an offset in time the base is at time t where
+/// it would be at t + offset: for an offset > 0 the structure has ridden along, at rest on the base, up to the start.
+/// Harmonic distortion of a harmonic motion is in its formula, with the same ramps:
+///
+///   U = A s(...) s(...) (w(c + phase) - w(phase)),   w(c) = sin 2 pi c + sum over m = 2, 3 of a_m sin 2 pi m c + b_m
+///   cos 2 pi m c                                         w(phase) with an abrupt start only, as in the kernels'
+///   formula
+///
+/// and of all others `distortion.hpp`.
 
 #include "ensemble/motion.hpp"
 #include "ensemble/realization.hpp"
@@ -8,6 +18,8 @@
 #include "ensemble/synthetic_motion.hpp"
 #include "kernels/base_motion.hpp"
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -16,26 +28,26 @@ namespace stylobate {
 class BaseMotion {
 public:
     BaseMotion() = default;
-    /// @param record needed for `ExcitationKind::record`, and must outlive this object; a realization with a motion of
-    ///        its own (noise) is driven by that
+    /// @param record needed for a record or a table, and must outlive this object; a realization with a motion of its
+    ///        own (noise, what is distorted) is driven by that
     BaseMotion(const ExcitationSpec& excitation, const Realization& realization, const Motion* record);
 
-    /// Along samples from time 0 on, for steps of `step_s`.
-    static BaseMotion along(std::shared_ptr<const Motion> motion, double step_s);
+    /// Along samples, for steps of `step_s`, from the time `offset_s` of the samples on.
+    static BaseMotion along(std::shared_ptr<const Motion> motion, double step_s, double offset_s = 0);
 
     static MotionFormula formula(ExcitationKind kind);
-    /// Whether `fill` makes the table, not the kernels.
-    static bool on_host(ExcitationKind kind);
+    /// Whether `fill` makes the table, not the kernels: the same for all realizations of a study.
+    static bool on_host(const Study& study);
 
     /// Writes this realization's parameters into its lane.
     void store(const FormulaParameters& parameters, int lane) const;
 
-    /// @pre on_host: second differences of the displacement for `chunk_steps` steps from `first_step` on, into
+    /// Second differences of the displacement for `chunk_steps` steps from `first_step` on, into
     /// table[k * lanes]. Their bits depend on the realization and the step only.
     void fill(double first_step, double* table, int lanes) const;
 
     /// End of the shaking [s].
-    double duration_s() const { return duration_s_; }
+    double duration_s() const { return std::max(0.0, duration_s_ - change_.offset_s); }
     /// Between the samples that it goes along [s]; 0 where it is in closed form.
     double spacing_s() const { return spacing_s_; }
     /// Displacement of the base at a time [m].
@@ -43,12 +55,19 @@ public:
 
 private:
     void follow(const Motion& motion, double stretch, double scale);
+    void fill_formula(double first_step, double* table, int lanes) const;
     void fill_sampled(double first_step, double* table, int lanes) const;
     void fill_synthetic(double first_step, double* table, int lanes) const;
+    FormulaParameters parameters(std::array<double, 8>& values, double cycles_per_step) const;
+    double formula_displacement(double cycles_per_step, double steps) const;
+    double distorted_harmonic(double cycles_per_step, double steps) const;
+    double wave(double cycles) const;
+    double own_displacement_m(double time_s) const;
 
     MotionFormula formula_ = MotionFormula::still;
+    BaseChange change_;
     double step_s_ = 0;
-    double duration_s_ = 0;
+    double duration_s_ = 0; ///< of the motion without its offset
     // formula
     double rate_hz_ = 0, amplitude_m_ = 0, cycles_ = 0, phase_cycles_ = 0, offset_ = 0;
     double start_ramps_per_cycle_ = 0, end_ramps_per_cycle_ = 0, end_velocity_ = 0;

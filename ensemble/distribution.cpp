@@ -36,16 +36,16 @@ double log_ratio(double a, double b)
 
 } // namespace
 
-Distribution::Distribution(const Perturbation& perturbation, double nominal)
-    : kind_(perturbation.distribution), location_(nominal), scale_(0), min_(perturbation.min.value_or(-infinity)),
-      max_(perturbation.max.value_or(infinity))
+Distribution::Distribution(const Spread& spread, const std::string& key, double nominal)
+    : kind_(spread.distribution), location_(nominal), scale_(0), min_(spread.min.value_or(-infinity)),
+      max_(spread.max.value_or(infinity))
 {
     const boost::math::normal_distribution<double> standard;
     const auto none_left = [&] {
-        return InputError(fmt::format("perturbation.{}: a {} distribution about the nominal value {:g} has no "
+        return InputError(fmt::format("{}: a {} distribution about the nominal value {:g} has no "
                                       "probability between min = {:g} and max = {:g}. Widen these limits, or leave "
                                       "them out.",
-                                      to_string(perturbation.quantity), name(kind_), nominal, min_, max_));
+                                      key, name(kind_), nominal, min_, max_));
     };
     const auto set_tails = [&](double lower, double upper) {
         // quantities at infinity are taken from the initial values: Boost refuses infinite arguments in some versions
@@ -64,16 +64,16 @@ Distribution::Distribution(const Perturbation& perturbation, double nominal)
 
     switch (kind_) {
     case DistributionKind::normal:
-        scale_ = perturbation.cov > 0 ? perturbation.cov * std::abs(nominal) : perturbation.sd;
+        scale_ = spread.cov > 0 ? spread.cov * std::abs(nominal) : spread.sd;
         if (scale_ > 0)
             set_tails((min_ - location_) / scale_, (max_ - location_) / scale_);
         break;
     case DistributionKind::lognormal:
         if (!(nominal > 0))
-            throw InputError(fmt::format("perturbation.{}: a lognormal distribution needs a nominal value above 0, and "
+            throw InputError(fmt::format("{}: a lognormal distribution needs a nominal value above 0, and "
                                          "it is {:g}. Use \"normal\" with an sd instead.",
-                                         to_string(perturbation.quantity), nominal));
-        scale_ = perturbation.sigma_ln;
+                                         key, nominal));
+        scale_ = spread.sigma_ln;
         if (!(max_ > 0))
             throw none_left();
         if (scale_ > 0)
@@ -82,8 +82,8 @@ Distribution::Distribution(const Perturbation& perturbation, double nominal)
         break;
     case DistributionKind::uniform:
     case DistributionKind::log_uniform:
-        location_ = std::max(perturbation.from, min_);
-        scale_ = std::min(perturbation.to, max_);
+        location_ = std::max(spread.from, min_);
+        scale_ = std::min(spread.to, max_);
         if (!(location_ <= scale_))
             throw none_left();
         min_ = location_;

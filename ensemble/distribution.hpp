@@ -3,10 +3,12 @@
 
 #include "ensemble/study.hpp"
 
+#include <string>
+
 namespace stylobate {
 
 /// The distribution of one perturbed quantity about its nominal value, truncated to [min, max] where these are given
-/// (see `Perturbation`). Sampled by inversion: one uniform number in, one value out, non-decreasing.
+/// (see `Spread`). Sampled by inversion: one uniform number in, one value out, non-decreasing.
 ///
 /// The truncated normal is inverted through the tail that is nearer, so that it keeps its relative accuracy when
 /// both limits lie far out on one side. Logarithms and exponentials are those of the C library in long double, rounded
@@ -16,7 +18,12 @@ class Distribution {
 public:
     /// @param nominal value of the quantity without perturbation, in its unit
     /// @throws InputError if no probability lies between min and max, or if a lognormal has nominal <= 0
-    Distribution(const Perturbation& perturbation, double nominal);
+    Distribution(const Perturbation& perturbation, double nominal)
+        : Distribution(perturbation, std::string("perturbation.") + to_string(perturbation.quantity), nominal)
+    {
+    }
+    /// @param name for messages: the key in a study file
+    Distribution(const Spread& spread, const std::string& name, double nominal);
 
     /// @param u uniform in (0, 1)
     /// @return the value, within [min, max], in the quantity's unit

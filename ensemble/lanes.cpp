@@ -218,7 +218,7 @@ void LaneSet::load(int lane, Realization realization)
     place.motion = BaseMotion(study_.excitation, r, record_);
     place.motion.store(parameters_, lane);
     if (r.vertical != nullptr)
-        place.vertical = BaseMotion::along(r.vertical, r.step_s);
+        place.vertical = BaseMotion::along(r.vertical, r.step_s, r.change.offset_s);
 
     const bool shaken = study_.excitation.kind != ExcitationKind::none;
     place.shaking_end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
@@ -243,7 +243,7 @@ void LaneSet::advance()
 void LaneSet::advance(int first, int last)
 {
     if (first == 0) {
-        if (BaseMotion::on_host(study_.excitation.kind)) {
+        if (BaseMotion::on_host(study_)) {
             for (int lane = 0; lane < kernels_.lanes; ++lane)
                 if (!free(lane))
                     motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);
@@ -267,7 +267,7 @@ std::array<double, chunk_steps> LaneSet::base_chunk(int lane, double first_step)
 {
     std::array<double, chunk_steps> table{};
     const BaseMotion& base = motion(lane);
-    if (BaseMotion::on_host(study_.excitation.kind)) {
+    if (BaseMotion::on_host(study_)) {
         base.fill(first_step, table.data(), 1);
         return table;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// The base motion of a record as plain data, ready to drive a structure.
+/// A sampled base motion (a record, a table of samples, noise) as plain data, ready to drive a structure.
 
 #include <optional>
 #include <string>
@@ -44,5 +44,20 @@ struct Motion {
     bool empty() const { return acceleration_m_s2.empty(); }
     double duration_s() const { return empty() ? 0 : dt_s * static_cast<double>(acceleration_m_s2.size() - 1); }
 };
+
+/// Velocity and displacement of an acceleration that is linear between its samples, from rest.
+struct Integrated {
+    std::vector<double> v, u; ///< (n)
+};
+Integrated integrate(const std::vector<double>& acceleration, double dt_s);
+
+/// The acceleration at the samples of a motion that passes through all displacements and has linear acceleration
+/// between them (a cubic spline): at rest before the first one, without acceleration at the last one. Of a sine its
+/// error is at most 5 (w d)4 / 384 of the displacement.
+/// @pre two displacements at least
+std::vector<double> acceleration_through(const std::vector<double>& displacement_m, double dt_s);
+
+/// The motion of an acceleration from rest. Its predominant frequency is left to the caller.
+Motion motion_of(std::vector<double> acceleration_m_s2, double dt_s);
 
 } // namespace stylobate

@@ -10,7 +10,8 @@
 namespace stylobate {
 
 /// What a draw is for. A number stands for ever: a new entry takes a new number and none is reused, or the
-/// realizations of every older study would change. 0 to 63 are for the perturbed quantities of a study.
+/// realizations of every older study would change. 0 to 63 are for the perturbed quantities of a study, 128 to
+/// 1023 for the parameters of its mechanisms.
 enum class Stream : std::uint64_t {
     friction = 0,             ///< coefficient of friction; element = joint, from the bottom
     normal_stiffness = 1,     ///< K_N; element = joint
@@ -25,7 +26,10 @@ enum class Stream : std::uint64_t {
     pulse_frequency = 10,     ///< of a velocity pulse; element = 0
     pulse_gamma = 11,         ///< oscillatory character of a velocity pulse; element = 0
     base_noise = 64,          ///< white noise of a synthetic earthquake; element = sample
-    mean_peak = 65            ///< white noise of the motions by which a mean peak is found; index = motion, from 0
+    mean_peak = 65,           ///< white noise of the motions by which a mean peak is found; index = motion, from 0
+    /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
+    /// or block, 0 of the base and of what is drawn once.
+    mechanisms = 128
 };
 
 /// 64 random bits. What belongs to the structure as a whole uses element 0.

@@ -51,6 +51,20 @@ struct BaseExtension {
     friend bool operator==(const BaseExtension&, const BaseExtension&) = default;
 };
 
+/// What becomes of the horizontal motion of the base before it reaches the structure (`base_motion.hpp`). Every default
+/// is neutral. With psi the phase of the motion, u = |z| sin psi (`distortion.hpp`), the distortion adds
+/// second |z| sin 2 psi + second_quadrature |z| cos 2 psi, and the same of the third order.
+struct BaseChange {
+    double gain = 1;              ///< sensor_gain: true motion over the one that the study names
+    double offset_s = 0;          ///< time_offset: at time t the base is where the named motion is at t + offset
+    double second = 0;            ///< harmonic_distortion, as parts of the displacement
+    double second_quadrature = 0; ///< the same, a quarter of a period apart
+    double third = 0;
+    double third_quadrature = 0;
+    bool distorts() const { return second != 0 || second_quadrature != 0 || third != 0 || third_quadrature != 0; }
+    friend bool operator==(const BaseChange&, const BaseChange&) = default;
+};
+
 /// A rigid rectangle in its place in the reference stack (faces just touching, before the static overlaps).
 struct Block {
     double half_width_m = 0;
@@ -87,6 +101,7 @@ struct Realization {
 
     int beds() const { return static_cast<int>(joints.size()) - watched; }
     BaseExtension base;
+    BaseChange change;
     double gravity_m_s2 = 9.81;
     double base_tilt_rad = 0;    ///< base out of level
     double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
@@ -94,8 +109,9 @@ struct Realization {
     double frequency_hz = 0;     ///< of the sine or pulse; of noise the ground's; of a record the predominant one
     double pga_m_s2 = 0;
     double phase_rad = 0;
-    double pulse_gamma = 0;               ///< oscillatory character of a velocity pulse
-    std::shared_ptr<const Motion> motion; ///< the base motion that is this realization's own (noise), else null
+    double pulse_gamma = 0; ///< oscillatory character of a velocity pulse
+    /// The base motion that is this realization's own (noise, or a distorted one), else null.
+    std::shared_ptr<const Motion> motion;
     /// Vertical base motion of its own, instead of `base.vertical_ratio`; starts with the shaking. Null: none.
     std::shared_ptr<const Motion> vertical;
     ContactForm form = ContactForm::area;

@@ -69,8 +69,8 @@ bool replaces(const Perturbation& perturbation)
 
 } // namespace
 
-Sampler::Sampler(const Study& study, const Motion* record)
-    : study_(study), layout_(lay_out(study.structure)), shaking_(study, record)
+Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertical)
+    : study_(study), layout_(lay_out(study.structure)), mechanisms_(study, layout_), shaking_(study, record, vertical)
 {
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
@@ -98,6 +98,7 @@ Sampler::Sampler(const Study& study, const Motion* record)
                                                                       : fmt::format("{}[{}]", to_string(quantity), i));
         drawn_.push_back(std::move(drawn));
     }
+    input_names_.insert(input_names_.end(), mechanisms_.input_names().begin(), mechanisms_.input_names().end());
 }
 
 Realization Sampler::realization(std::uint64_t index) const
@@ -108,7 +109,10 @@ Realization Sampler::realization(std::uint64_t index) const
     realization.gravity_m_s2 = study_.structure.gravity_m_s2;
     realization.initial_tilt_rad = study_.initial.tilt_rad;
     realization.initial_tilt_block = study_.initial.tilt_from_block;
-    const Values values = draw(index, realization.inputs);
+    Values values = draw(index, realization.inputs);
+    const MechanismSampler::Values mechanisms = mechanisms_.draw(index, realization.inputs);
+    for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
+        values.of[static_cast<std::size_t>(Quantity::drum_offset)][i] += mechanisms_.offset_m(mechanisms, i);
     stack(values, realization);
     lay_epistyles(values, realization);
     realization.drums = static_cast<int>(layout_.blocks.size());
@@ -116,6 +120,7 @@ Realization Sampler::realization(std::uint64_t index) const
         realization.blocks.push_back(ground());
     join(values, realization);
     watch(values, realization);
+    mechanisms_.apply(mechanisms, realization);
     shaking_.apply(study_,
                    {values[Quantity::tilt][0], values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
                     values[Quantity::pulse_gamma][0]},

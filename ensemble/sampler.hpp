@@ -2,6 +2,7 @@
 /// From a study and an index to one realization.
 
 #include "ensemble/distribution.hpp"
+#include "ensemble/mechanism_sampler.hpp"
 #include "ensemble/motion.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
@@ -21,10 +22,11 @@ namespace stylobate {
 /// twice, or from several threads at once changes nothing.
 class Sampler {
 public:
-    /// @param record the base motion of a study with `excitation.kind = "record"`, else ignored; not kept
+    /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
+    /// @param vertical that of a study with a vertical record, else ignored; not kept
     /// @throws InputError if the structure cannot stand, or a perturbation leaves no probability between its limits
-    /// @throws std::invalid_argument if such a study comes without its record
-    Sampler(const Study& study, const Motion* record);
+    /// @throws std::invalid_argument if such a study comes without its record or vertical record
+    Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr);
 
     /// @param index from 0 to study.total() - 1; in a surface it says the cell too
     /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
@@ -32,7 +34,8 @@ public:
     Realization realization(std::uint64_t index) const;
 
     /// Names of `Realization::inputs`: "friction[0]", "friction[1]" and so on for each bed (or block) of the layout;
-    /// the name alone for what is drawn once for the structure, which is then the value of the first bed or block.
+    /// the name alone for what is drawn once for the structure, which is then the value of the first bed or block. Then
+    /// those of the mechanisms (`MechanismSampler`).
     const std::vector<std::string>& input_names() const { return input_names_; }
 
 private:
@@ -74,6 +77,7 @@ private:
 
     Study study_;
     Layout layout_;
+    MechanismSampler mechanisms_;
     bool has_ground_ = false;
     std::vector<std::pair<int, int>> watched_; ///< lower and upper block
     Values nominal_;

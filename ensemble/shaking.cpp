@@ -1,20 +1,90 @@
 #include "ensemble/shaking.hpp"
 
+#include "ensemble/synthetic_motion.hpp"
 #include "ensemble/synthetic_noise.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
 namespace stylobate {
 
-Shaking::Shaking(const Study& study, const Motion* record)
+namespace {
+
+/// Samples of a motion in closed form, so dense that the spline through them is off by 2e-6 of its fastest part.
+constexpr double samples_per_cycle = 64;
+
+bool is_sampled(ExcitationKind kind)
+{
+    return kind == ExcitationKind::record || kind == ExcitationKind::table;
+}
+
+Motion sampled(const SyntheticMotion& motion)
+{
+    const auto pieces = static_cast<std::size_t>(
+        std::ceil(std::max(motion.duration_s() * motion.fastest_hz(), 1.0) * samples_per_cycle));
+    const double dt = motion.duration_s() / static_cast<double>(pieces);
+    std::vector<double> u(pieces + 1);
+    motion.sample(0, dt, u);
+    return motion_of(acceleration_through(u, dt), dt);
+}
+
+BaseChange distortion_of(const MechanismSpec& spec)
+{
+    BaseChange change;
+    for (std::size_t i = 0; i < spec.values.size(); ++i)
+        change.*std::get<double BaseChange::*>(rule_of(spec.mechanism).parameters[i].member) = spec.values[i];
+    return change;
+}
+
+/// A motion in another time and of another size.
+Motion scaled(Motion motion, double stretch, double scale)
+{
+    motion.dt_s *= stretch;
+    motion.predominant_frequency_hz /= stretch;
+    motion.pga_m_s2 *= scale;
+    for (double& a : motion.acceleration_m_s2)
+        a *= scale;
+    for (double& v : motion.velocity_m_s)
+        v *= scale * stretch;
+    for (double& u : motion.displacement_m)
+        u *= scale * stretch * stretch;
+    return motion;
+}
+
+} // namespace
+
+Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertical)
 {
     const ExcitationSpec& excitation = study.excitation;
-    if (excitation.kind == ExcitationKind::record) {
+    if (is_sampled(excitation.kind)) {
         if (record == nullptr || record->empty())
             throw std::invalid_argument("a study with a record was given no base motion");
+        predominant_hz_ = record->predominant_frequency_hz;
         record_frequency_hz_ = record->predominant_frequency_hz / excitation.time_scale;
         record_pga_m_s2_ = record->pga_m_s2;
+        if (study.names(Mechanism::harmonic_distortion)) {
+            record_ = *record;
+            distortion_ = Distortion(record_);
+            const bool drawn = std::any_of(
+                study.mechanism_perturbations.begin(), study.mechanism_perturbations.end(),
+                [](const MechanismPerturbation& p) { return p.mechanism == Mechanism::harmonic_distortion; });
+            if (!drawn) {
+                BaseChange change;
+                for (const MechanismSpec& spec : study.mechanisms)
+                    if (spec.mechanism == Mechanism::harmonic_distortion)
+                        change = distortion_of(spec);
+                distorted_ = std::make_shared<const Motion>(distortion_.distorted(record_, change));
+            }
+        }
+    }
+    if (study.vertical) {
+        if (vertical == nullptr || vertical->empty())
+            throw std::invalid_argument("a study with a vertical record was given none");
+        vertical_ = std::make_shared<const Motion>(*vertical);
     }
     if (excitation.kind == ExcitationKind::noise && excitation.pga_of == PgaOf::mean) {
         const int frequencies = study.surface ? study.surface->frequency_hz.count : 1;
@@ -48,6 +118,35 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
                 ? noise.motion(study.seed, realization.index, realization.pga_m_s2 / mean_peak_[row])
                 : noise.motion_of_peak(study.seed, realization.index, realization.pga_m_s2));
     }
+    if (realization.change.distorts())
+        distort(excitation, realization);
+    if (vertical_)
+        move_vertically(realization);
+}
+
+/// Of a harmonic motion the formula does it (`BaseMotion`).
+void Shaking::distort(const ExcitationSpec& excitation, Realization& realization) const
+{
+    if (is_sampled(excitation.kind)) {
+        realization.motion = distorted_
+                                 ? distorted_
+                                 : std::make_shared<const Motion>(distortion_.distorted(record_, realization.change));
+    } else if (excitation.kind == ExcitationKind::noise || SyntheticMotion::covers(excitation.kind)) {
+        const Motion plain = excitation.kind == ExcitationKind::noise
+                                 ? *realization.motion
+                                 : sampled(SyntheticMotion(excitation, realization));
+        realization.motion = std::make_shared<const Motion>(Distortion(plain).distorted(plain, realization.change));
+    }
+}
+
+/// A vertical record is stretched and scaled as the horizontal one is: they are components of one shaking.
+void Shaking::move_vertically(Realization& realization) const
+{
+    const bool alone = predominant_hz_ == 0;
+    const double stretch = alone ? 1 : predominant_hz_ / realization.frequency_hz;
+    const double scale = alone ? 1 : realization.pga_m_s2 / record_pga_m_s2_;
+    realization.vertical =
+        stretch == 1 && scale == 1 ? vertical_ : std::make_shared<const Motion>(scaled(*vertical_, stretch, scale));
 }
 
 /// Frequency and PGA of a study that is no surface.
@@ -73,6 +172,7 @@ void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& 
         realization.frequency_hz = excitation.central_frequency_hz();
         break;
     case ExcitationKind::record:
+    case ExcitationKind::table:
         realization.frequency_hz = record_frequency_hz_;
         if (!(excitation.pga_m_s2 > 0))
             realization.pga_m_s2 = record_pga_m_s2_;

@@ -1,10 +1,12 @@
 #pragma once
 /// How a realization is shaken: its frequency, its PGA, and what was drawn for its excitation.
 
+#include "ensemble/distortion.hpp"
 #include "ensemble/motion.hpp"
 #include "ensemble/realization.hpp"
 #include "ensemble/study.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace stylobate {
@@ -21,17 +23,25 @@ struct DrawnShaking {
 class Shaking {
 public:
     Shaking() = default;
-    /// @param record the base motion of a study with `excitation.kind = "record"`, else ignored; not kept
-    /// @throws std::invalid_argument if such a study comes without its record
-    Shaking(const Study& study, const Motion* record);
+    /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
+    /// @param vertical that of a study with a vertical record, else ignored; not kept
+    /// @throws std::invalid_argument if such a study comes without its record or vertical record
+    Shaking(const Study& study, const Motion* record, const Motion* vertical);
 
-    /// Fills in the shaking of a realization whose index is set.
+    /// Fills in the shaking of a realization whose index and whose `change` of the base motion are set.
     /// @param study the one this was made for
     void apply(const Study& study, const DrawnShaking& drawn, Realization& realization) const;
 
 private:
     void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const;
+    void distort(const ExcitationSpec& excitation, Realization& realization) const;
+    void move_vertically(Realization& realization) const;
 
+    Motion record_;                           ///< where it is distorted
+    Distortion distortion_;                   ///< of it
+    std::shared_ptr<const Motion> distorted_; ///< the record as every realization has it; null where each has its own
+    std::shared_ptr<const Motion> vertical_;
+    double predominant_hz_ = 0; ///< of the record as it stands; 0: there is none
     double record_frequency_hz_ = 0;
     double record_pga_m_s2_ = 0;
     std::vector<double>

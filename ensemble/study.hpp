@@ -3,11 +3,14 @@
 ///
 /// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
+#include "ensemble/mechanism_spec.hpp"
 #include "ensemble/motion.hpp"
 #include "ensemble/structure.hpp"
 #include "kernels/model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,6 +26,12 @@ enum class DampingPer {
     chord    ///< in proportion to the length of the contact: no jump when a sliver of contact appears
 };
 
+/// Where the normal dashpot of a contact acts.
+enum class DampingAt {
+    centroid, ///< the paper's: at the centroid of the overlap
+    ends      ///< at the ends of the contact, where it takes up rotation too: `face_damping` 1 in every joint
+};
+
 struct ContactSpec {
     ContactForm form = ContactForm::area;
     double normal_stiffness_n_m2 = 0;    ///< K_N, force per overlap area, for the whole depth
@@ -31,6 +40,7 @@ struct ContactSpec {
     double tangential_damping_ratio = 0.1;
     std::optional<double> normal_damping_n_s_m;     ///< C_N itself, instead of the ratio
     std::optional<double> tangential_damping_n_s_m; ///< C_T itself, instead of the ratio
+    DampingAt damping = DampingAt::centroid;
     DampingPer damping_per = DampingPer::contact;
     double friction = 0; ///< mu
 };
@@ -45,7 +55,8 @@ enum class ExcitationKind {
     tapered,   ///< harmonic of tapered acceleration (synthetic_sine.hpp)
     sweep,     ///< sine sweep (synthetic_sine.hpp)
     noise,     ///< filtered noise, each realization's own (synthetic_noise.hpp)
-    record
+    record,
+    table ///< samples as they stand: a file of columns, or a run of a measured campaign
 };
 enum class HarmonicEdge { smooth, abrupt };
 
@@ -64,7 +75,7 @@ struct ExcitationSpec {
     // all but none; for a surface these two come from the cell
     double frequency_hz =
         0;               ///< of the sine or pulse; of a half sine, 1 / the full one's period; of noise, the ground's
-    double pga_m_s2 = 0; ///< largest acceleration (harmonic: on the plateau); for a record 0 says 'as recorded'
+    double pga_m_s2 = 0; ///< largest acceleration (harmonic: on the plateau); of a record or table 0: as it stands
 
     // harmonic; ramps, cycles and phase of a tapered one too, ramps of a sweep, phase nu of a pulse
     HarmonicEdge start = HarmonicEdge::smooth;
@@ -91,8 +102,9 @@ struct ExcitationSpec {
     double strong_s = 8;
     double decay_s = 3; ///< in which the envelope falls to 1/e
 
-    // record
+    // record; table: file, run and time_scale
     std::string file;      ///< as given in the study; relative to the study file's folder, else to the working folder
+    std::string run;       ///< of a measured campaign
     std::string component; ///< which one, where a file has several: its name or its column (counted from 1)
     std::string unit;      ///< "m/s2", "cm/s2", "mm/s2", "g" or empty (the file says it)
     double time_scale = 1; ///< stretches the record's time; in a surface the frequency axis does this
@@ -139,7 +151,7 @@ const char* to_string(Quantity quantity);
 enum class DistributionKind { normal, lognormal, uniform, log_uniform };
 enum class Per { joint, block, structure };
 
-/// One perturbed quantity. Three ways of reading the drawn number z, by `relative` and the distribution:
+/// A distribution. Three ways of reading the drawn number z:
 ///   normal      value = nominal + N(0, sd), or nominal * (1 + N(0, cov)) where cov is given
 ///   lognormal   value = nominal * exp(N(0, sigma_ln))
 ///   uniform     value ~ U(from, to): replaces the nominal value
@@ -147,8 +159,7 @@ enum class Per { joint, block, structure };
 /// `min` and `max` truncate the distribution of the value itself (not clip: no mass at the ends).
 /// Where nominal values differ from block to block or bed to bed, each has its own distribution; drawn once for the
 /// structure, all take the same quantile of theirs.
-struct Perturbation {
-    Quantity quantity = Quantity::friction;
+struct Spread {
     DistributionKind distribution = DistributionKind::normal;
     Per per = Per::structure;
     double sd = 0;       ///< normal, in the quantity's unit
@@ -158,6 +169,26 @@ struct Perturbation {
     double to = 0;       ///< uniform, log_uniform
     std::optional<double> min;
     std::optional<double> max;
+};
+
+/// One perturbed quantity.
+struct Perturbation : Spread {
+    Quantity quantity = Quantity::friction;
+};
+
+/// One perturbed parameter of a mechanism that the study names, at each place where it acts.
+struct MechanismPerturbation : Spread {
+    Mechanism mechanism = Mechanism::stribeck;
+    std::size_t parameter = 0; ///< of the mechanism's rule
+};
+
+/// The vertical motion of the base, where it is a record of its own: corrected as one, in the time and size of the
+/// horizontal record or table where there is one, else as it stands.
+struct VerticalSpec {
+    std::string file;
+    std::string component;
+    std::string unit;
+    bool baseline = true;
 };
 
 /// The structure leaned as one rigid body about a corner; of a colonnade each column alike, and the epistyles ride on
@@ -201,6 +232,10 @@ struct Study {
     ExcitationSpec excitation;
     std::optional<SurfaceSpec> surface;
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
+    std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
+    std::optional<VerticalSpec> vertical;
+    /// At most one for each parameter, in the order of the enumeration and the parameters.
+    std::vector<MechanismPerturbation> mechanism_perturbations;
     InitialSpec initial;
     OutputSpec output;
     OutcomeSpec outcome;
@@ -208,6 +243,12 @@ struct Study {
 
     std::string text; ///< canonical TOML of all the above: two studies are the same if this is
 
+    /// Whether it names the mechanism.
+    bool names(Mechanism mechanism) const
+    {
+        return std::any_of(mechanisms.begin(), mechanisms.end(),
+                           [mechanism](const MechanismSpec& spec) { return spec.mechanism == mechanism; });
+    }
     /// Realizations of the whole study.
     std::uint64_t total() const
     {

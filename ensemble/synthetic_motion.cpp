@@ -75,6 +75,11 @@ SyntheticMotion::SyntheticMotion(const ExcitationSpec& e, const Realization& r) 
         shape_);
 }
 
+double SyntheticMotion::fastest_hz() const
+{
+    return std::visit([](const auto& shape) { return shape.fastest_hz(); }, shape_);
+}
+
 void SyntheticMotion::sample(double first, double step_s, std::span<double> displacements_m) const
 {
     std::visit(

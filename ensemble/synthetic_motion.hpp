@@ -20,6 +20,8 @@ public:
     static bool covers(ExcitationKind kind);
 
     double duration_s() const { return duration_s_; }
+    /// Frequency of its fastest component [Hz].
+    double fastest_hz() const;
     double displacement_m(double time_s) const;
     /// Displacements at the times (first + i) step_s.
     void sample(double first, double step_s, std::span<double> displacements_m) const;

@@ -70,7 +70,7 @@ double peak(const std::vector<double>& values)
 }
 
 /// Velocity and displacement at the end of an acceleration that is linear between its samples; along it, where asked.
-std::pair<double, double> integrate(const std::vector<double>& a, double d, Motion* along = nullptr)
+std::pair<double, double> integrate_along(const std::vector<double>& a, double d, Motion* along = nullptr)
 {
     double v = 0, u = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -123,7 +123,7 @@ std::vector<double> SyntheticNoise::acceleration(std::uint64_t seed, std::uint64
     }
     // twice: the second time takes out what the first, which is no polynomial between samples, left over
     for (int pass = 0; pass < 2; ++pass) {
-        const auto [v, u] = integrate(a, dt_s_);
+        const auto [v, u] = integrate_along(a, dt_s_);
         const RestPolynomial rest(duration_s_, u, v, a.back());
         for (std::size_t i = 0; i < samples_; ++i)
             a[i] -= rest.acceleration(static_cast<double>(i) * dt_s_);
@@ -147,7 +147,7 @@ Motion SyntheticNoise::motion_from(std::vector<double> acceleration, double scal
     m.acceleration_m_s2 = std::move(acceleration);
     for (double& a : m.acceleration_m_s2)
         a *= scale;
-    integrate(m.acceleration_m_s2, dt_s_, &m);
+    integrate_along(m.acceleration_m_s2, dt_s_, &m);
     m.pga_m_s2 = peak(m.acceleration_m_s2);
     m.predominant_frequency_hz = frequency_hz_;
     return m;

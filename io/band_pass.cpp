@@ -1,6 +1,6 @@
 #include "io/band_pass.hpp"
 
-#include "io/fourier.hpp"
+#include "ensemble/fourier.hpp"
 
 #include <algorithm>
 #include <cmath>

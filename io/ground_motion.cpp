@@ -21,20 +21,6 @@ constexpr double shortest_taper = 2; // samples
 constexpr std::size_t coefficients = 4;
 constexpr std::size_t constraints = 2;
 
-struct Integrated {
-    std::vector<double> v, u;
-};
-
-Integrated integrate(const std::vector<double>& a, double d)
-{
-    Integrated motion{std::vector<double>(a.size()), std::vector<double>(a.size())};
-    for (std::size_t i = 0; i + 1 < a.size(); ++i) {
-        motion.v[i + 1] = motion.v[i] + d * (a[i] + a[i + 1]) / 2;
-        motion.u[i + 1] = motion.u[i] + motion.v[i] * d + d * d * (a[i] / 3 + a[i + 1] / 6);
-    }
-    return motion;
-}
-
 /// Rises from 0 to 1 at both ends, with a smooth first and second derivative.
 std::vector<double> taper(std::size_t n, double d)
 {

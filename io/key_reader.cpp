@@ -224,6 +224,28 @@ std::uint64_t KeyReader::whole_or(std::string_view key, std::uint64_t low, std::
     return has(key) ? whole(key, low, high, hint) : absent;
 }
 
+std::vector<std::uint64_t> KeyReader::whole_list_or_none(std::string_view key, std::uint64_t low, std::uint64_t high,
+                                                         const std::string& hint) const
+{
+    std::vector<std::uint64_t> all;
+    if (!has(key))
+        return all;
+    const TomlValue& list = *find(key);
+    if (list.type != TomlValue::Type::array || list.entries.empty())
+        refuse(key,
+               list.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", list.type_name()),
+               fmt::format("Give whole numbers in [{}, {}]: {} = [NUMBER, ...]. {}", low, high, key, hint));
+    for (const TomlValue& entry : list.entries) {
+        const bool whole = entry.type == TomlValue::Type::integer && entry.integer >= 0;
+        const auto value = static_cast<std::uint64_t>(entry.integer);
+        if (!whole || value < low || value > high)
+            refuse(key, fmt::format("has {} in it, which is no whole number in [{}, {}]", entry.shown(), low, high),
+                   hint);
+        all.push_back(value);
+    }
+    return all;
+}
+
 bool KeyReader::boolean_or(std::string_view key, bool absent) const
 {
     const auto* value = find(key);

@@ -61,6 +61,10 @@ public:
     std::uint64_t whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
                            const std::string& hint = {}) const;
 
+    /// Whole numbers in brackets, at least one; none if the key is absent.
+    std::vector<std::uint64_t> whole_list_or_none(std::string_view key, std::uint64_t low, std::uint64_t high,
+                                                  const std::string& hint = {}) const;
+
     bool boolean_or(std::string_view key, bool absent) const;
 
     /// A string that is not empty. From the command line a number is taken as the text that was typed.

@@ -25,63 +25,6 @@ constexpr const RecordParser* parsers[] = {&at2_parser,  &csmip_parser, &cosmos_
 constexpr const char* unit_choices = "\"m/s2\", \"cm/s2\" (or \"gal\"), \"mm/s2\", \"g\" or \"g/10\"";
 constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record
 
-std::string content_of(const std::filesystem::path& path)
-{
-    const std::string file = path.string();
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        throw InputError(file, 0, "there is no such file. Give the path of a ground-motion record.");
-    if (!std::filesystem::is_regular_file(status))
-        throw InputError(file, 0, "is not a file. Give the path of a ground-motion record.");
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (!error && size > largest_file)
-        throw InputError(file, 0,
-                         fmt::format("has {} bytes, more than the {} that a record may have. Give the path of a "
-                                     "ground-motion record.",
-                                     size, largest_file));
-    std::ifstream in(path, std::ios::binary);
-    std::string content(error ? 0 : static_cast<std::size_t>(size), '\0');
-    if (!in || error || !in.read(content.data(), static_cast<std::streamsize>(content.size())))
-        throw InputError(file, 0, "cannot be read. Check its permissions.");
-    return content;
-}
-
-/// @param content without it the lines are gone
-RecordText lines_of(const std::string& file, std::string_view content)
-{
-    RecordText text{file, {}, true};
-    if (content.starts_with("\xEF\xBB\xBF")) // UTF-8 mark
-        content.remove_prefix(3);
-    while (content.ends_with('\x1a')) // end of file of old systems
-        content.remove_suffix(1);
-    while (!content.empty()) {
-        const std::size_t end = content.find_first_of("\r\n");
-        const std::string_view line = content.substr(0, end);
-        text.lines.push_back(line);
-        for (const char c : line)
-            if (const auto byte = static_cast<unsigned char>(c);
-                (byte < 0x20 && c != '\t' && c != '\f') || byte == 0x7f)
-                text.refuse(text.lines.size() - 1,
-                            fmt::format("byte 0x{:02x} in what should be text: the file is binary or damaged.", byte));
-        text.ended = end != std::string_view::npos;
-        if (!text.ended)
-            break;
-        // CR CR LF is one end of line, CR alone too; without a LF after them, each of several CR ends a line
-        std::size_t next = content.find_first_not_of('\r', end);
-        if (next != std::string_view::npos && content[next] == '\n')
-            ++next;
-        else
-            next = end + 1;
-        content.remove_prefix(next);
-    }
-    const bool blank =
-        std::all_of(text.lines.begin(), text.lines.end(), [](std::string_view line) { return trimmed(line).empty(); });
-    if (blank)
-        text.refuse("is empty.");
-    return text;
-}
-
 std::vector<Record> parse(std::string_view content, const std::string& file, const std::string& unit)
 {
     const std::string given = canonical_unit(unit);
@@ -170,6 +113,61 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
 }
 
 } // namespace
+
+std::string content_of(const std::filesystem::path& path, const std::string& what)
+{
+    const std::string file = path.string();
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status))
+        throw InputError(file, 0, fmt::format("there is no such file. Give the path of {}.", what));
+    if (!std::filesystem::is_regular_file(status))
+        throw InputError(file, 0, fmt::format("is not a file. Give the path of {}.", what));
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (!error && size > largest_file)
+        throw InputError(file, 0,
+                         fmt::format("has {} bytes, more than the {} that a record may have. Give the path of {}.",
+                                     size, largest_file, what));
+    std::ifstream in(path, std::ios::binary);
+    std::string content(error ? 0 : static_cast<std::size_t>(size), '\0');
+    if (!in || error || !in.read(content.data(), static_cast<std::streamsize>(content.size())))
+        throw InputError(file, 0, "cannot be read. Check its permissions.");
+    return content;
+}
+
+RecordText lines_of(const std::string& file, std::string_view content)
+{
+    RecordText text{file, {}, true};
+    if (content.starts_with("\xEF\xBB\xBF")) // UTF-8 mark
+        content.remove_prefix(3);
+    while (content.ends_with('\x1a')) // end of file of old systems
+        content.remove_suffix(1);
+    while (!content.empty()) {
+        const std::size_t end = content.find_first_of("\r\n");
+        const std::string_view line = content.substr(0, end);
+        text.lines.push_back(line);
+        for (const char c : line)
+            if (const auto byte = static_cast<unsigned char>(c);
+                (byte < 0x20 && c != '\t' && c != '\f') || byte == 0x7f)
+                text.refuse(text.lines.size() - 1,
+                            fmt::format("byte 0x{:02x} in what should be text: the file is binary or damaged.", byte));
+        text.ended = end != std::string_view::npos;
+        if (!text.ended)
+            break;
+        // CR CR LF is one end of line, CR alone too; without a LF after them, each of several CR ends a line
+        std::size_t next = content.find_first_not_of('\r', end);
+        if (next != std::string_view::npos && content[next] == '\n')
+            ++next;
+        else
+            next = end + 1;
+        content.remove_prefix(next);
+    }
+    const bool blank =
+        std::all_of(text.lines.begin(), text.lines.end(), [](std::string_view line) { return trimmed(line).empty(); });
+    if (blank)
+        text.refuse("is empty.");
+    return text;
+}
 
 void RecordText::refuse(std::size_t i, const std::string& what) const
 {
@@ -372,12 +370,12 @@ std::vector<Record> read_records(std::string_view content, const std::string& fi
 
 std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit)
 {
-    return read_records(content_of(file), file.string(), unit);
+    return read_records(content_of(file, "a ground-motion record"), file.string(), unit);
 }
 
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit)
 {
-    std::vector<Record> records = parse(content_of(file), file.string(), unit);
+    std::vector<Record> records = parse(content_of(file, "a ground-motion record"), file.string(), unit);
     Record record = std::move(records[place_of(records, component)]);
     check_pga(record);
     return record;

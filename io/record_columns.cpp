@@ -158,14 +158,9 @@ std::vector<std::string> names_of(const RecordText& text, const Top& top, std::s
     return named.size() == columns && different.size() == columns && !different.contains("") ? named : numbered;
 }
 
-struct Table {
-    std::vector<std::vector<double>> columns;
-    std::vector<std::size_t> line; ///< of each row
-};
-
-Table read_table(const RecordText& text, std::size_t first_row)
+ColumnTable read_rows(const RecordText& text, std::size_t first_row)
 {
-    Table table;
+    ColumnTable table;
     std::size_t end = text.lines.size();
     while (trimmed(text.lines[end - 1]).empty())
         --end;
@@ -193,36 +188,20 @@ std::vector<Record> parse(const RecordText& text, const std::string& unit)
     if (unit.empty())
         text.refuse("plain columns do not say the unit of the acceleration. Give it (excitation.unit, or --unit): "
                     "\"m/s2\", \"cm/s2\", \"gal\", \"mm/s2\" or \"g\".");
-    const Top top = top_of(text);
-    const Table table = read_table(text, top.first_row);
+    const ColumnTable table = read_columns(text);
     const std::size_t columns = table.columns.size();
-    const std::optional<double> stated = stated_dt(text, top.first_row);
-    double dt = 0;
-    if (columns == 1) {
-        if (!stated)
-            text.refuse(top.first_row, "a single column says no time. Put the time in s into a first column, or a "
-                                       "line \"# dt = 0.01\" above the values.");
-        dt = *stated;
-    } else {
-        dt = uniform_dt(text, table.columns.front(), table.line);
-        if (stated && std::fabs(*stated - dt) > 0.01 * dt)
-            text.refuse(top.first_row,
-                        fmt::format("the comment says dt = {} s and the first column {} s. Correct one.", *stated, dt));
-    }
-
-    const std::vector<std::string> names = names_of(text, top, columns);
+    if (columns == 1 && !table.stated_dt_s)
+        text.refuse(table.line.front(), "a single column says no time. Put the time in s into a first column, or a "
+                                        "line \"# dt = 0.01\" above the values.");
     std::vector<Record> records;
     for (std::size_t c = columns == 1 ? 0 : 1; c < columns; ++c) {
         Record record;
         record.file = text.file;
         record.format = columns_parser.format;
-        record.component = names[c];
-        if (top.first_comment) {
-            const std::string_view line = trimmed(text.lines[*top.first_comment]);
-            record.title = trimmed(line.substr(std::min(line.find_first_not_of("#% "), line.size())));
-        }
+        record.component = table.names[c];
+        record.title = table.title;
         record.unit = unit;
-        record.dt_s = dt;
+        record.dt_s = columns == 1 ? *table.stated_dt_s : table.dt_s;
         record.acceleration_m_s2 = table.columns[c];
         for (double& a : record.acceleration_m_s2)
             a *= unit_m_s2(unit);
@@ -232,6 +211,25 @@ std::vector<Record> parse(const RecordText& text, const std::string& unit)
 }
 
 } // namespace
+
+ColumnTable read_columns(const RecordText& text)
+{
+    const Top top = top_of(text);
+    ColumnTable table = read_rows(text, top.first_row);
+    table.stated_dt_s = stated_dt(text, top.first_row);
+    if (table.columns.size() > 1) {
+        table.dt_s = uniform_dt(text, table.columns.front(), table.line);
+        if (table.stated_dt_s && std::fabs(*table.stated_dt_s - table.dt_s) > 0.01 * table.dt_s)
+            text.refuse(top.first_row, fmt::format("the comment says dt = {} s and the first column {} s. Correct one.",
+                                                   *table.stated_dt_s, table.dt_s));
+    }
+    table.names = names_of(text, top, table.columns.size());
+    if (top.first_comment) {
+        const std::string_view line = trimmed(text.lines[*top.first_comment]);
+        table.title = trimmed(line.substr(std::min(line.find_first_not_of("#% "), line.size())));
+    }
+    return table;
+}
 
 const RecordParser columns_parser = {"columns", recognise, parse};
 

@@ -4,6 +4,7 @@
 #include "io/record.hpp"
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,27 @@ struct RecordText {
     /// "file: text"
     [[noreturn]] void refuse(const std::string& what) const;
 };
+
+/// The bytes of a file of text.
+/// @param what it should be, for messages: "a ground-motion record"
+/// @throws InputError if there is no such file, or it is too large or cannot be read
+std::string content_of(const std::filesystem::path& path, const std::string& what);
+
+/// Cuts it into lines; the text is gone with its content.
+/// @throws InputError if it is empty or has bytes that no text has
+RecordText lines_of(const std::string& file, std::string_view content);
+
+/// Plain columns of numbers, as record_columns.cpp describes them.
+struct ColumnTable {
+    std::vector<std::string> names;           ///< "column 2" where the file names none
+    std::vector<std::vector<double>> columns; ///< as they stand; the first one is the time unless it is alone
+    std::vector<std::size_t> line;            ///< of each row
+    std::optional<double> stated_dt_s;        ///< in a comment
+    double dt_s = 0;                          ///< of the times; 0 of a single column
+    std::string title;                        ///< the first comment
+};
+/// @throws InputError for rows that differ in length or are no numbers, and for times that are not uniform
+ColumnTable read_columns(const RecordText& text);
 
 /// One entry of the table in record.cpp.
 struct RecordParser {

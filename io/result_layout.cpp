@@ -1,5 +1,7 @@
 #include "io/result_layout.hpp"
 
+#include "ensemble/mechanism_spec.hpp"
+
 #include <cstring>
 #include <map>
 #include <set>
@@ -36,6 +38,10 @@ std::string unit_of_input(const std::string& name)
                                                              {"tilt", "rad"},
                                                              {"phase", "rad"},
                                                              {"pulse_frequency", "Hz"}};
+    for (const MechanismRule& rule : mechanism_rules())
+        for (const MechanismParameter& parameter : rule.parameters)
+            if (input_name(rule.mechanism, parameter) == name)
+                return parameter.unit;
     const auto found = units.find(name);
     return found == units.end() ? std::string() : found->second;
 }

@@ -33,6 +33,8 @@ std::vector<std::string> excitation_keys(ExcitationKind kind)
         return {"kind",          "frequency_hz",          "pga_m_s2", "pga_of",   "ground_damping_ratio",
                 "low_cut_ratio", "low_cut_damping_ratio", "rise_s",   "strong_s", "decay_s",
                 "tail_s"};
+    case ExcitationKind::table:
+        return {"kind", "file", "run", "scale_to_pga_m_s2", "time_scale", "tail_s"};
     case ExcitationKind::record:
         break;
     }
@@ -103,22 +105,23 @@ void read_noise(const KeyReader& keys, ExcitationSpec& e)
     e.decay_s = keys.number_or("decay_s", rise_range, e.decay_s);
 }
 
-void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
+/// What records and tables share. @param what is in the file
+void read_sampled(const KeyReader& keys, const char* what, bool in_surface, ExcitationSpec& e)
 {
     if (!keys.has("file"))
-        keys.missing("file", "Name the record here, or on the command line: --set excitation.file=PATH");
+        keys.missing("file", fmt::format("Name {} here, or on the command line: --set excitation.file=PATH", what));
     e.file = keys.text("file");
-    e.component = keys.text_or_empty("component");
-    if (keys.has("unit")) {
-        const std::vector<std::string> units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};
-        e.unit = units[keys.word_index("unit", units)];
-        if (e.unit == "gal")
-            e.unit = "cm/s2"; // one name for one unit, so that equal studies have equal texts
-    }
     if (!in_surface) {
         e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
         e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
     }
+}
+
+void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
+{
+    read_sampled(keys, "the record", in_surface, e);
+    e.component = keys.text_or_empty("component");
+    e.unit = acceleration_unit(keys);
     e.baseline = keys.boolean_or("baseline", e.baseline);
     if (const auto corners = keys.maybe_interval("band_pass_hz", corner_range)) {
         if (!e.baseline)
@@ -129,6 +132,15 @@ void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
 }
 
 } // namespace
+
+std::string acceleration_unit(const KeyReader& keys)
+{
+    if (!keys.has("unit"))
+        return {};
+    const std::vector<std::string> units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};
+    const std::string& unit = units[keys.word_index("unit", units)];
+    return unit == "gal" ? "cm/s2" : unit; // one name for one unit, so that equal studies have equal texts
+}
 
 ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
 {
@@ -155,7 +167,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
         e.duration_s = keys.number("duration_s", duration_range);
         return e;
     }
-    if (e.kind != ExcitationKind::record && !in_surface) {
+    if (e.kind != ExcitationKind::record && e.kind != ExcitationKind::table && !in_surface) {
         if (e.kind != ExcitationKind::sweep)
             e.frequency_hz =
                 keys.number("frequency_hz", e.kind == ExcitationKind::noise ? noise_frequency_range : frequency_range);
@@ -185,6 +197,10 @@ ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
         break;
     case ExcitationKind::record:
         read_record(keys, in_surface, e);
+        break;
+    case ExcitationKind::table:
+        read_sampled(keys, "the table of samples", in_surface, e);
+        e.run = keys.text_or_empty("run");
         break;
     }
     e.tail_s = keys.maybe_number("tail_s", tail_range);

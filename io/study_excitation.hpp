@@ -4,11 +4,16 @@
 #include "ensemble/study.hpp"
 #include "io/key_reader.hpp"
 
+#include <string>
+
 namespace stylobate {
 
 /// @param in_surface frequency and PGA come from the axes of [surface]
 /// @throws InputError naming the key
 ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface);
+
+/// The unit of a record, canonical; empty where the key `unit` is absent.
+std::string acceleration_unit(const KeyReader& keys);
 
 /// What an excitation asks of the axes of a surface beyond what any axis may be.
 /// @param surface the table [surface]

@@ -3,6 +3,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/key_reader.hpp"
 #include "io/study_excitation.hpp"
+#include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
 #include "io/study_perturbations.hpp"
 #include "io/study_ranges.hpp"
@@ -24,13 +25,6 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 constexpr std::uint64_t most_realizations = 1'000'000'000;
 
-/// A word that has only one meaning so far: refused if it is another.
-void only_word(const KeyReader& keys, std::string_view key, const char* word)
-{
-    if (keys.has(key))
-        keys.word_index(key, {word});
-}
-
 /// A dashpot's ratio or its coefficient.
 void read_damping(const KeyReader& keys, const std::string& direction, double& ratio,
                   std::optional<double>& coefficient)
@@ -48,8 +42,6 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
     keys.allow_only({"normal_stiffness_n_m2", "tangential_stiffness_n_m", "normal_damping_ratio",
                      "normal_damping_n_s_m", "tangential_damping_ratio", "tangential_damping_n_s_m", "damping",
                      "damping_per", "form", "friction"});
-    only_word(keys, "damping", "centroid");
-    only_word(keys, "form", "area");
 
     ContactSpec c;
     c.normal_stiffness_n_m2 = keys.number("normal_stiffness_n_m2", normal_stiffness_range);
@@ -61,6 +53,8 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
         keys.number_or("tangential_stiffness_n_m", tangential_stiffness_range, c.normal_stiffness_n_m2 * widest);
     read_damping(keys, "normal", c.normal_damping_ratio, c.normal_damping_n_s_m);
     read_damping(keys, "tangential", c.tangential_damping_ratio, c.tangential_damping_n_s_m);
+    c.form = keys.choice_or("form", contact_form_names, c.form);
+    c.damping = keys.choice_or("damping", damping_at_names, c.damping);
     c.damping_per = keys.choice_or("damping_per", damping_per_names, c.damping_per);
     c.friction = keys.number("friction", friction_range);
     return c;
@@ -148,8 +142,8 @@ RunSpec read_run(const KeyReader& keys)
 Study read_tree(const TomlValue& root)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "perturbation", "initial", "output",
-                    "outcome", "run", "claim"}); // [claim] is for stylobate_claims, which reads it itself
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "perturbation", "mechanisms", "initial",
+                    "output", "outcome", "run", "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
     Study study;
     const KeyReader keys = top.table("study");
@@ -177,7 +171,8 @@ Study read_tree(const TomlValue& root)
         top.refuse("surface", "is not used by study.kind = \"single\"",
                    "Remove [surface], or give study.kind = \"surface\".");
     }
-    study.perturbations = read_perturbations(top.table("perturbation"), study);
+    read_mechanisms(top.table("mechanisms"), study);
+    read_perturbations(top.table("perturbation"), study);
 
     study.initial = read_initial(top.table("initial"), study.structure);
     const KeyReader output = top.table("output");
@@ -223,14 +218,18 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 {
     const TomlValue root = read_toml(read_text(file), file.string(), overrides);
     Study study = read_tree(root);
-    if (study.excitation.kind == ExcitationKind::record && !root.find("excitation")->find("file")->place.command_line) {
-        // beside the study, if it is there; absolute, so that the study means the same from any folder
+    // beside the study, if it is there; absolute, so that the study means the same from any folder
+    const auto find_beside = [&](std::string& named, const TomlValue& table) {
         std::error_code error;
-        const auto beside = std::filesystem::absolute(file, error).parent_path() / study.excitation.file;
-        if (!error && std::filesystem::path(study.excitation.file).is_relative() &&
+        const auto beside = std::filesystem::absolute(file, error).parent_path() / named;
+        if (!error && !table.find("file")->place.command_line && std::filesystem::path(named).is_relative() &&
             std::filesystem::exists(beside, error))
-            study.excitation.file = beside.lexically_normal().string();
-    }
+            named = beside.lexically_normal().string();
+    };
+    if (!study.excitation.file.empty())
+        find_beside(study.excitation.file, *root.find("excitation"));
+    if (study.vertical)
+        find_beside(study.vertical->file, *root.find("mechanisms")->find("vertical_motion"));
     study.text = study_text(study);
     return study;
 }

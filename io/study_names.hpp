@@ -28,11 +28,17 @@ inline constexpr std::array excitation_kind_names = {Name<ExcitationKind>{"none"
                                                      Name<ExcitationKind>{"tapered", ExcitationKind::tapered},
                                                      Name<ExcitationKind>{"sweep", ExcitationKind::sweep},
                                                      Name<ExcitationKind>{"noise", ExcitationKind::noise},
-                                                     Name<ExcitationKind>{"record", ExcitationKind::record}};
+                                                     Name<ExcitationKind>{"record", ExcitationKind::record},
+                                                     Name<ExcitationKind>{"table", ExcitationKind::table}};
 inline constexpr std::array edge_names = {Name<HarmonicEdge>{"smooth", HarmonicEdge::smooth},
                                           Name<HarmonicEdge>{"abrupt", HarmonicEdge::abrupt}};
 inline constexpr std::array pga_of_names = {Name<PgaOf>{"realization", PgaOf::realization},
                                             Name<PgaOf>{"mean", PgaOf::mean}};
+inline constexpr std::array damping_at_names = {Name<DampingAt>{"centroid", DampingAt::centroid},
+                                                Name<DampingAt>{"ends", DampingAt::ends}};
+inline constexpr std::array contact_form_names = {Name<ContactForm>{"area", ContactForm::area},
+                                                  Name<ContactForm>{"two_corner", ContactForm::two_corner},
+                                                  Name<ContactForm>{"points", ContactForm::points}};
 inline constexpr std::array damping_per_names = {Name<DampingPer>{"contact", DampingPer::contact},
                                                  Name<DampingPer>{"chord", DampingPer::chord}};
 inline constexpr std::array spacing_names = {Name<Spacing>{"linear", Spacing::linear},

@@ -1,6 +1,7 @@
 #include "io/study_perturbations.hpp"
 
 #include "ensemble/nominal.hpp"
+#include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
 #include "io/study_ranges.hpp"
 
@@ -20,11 +21,15 @@ constexpr double farthest_sd = 9;
 constexpr double least_kept = 1e-6;
 
 struct Rule {
-    std::vector<double> nominal;    ///< the values that are perturbed, each once
-    Range value;                    ///< what a value may be
-    Range sd;                       ///< what a standard deviation may be
-    bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
-    std::vector<Name<Per>> allowed; ///< the first is the default
+    std::vector<double> nominal;       ///< the values that are perturbed, each once
+    Range value;                       ///< what a value may be
+    Range sd;                          ///< what a standard deviation may be
+    bool relative = true;              ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
+    std::vector<Name<Per>> allowed;    ///< the first is the default
+    std::string sd_key = {};           ///< of a standard deviation, with its unit
+    bool turns = false;                ///< a phase: without ends a uniform one is a full turn
+    bool one_for_all = false;          ///< one value is drawn in place of nominal ones that may differ
+    const char* section = "[contact]"; ///< where nominal values are given
 };
 
 /// Each value once, in ascending order.
@@ -35,8 +40,9 @@ std::vector<double> distinct(std::vector<double> values)
     return values;
 }
 
+/// All of a quantity's rule but the key of its deviation.
 /// @param nominal the quantity's nominal values, each once, ascending
-Rule rule_for(Quantity quantity, const Study& study, std::vector<double> nominal)
+Rule values_for(Quantity quantity, const Study& study, std::vector<double> nominal)
 {
     constexpr Name<Per> joint{"joint", Per::joint}, block{"block", Per::block}, structure{"structure", Per::structure};
     const auto below = [](Range range, double high) {
@@ -92,6 +98,39 @@ Rule rule_for(Quantity quantity, const Study& study, std::vector<double> nominal
     return {std::move(nominal), phase_range, below(phase_range, phase_range.high), false, {structure}};
 }
 
+Rule rule_for(Quantity quantity, const Study& study, const Layout& layout)
+{
+    Rule rule = values_for(quantity, study, distinct(nominal_values(study, layout, quantity)));
+    rule.sd_key = sd_key(quantity);
+    rule.turns = quantity == Quantity::phase;
+    rule.one_for_all = quantity == Quantity::damping_ratio;
+    return rule;
+}
+
+/// @pre the study names the mechanism
+Rule rule_for(const MechanismRule& mechanism, std::size_t parameter, const Study& study)
+{
+    const MechanismParameter& p = mechanism.parameters[parameter];
+    Rule rule;
+    for (const MechanismSpec& spec : study.mechanisms)
+        if (spec.mechanism == mechanism.mechanism)
+            rule.nominal.push_back(spec.values[parameter]);
+    rule.nominal = distinct(std::move(rule.nominal));
+    rule.value = range_of(p);
+    rule.sd = {0, p.high, true, rule.value.hint, 0};
+    rule.relative = p.low >= 0;
+    constexpr Name<Per> joint{"joint", Per::joint}, block{"block", Per::block}, structure{"structure", Per::structure};
+    if (mechanism.place == MechanismPlace::joint)
+        rule.allowed = {joint, structure};
+    else if (mechanism.place == MechanismPlace::block)
+        rule.allowed = {block, structure};
+    else
+        rule.allowed = {structure};
+    rule.sd_key = std::string("sd") + p.suffix;
+    rule.section = "[mechanisms]";
+    return rule;
+}
+
 /// Probability of a standard normal number between a and b.
 double normal_between(double a, double b)
 {
@@ -100,7 +139,7 @@ double normal_between(double a, double b)
 }
 
 /// min and max: inside the physical range, in order, and with something left between them.
-void read_ends(const KeyReader& keys, const Rule& rule, Perturbation& p)
+void read_ends(const KeyReader& keys, const Rule& rule, Spread& p)
 {
     Range range = rule.value;
     range.guess = 0;
@@ -125,9 +164,9 @@ void read_ends(const KeyReader& keys, const Rule& rule, Perturbation& p)
     }
 }
 
-void read_normal(const KeyReader& keys, const Rule& rule, Perturbation& p)
+void read_normal(const KeyReader& keys, const Rule& rule, Spread& p)
 {
-    const std::string sd = sd_key(p.quantity);
+    const std::string& sd = rule.sd_key;
     if (rule.relative && keys.has(sd) && keys.has("cov"))
         keys.refuse("cov", "and " + sd + " exclude each other", "Give one of the two.");
     if (rule.relative && keys.has("cov"))
@@ -138,7 +177,7 @@ void read_normal(const KeyReader& keys, const Rule& rule, Perturbation& p)
         keys.missing(sd, "Give it, or cov, the standard deviation as a part of the nominal value.");
     read_ends(keys, rule, p);
 
-    if (p.quantity == Quantity::drum_offset || p.quantity == Quantity::tilt || p.quantity == Quantity::phase)
+    if (!rule.relative)
         return; // may have either sign
     for (const double nominal : rule.nominal) {
         const double lowest = p.cov > 0 ? nominal * (1 - farthest_sd * p.cov) : nominal - farthest_sd * p.sd;
@@ -150,9 +189,9 @@ void read_normal(const KeyReader& keys, const Rule& rule, Perturbation& p)
     }
 }
 
-void read_uniform(const KeyReader& keys, const Rule& rule, Perturbation& p)
+void read_uniform(const KeyReader& keys, const Rule& rule, Spread& p)
 {
-    if (p.quantity == Quantity::phase && !keys.has("from") && !keys.has("to")) {
+    if (rule.turns && !keys.has("from") && !keys.has("to")) {
         p.from = 0;
         p.to = 2 * std::numbers::pi;
         return;
@@ -166,10 +205,9 @@ void read_uniform(const KeyReader& keys, const Rule& rule, Perturbation& p)
         keys.refuse("from", fmt::format("is not below to = {}", p.to));
 }
 
-Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& study, const Layout& layout)
+Spread read_spread(const KeyReader& keys, const Rule& rule)
 {
-    const Rule rule = rule_for(quantity, study, distinct(nominal_values(study, layout, quantity)));
-    const std::string sd = sd_key(quantity);
+    const std::string& sd = rule.sd_key;
     keys.allow_only({"distribution", sd, "cov", "sigma_ln", "from", "to", "min", "max", "per"});
 
     std::vector<Name<DistributionKind>> distributions;
@@ -177,8 +215,7 @@ Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& stu
         if (rule.relative || name.value == DistributionKind::normal || name.value == DistributionKind::uniform)
             distributions.push_back(name);
 
-    Perturbation p;
-    p.quantity = quantity;
+    Spread p;
     p.distribution = keys.choice("distribution", distributions);
     p.per = keys.choice_or("per", rule.allowed, rule.allowed.front().value);
 
@@ -188,7 +225,7 @@ Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& stu
     const double least_nominal = *std::min_element(rule.nominal.begin(), rule.nominal.end());
     if (about_nominal && rule.relative && !(least_nominal > 0))
         keys.refuse("distribution", "needs a nominal value above 0",
-                    "Give the nominal value in [contact], or use uniform or log_uniform.");
+                    fmt::format("Give the nominal value in {}, or use uniform or log_uniform.", rule.section));
     switch (p.distribution) {
     case DistributionKind::normal:
         if (rule.relative)
@@ -206,8 +243,7 @@ Perturbation read_one(const KeyReader& keys, Quantity quantity, const Study& stu
     case DistributionKind::log_uniform:
         keys.refuse_unused({"distribution", "from", "to", "per"}, why);
         // densities from masses and sizes differ in their last digits
-        if (quantity != Quantity::damping_ratio &&
-            rule.nominal.back() - rule.nominal.front() > 1e-9 * rule.nominal.back())
+        if (!rule.one_for_all && rule.nominal.back() - rule.nominal.front() > 1e-9 * rule.nominal.back())
             keys.refuse("distribution",
                         fmt::format("replaces nominal values that differ, from {} to {}", rule.nominal.front(),
                                     rule.nominal.back()),
@@ -235,17 +271,47 @@ void check_used(const KeyReader& section, Quantity quantity, const Study& study)
                        "Remove it: the frequency comes from the axis of [surface].");
 }
 
+/// [perturbation.mechanisms]: NAME.PARAMETER = { distribution, per, ... }
+void read_of_mechanisms(const KeyReader& section, Study& study)
+{
+    std::vector<std::string> known;
+    for (const MechanismRule& rule : mechanism_rules())
+        known.emplace_back(rule.name);
+    section.allow_only(known);
+    for (const MechanismRule& rule : mechanism_rules()) {
+        if (!section.has(rule.name))
+            continue;
+        if (!study.names(rule.mechanism))
+            section.refuse(rule.name, "is not used: [mechanisms] does not name it",
+                           fmt::format("Give its nominal values there: {} = {{ ... }}.", rule.name));
+        const KeyReader keys = section.table(rule.name);
+        if (rule.mechanism == Mechanism::vertical_motion && study.vertical)
+            section.refuse(rule.name, "is not used by a vertical motion with a file", "Remove it.");
+        known.clear();
+        for (const MechanismParameter& parameter : rule.parameters)
+            known.push_back(parameter.key());
+        keys.allow_only(known);
+        for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
+            if (!keys.has(known[i]))
+                continue;
+            MechanismPerturbation perturbation{read_spread(keys.table(known[i]), rule_for(rule, i, study)),
+                                               rule.mechanism, i};
+            study.mechanism_perturbations.push_back(perturbation);
+        }
+    }
+}
+
 } // namespace
 
-std::vector<Perturbation> read_perturbations(const KeyReader& section, const Study& study)
+void read_perturbations(const KeyReader& section, Study& study)
 {
     std::vector<std::string> known;
     for (int i = 0; i < quantity_count; ++i)
         known.emplace_back(to_string(static_cast<Quantity>(i)));
+    known.emplace_back("mechanisms");
     section.allow_only(known);
 
     const Layout layout = lay_out(study.structure);
-    std::vector<Perturbation> all;
     for (int i = 0; i < quantity_count; ++i) {
         const auto quantity = static_cast<Quantity>(i);
         if (!section.has(to_string(quantity)))
@@ -256,9 +322,9 @@ std::vector<Perturbation> read_perturbations(const KeyReader& section, const Stu
             (study.contact.normal_damping_n_s_m || study.contact.tangential_damping_n_s_m))
             section.refuse("damping_ratio", "is not used where [contact] gives a damping coefficient",
                            "Give contact.normal_damping_ratio and contact.tangential_damping_ratio instead.");
-        all.push_back(read_one(keys, quantity, study, layout));
+        study.perturbations.push_back({read_spread(keys, rule_for(quantity, study, layout)), quantity});
     }
-    return all;
+    read_of_mechanisms(section.table("mechanisms"), study);
 }
 
 } // namespace stylobate

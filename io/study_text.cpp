@@ -1,6 +1,7 @@
 /// The canonical text of a study: every value, in one order, with numbers that read back to the same bits.
 
 #include "io/study_file.hpp"
+#include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
 #include "io/toml_document.hpp"
 
@@ -163,9 +164,9 @@ void write(Writer& out, const ContactSpec& contact)
         out.number("tangential_damping_n_s_m", *contact.tangential_damping_n_s_m);
     else
         out.number("tangential_damping_ratio", contact.tangential_damping_ratio);
-    out.word("damping", "centroid");
+    out.word("damping", word_for(damping_at_names, contact.damping));
     out.word("damping_per", word_for(damping_per_names, contact.damping_per));
-    out.word("form", "area");
+    out.word("form", word_for(contact_form_names, contact.form));
     out.number("friction", contact.friction);
 }
 
@@ -179,8 +180,10 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
         return;
     }
     const auto is = [&](ExcitationKind kind) { return excitation.kind == kind; };
-    if (excitation.kind == ExcitationKind::record) {
+    if (is(ExcitationKind::record) || is(ExcitationKind::table)) {
         out.word("file", excitation.file);
+        if (!excitation.run.empty())
+            out.word("run", excitation.run);
         if (!excitation.component.empty())
             out.word("component", excitation.component);
         if (!excitation.unit.empty())
@@ -190,7 +193,8 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
                 out.number("scale_to_pga_m_s2", excitation.pga_m_s2);
             out.number("time_scale", excitation.time_scale);
         }
-        out.boolean("baseline", excitation.baseline);
+        if (is(ExcitationKind::record))
+            out.boolean("baseline", excitation.baseline);
         if (excitation.band_pass)
             out.line("band_pass_hz", fmt::format("[{}, {}]", toml_number(excitation.band_pass->low_hz),
                                                  toml_number(excitation.band_pass->high_hz)));
@@ -237,12 +241,13 @@ std::string axis(const Axis& axis)
                          {"spacing", toml_quoted(word_for(spacing_names, axis.spacing))}});
 }
 
-std::string perturbation(const Perturbation& p)
+/// @param sd the key of a standard deviation
+std::string spread(const Spread& p, const std::string& sd)
 {
     Entries entries = {{"distribution", toml_quoted(word_for(distribution_names, p.distribution))}};
     switch (p.distribution) {
     case DistributionKind::normal:
-        entries.emplace_back(p.cov > 0 ? "cov" : sd_key(p.quantity), toml_number(p.cov > 0 ? p.cov : p.sd));
+        entries.emplace_back(p.cov > 0 ? "cov" : sd, toml_number(p.cov > 0 ? p.cov : p.sd));
         break;
     case DistributionKind::lognormal:
         entries.emplace_back("sigma_ln", toml_number(p.sigma_ln));
@@ -281,7 +286,20 @@ std::string study_text(const Study& study)
     if (!study.perturbations.empty())
         out.section("perturbation");
     for (const auto& p : study.perturbations)
-        out.line(to_string(p.quantity), perturbation(p));
+        out.line(to_string(p.quantity), spread(p, sd_key(p.quantity)));
+    const MechanismRule* last = nullptr;
+    for (const auto& p : study.mechanism_perturbations) {
+        const MechanismRule& rule = rule_of(p.mechanism);
+        if (&rule != last)
+            out.section(std::string("perturbation.mechanisms.") + rule.name);
+        last = &rule;
+        const MechanismParameter& parameter = rule.parameters[p.parameter];
+        out.line(parameter.key(), spread(p, std::string("sd") + parameter.suffix));
+    }
+    if (!study.mechanisms.empty())
+        out.section("mechanisms");
+    for (const auto& [name, value] : mechanism_entries(study))
+        out.line(name, value);
     out.section("initial");
     out.number("tilt_rad", study.initial.tilt_rad);
     out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));

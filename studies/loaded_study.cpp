@@ -1,6 +1,7 @@
 #include "studies/loaded_study.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "io/base_table.hpp"
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"
 #include "io/study_file.hpp"
@@ -14,14 +15,15 @@ namespace stylobate {
 
 namespace {
 
-std::string fingerprint(const Motion& motion)
+/// @param what it is: "record", "vertical"
+std::string fingerprint(const Motion& motion, const char* what)
 {
     uLong crc = crc32(0, nullptr, 0);
     crc = crc32(crc, reinterpret_cast<const Bytef*>(motion.acceleration_m_s2.data()),
                 static_cast<uInt>(motion.acceleration_m_s2.size() * sizeof(double)));
-    return fmt::format("# record: {} samples, dt {} s, PGA {:.4f} m/s2, predominant frequency {:.4f} Hz, crc {:08x}\n",
-                       motion.acceleration_m_s2.size(), motion.dt_s, motion.pga_m_s2, motion.predominant_frequency_hz,
-                       crc);
+    return fmt::format("# {}: {} samples, dt {} s, PGA {:.4f} m/s2, predominant frequency {:.4f} Hz, crc {:08x}\n",
+                       what, motion.acceleration_m_s2.size(), motion.dt_s, motion.pga_m_s2,
+                       motion.predominant_frequency_hz, crc);
 }
 
 } // namespace
@@ -33,9 +35,17 @@ LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move
     if (excitation.kind == ExcitationKind::record) {
         motion_ = make_motion(read_record(excitation.file, excitation.component, excitation.unit), excitation.baseline,
                               excitation.band_pass);
-        text_ += fingerprint(*motion_);
+    } else if (excitation.kind == ExcitationKind::table) {
+        motion_ = read_base_table(excitation.file);
     }
-    sampler_ = std::make_unique<Sampler>(*study_, record());
+    if (motion_)
+        text_ += fingerprint(*motion_, "record");
+    std::optional<Motion> vertical;
+    if (const std::optional<VerticalSpec>& spec = study_->vertical) {
+        vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);
+        text_ += fingerprint(*vertical, "vertical");
+    }
+    sampler_ = std::make_unique<Sampler>(*study_, record(), vertical ? &*vertical : nullptr);
 }
 
 LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<std::string>& settings)
@@ -46,18 +56,33 @@ LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<st
 LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::string& file,
                                       const std::vector<std::string>& settings)
 {
+    const std::string of_record = "excitation.file=", of_vertical = "mechanisms.vertical_motion.file=";
     for (const std::string& setting : settings)
-        if (!setting.starts_with("excitation.file="))
+        if (!setting.starts_with(of_record) && !setting.starts_with(of_vertical))
             throw InputError(fmt::format("--set {}: the study of {} is fixed; only excitation.file may be set, to say "
-                                         "where its record lies now",
+                                         "where its record lies now (and mechanisms.vertical_motion.file)",
                                          setting, file));
     LoadedStudy loaded(parse_study(header.study_toml, file + " (its study)", settings));
-    if (!settings.empty() && !loaded.motion_)
-        throw InputError(fmt::format("--set {}: the study of {} is not driven by a record", settings.front(), file));
-    if (loaded.motion_ && header.study_toml.find(fingerprint(*loaded.motion_)) == std::string::npos)
-        throw InputError(fmt::format("{} is not the record that {} was made with: its samples differ. Give the right "
-                                     "one by --set excitation.file=PATH",
-                                     loaded.study().excitation.file, file));
+    const Study& study = loaded.study();
+    for (const std::string& setting : settings)
+        if (setting.starts_with(of_record) ? !loaded.motion_ : !study.vertical)
+            throw InputError(fmt::format("--set {}: the study of {} is not driven by a record", setting, file));
+    const auto check = [&](const std::string& record, const std::string& setting, const std::string& print) {
+        if (header.study_toml.find(print) == std::string::npos)
+            throw InputError(fmt::format("{} is not the record that {} was made with: its samples differ. Give the "
+                                         "right one by --set {}PATH",
+                                         record, file, setting));
+    };
+    // the text of a loaded study ends with its fingerprints, line by line
+    for (std::size_t at = study.text.size(); at < loaded.text_.size();) {
+        const std::size_t end = loaded.text_.find('\n', at) + 1;
+        const std::string print = loaded.text_.substr(at, end - at);
+        if (print.starts_with("# vertical"))
+            check(study.vertical->file, of_vertical, print);
+        else
+            check(study.excitation.file, of_record, print);
+        at = end;
+    }
     return loaded;
 }
 

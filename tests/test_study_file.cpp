@@ -316,8 +316,8 @@ TEST(StudyFile, RefusesWordsThatAreNotAllowed)
     expect_line_refused(15, "kind = \"earthquake\"", {"excitation.kind", "\"half_sine\"", "\"record\""});
     expect_line_refused(15, "kind = \"harmonc\"", {"Did you mean \"harmonic\"?"});
     expect_line_refused(16, "start = \"smoth\"", {"excitation.start", "Did you mean \"smooth\"?"});
-    expect_line_refused(13, "form = \"two_corner\"", {"contact.form", "Allowed: \"area\"."});
-    expect_line_refused(13, "damping = \"ends\"", {"contact.damping", "Allowed: \"centroid\"."});
+    expect_line_refused(13, "form = \"two_corners\"\nfriction = 0.6", {"contact.form", "Did you mean \"two_corner\"?"});
+    expect_line_refused(13, "damping = \"end\"\nfriction = 0.6", {"contact.damping", "\"centroid\", \"ends\""});
     expect_line_refused(13, "damping_per = \"area\"", {"contact.damping_per", "\"chord\""});
     expect_line_refused(21, "friction = { distribution = \"gauss\" }", {"\"normal\", \"lognormal\", \"uniform\""});
     expect_line_refused(21, "friction = { distribution = \"normal\", cov = 0.1, per = \"block\" }",

@@ -1,7 +1,7 @@
-#include "io/fourier.hpp"
+#include "ensemble/fourier.hpp"
 
-#include <cmath>
-#include <numbers>
+#include "ensemble/elementary.hpp"
+
 #include <utility>
 
 namespace stylobate {
@@ -19,7 +19,8 @@ void transform(std::vector<std::complex<double>>& z)
     }
     std::vector<std::complex<double>> turn(n / 2);
     for (std::size_t k = 0; k < n / 2; ++k)
-        turn[k] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n));
+        turn[k] = {cosine_of(static_cast<double>(k) / static_cast<double>(n)),
+                   -sine_of(static_cast<double>(k) / static_cast<double>(n))};
     for (std::size_t half = 1; half < n; half *= 2)
         for (std::size_t start = 0; start < n; start += 2 * half)
             for (std::size_t k = 0; k < half; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The fast Fourier transform.
+/// The fast Fourier transform, with the same bits on every machine.
 
 #include <complex>
 #include <cstddef>

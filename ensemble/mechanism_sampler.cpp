@@ -1,0 +1,208 @@
+#include "ensemble/mechanism_sampler.hpp"
+
+#include "ensemble/extension.hpp"
+#include "ensemble/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <variant>
+
+namespace stylobate {
+namespace {
+
+/// Whether the kernels have it, and not the sampler or the base motion alone.
+bool is_extension(const MechanismRule& rule)
+{
+    return std::any_of(rule.parameters.begin(), rule.parameters.end(), [](const MechanismParameter& parameter) {
+        return !std::holds_alternative<std::monostate>(parameter.member) &&
+               !std::holds_alternative<double BaseChange::*>(parameter.member);
+    });
+}
+
+/// Sets the member of a realization that a parameter is.
+void set(const MechanismParameter& parameter, std::size_t place, double value, Realization& realization)
+{
+    std::visit(
+        [&](auto member) {
+            using Member = decltype(member);
+            if constexpr (std::is_same_v<Member, double JointExtension::*>)
+                realization.joints[place].extension.*member = value;
+            else if constexpr (std::is_same_v<Member, double BlockExtension::*>)
+                realization.blocks[place].extension.*member = value;
+            else if constexpr (std::is_same_v<Member, double BaseExtension::*>)
+                realization.base.*member = value;
+            else if constexpr (std::is_same_v<Member, double BaseChange::*>)
+                realization.change.*member = value;
+        },
+        parameter.member);
+}
+
+} // namespace
+
+Stream stream_of(Mechanism mechanism, std::size_t parameter)
+{
+    constexpr std::uint64_t room = 8; // for the parameters of one mechanism
+    return static_cast<Stream>(static_cast<std::uint64_t>(Stream::mechanisms) +
+                               room * static_cast<std::uint64_t>(mechanism) + parameter);
+}
+
+MechanismSampler::MechanismSampler(const Study& study, const Layout& layout)
+    : seed_(study.seed), friction_(study.contact.friction), damping_(study.contact.damping), form_(study.contact.form)
+{
+    extended_ = damping_ == DampingAt::ends || form_ != ContactForm::area || study.vertical.has_value();
+    for (const MechanismSpec& spec : study.mechanisms)
+        add(spec, layout);
+    for (const MechanismPerturbation& perturbation : study.mechanism_perturbations)
+        add(perturbation);
+    for (const Acting& acting : acting_)
+        extended_ = extended_ || (acting.may_act && is_extension(*acting.rule));
+}
+
+void MechanismSampler::add(const MechanismSpec& spec, const Layout& layout)
+{
+    const MechanismRule& rule = rule_of(spec.mechanism);
+    const std::size_t places = rule.place == MechanismPlace::joint   ? layout.beds.size()
+                               : rule.place == MechanismPlace::block ? layout.blocks.size()
+                                                                     : 1;
+    auto acting = std::find_if(acting_.begin(), acting_.end(), [&](const Acting& a) { return a.rule == &rule; });
+    if (acting == acting_.end()) {
+        acting_.push_back({&rule, std::vector<bool>(places), false});
+        const MechanismSpec neutral = neutral_spec(spec.mechanism, friction_);
+        auto& values = nominal_.emplace_back();
+        for (std::size_t p = 0; p < rule.parameters.size(); ++p)
+            values[p].assign(places, neutral.values[p]);
+        acting = acting_.end() - 1;
+    }
+    acting->may_act = acting->may_act || acts(spec, friction_);
+    auto& values = nominal_[static_cast<std::size_t>(acting - acting_.begin())];
+    const auto set_at = [&](std::size_t place) {
+        acting->at[place] = true;
+        for (std::size_t p = 0; p < rule.parameters.size(); ++p)
+            values[p][place] = spec.values[p];
+    };
+    if (!spec.places.empty())
+        for (const int place : spec.places)
+            set_at(static_cast<std::size_t>(place));
+    else
+        for (std::size_t place = 0; place < places; ++place)
+            if (rule.place != MechanismPlace::block || !layout.blocks[place].fixed)
+                set_at(place);
+}
+
+void MechanismSampler::add(const MechanismPerturbation& perturbation)
+{
+    const MechanismRule& rule = rule_of(perturbation.mechanism);
+    const MechanismParameter& parameter = rule.parameters[perturbation.parameter];
+    const auto acting = std::find_if(acting_.begin(), acting_.end(), [&](const Acting& a) { return a.rule == &rule; });
+    acting->may_act = true;
+    const auto number = static_cast<std::size_t>(acting - acting_.begin());
+    MechanismPerturbation within = perturbation;
+    if (parameter.low >= 0) // a value below means nothing
+        within.min = std::max(perturbation.min.value_or(parameter.low), parameter.low);
+
+    const std::string name = input_name(rule.mechanism, parameter);
+    const std::string key = fmt::format("perturbation.mechanisms.{}.{}", rule.name, parameter.key());
+    Drawn drawn{number,
+                perturbation.parameter,
+                stream_of(rule.mechanism, perturbation.parameter),
+                perturbation.per == Per::structure,
+                {},
+                {}};
+    const std::vector<double>& values = nominal_[number][perturbation.parameter];
+    for (std::size_t place = 0; place < values.size(); ++place) {
+        if (!acting->at[place])
+            continue;
+        drawn.places.push_back(place);
+        drawn.distributions.emplace_back(within, key, values[place]);
+    }
+    if (drawn.once || drawn.places.size() == 1)
+        input_names_.push_back(name);
+    else
+        for (std::size_t place = 0; place < values.size(); ++place)
+            input_names_.push_back(fmt::format("{}[{}]", name, place));
+    drawn_.push_back(std::move(drawn));
+}
+
+MechanismSampler::Values MechanismSampler::draw(std::uint64_t index, std::vector<double>& inputs) const
+{
+    Values values = nominal_;
+    for (const Drawn& drawn : drawn_) {
+        std::vector<double>& target = values[drawn.acting][drawn.parameter];
+        for (std::size_t i = 0; i < drawn.places.size(); ++i) {
+            const std::size_t element = drawn.once ? 0 : drawn.places[i];
+            target[drawn.places[i]] = drawn.distributions[i].value(uniform01(seed_, index, drawn.stream, element));
+        }
+        if (drawn.once || drawn.places.size() == 1)
+            inputs.push_back(target[drawn.places.front()]);
+        else
+            inputs.insert(inputs.end(), target.begin(), target.end());
+    }
+    return values;
+}
+
+double MechanismSampler::offset_m(const Values& values, std::size_t block) const
+{
+    for (std::size_t i = 0; i < acting_.size(); ++i)
+        if (acting_[i].rule->mechanism == Mechanism::drum_offset)
+            return values[i][0][block];
+    return 0;
+}
+
+void MechanismSampler::apply(const Values& values, Realization& realization) const
+{
+    realization.extended = extended_;
+    realization.form = form_;
+    if (damping_ == DampingAt::ends)
+        for (Joint& joint : realization.joints)
+            joint.extension.face_damping = 1;
+    for (std::size_t i = 0; i < acting_.size(); ++i) {
+        const auto& [rule, at, may_act] = acting_[i];
+        if (!may_act) // its details are without meaning
+            continue;
+        for (std::size_t place = 0; place < at.size(); ++place) {
+            if (!at[place])
+                continue;
+            for (std::size_t p = 0; p < rule->parameters.size(); ++p)
+                set(rule->parameters[p], place, values[i][p][place], realization);
+            if (rule->place != MechanismPlace::joint)
+                continue;
+            Joint& joint = realization.joints[place];
+            if (rule->mechanism == Mechanism::stribeck) {
+                joint.extension.dynamic_ratio = values[i][0][place] / friction_;
+            } else if (rule->mechanism == Mechanism::joint_friction) {
+                joint.friction *= values[i][0][place];
+            } else if (rule->mechanism == Mechanism::hertz) {
+                const double given = values[i][1][place];
+                joint.extension.reference_overlap_m2 =
+                    given > 0 ? given : bed_load_n(realization, static_cast<int>(place)) / joint.normal_stiffness_n_m2;
+            }
+        }
+    }
+    check_room(realization);
+}
+
+/// What was drawn fits into the blocks.
+void MechanismSampler::check_room(const Realization& realization) const
+{
+    for (int j = 0; j < realization.beds(); ++j) {
+        const JointExtension& extension = realization.joints[static_cast<std::size_t>(j)].extension;
+        const double lost = extension.chip_left_m + extension.chip_right_m, left = face_length_m(realization, j);
+        if (lost > 0 && !(left > 0))
+            throw InputError(fmt::format("mechanisms.corner_loss: in realization {} joint {} loses {:g} m of its face "
+                                         "of {:g} m. Lower the values, or limit their spread with max.",
+                                         realization.index, j, lost, left + lost));
+    }
+    for (std::size_t i = 0; i < realization.blocks.size(); ++i) {
+        const Block& block = realization.blocks[i];
+        if (!(std::abs(block.extension.eccentricity_m) < block.half_width_m))
+            throw InputError(fmt::format("mechanisms.eccentricity: in realization {} the centre of mass of block {} "
+                                         "lies {:g} m from its middle, outside the block of {:g} m. Lower the value, "
+                                         "or limit its spread with min and max.",
+                                         realization.index, i, block.extension.eccentricity_m, 2 * block.half_width_m));
+    }
+}
+
+} // namespace stylobate

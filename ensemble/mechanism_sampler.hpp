@@ -1,0 +1,75 @@
+#pragma once
+/// What the mechanisms of a study make of a realization.
+
+#include "ensemble/distribution.hpp"
+#include "ensemble/mechanism_spec.hpp"
+#include "ensemble/random.hpp"
+#include "ensemble/realization.hpp"
+#include "ensemble/structure.hpp"
+#include "ensemble/study.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// The stream of a parameter's draws.
+Stream stream_of(Mechanism mechanism, std::size_t parameter);
+
+class MechanismSampler {
+public:
+    /// The parameters of the mechanisms that the study names, in the order of its rules: [mechanism][parameter][place].
+    using Values = std::vector<std::array<std::vector<double>, most_parameters>>;
+
+    /// @param layout of the study's structure
+    /// @throws InputError if a perturbation leaves no probability between its limits
+    MechanismSampler(const Study& study, const Layout& layout);
+
+    /// Names of what `draw` appends to the inputs: "stribeck_velocity[0]" and so on for each joint or block if it is
+    /// drawn for more than one, where the mechanism does not act with the neutral value; else the name alone.
+    const std::vector<std::string>& input_names() const { return input_names_; }
+    /// The values of a realization: those of the study, or drawn.
+    Values draw(std::uint64_t index, std::vector<double>& inputs) const;
+
+    /// How far a block is out of its place [m].
+    double offset_m(const Values& values, std::size_t block) const;
+
+    /// Writes all else into a realization whose blocks and joints are there.
+    /// @throws InputError if what was drawn cannot be built: a face that is lost as a whole, a centre of mass outside
+    ///         its block
+    void apply(const Values& values, Realization& realization) const;
+
+private:
+    /// A mechanism with all places at which it acts.
+    struct Acting {
+        const MechanismRule* rule;
+        std::vector<bool> at; ///< joint by joint, block by block, or the base
+        bool may_act = false; ///< not neutral everywhere, or drawn
+    };
+    struct Drawn {
+        std::size_t acting;
+        std::size_t parameter;
+        Stream stream;
+        bool once;                               ///< one draw for all places
+        std::vector<std::size_t> places;         ///< at which it is drawn
+        std::vector<Distribution> distributions; ///< at each of them
+    };
+
+    void add(const MechanismSpec& spec, const Layout& layout);
+    void add(const MechanismPerturbation& perturbation);
+    void check_room(const Realization& realization) const;
+
+    std::uint64_t seed_ = 0;
+    double friction_ = 0; ///< of [contact]
+    DampingAt damping_ = DampingAt::centroid;
+    bool extended_ = false;
+    ContactForm form_ = ContactForm::area;
+    std::vector<Acting> acting_;
+    Values nominal_;
+    std::vector<Drawn> drawn_;
+    std::vector<std::string> input_names_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,105 @@
+#pragma once
+/// The mechanisms that a study can name: one table says what each is, from which studies are read, written, perturbed
+/// and explained. The equations are in `kernels/mechanisms/` and, for the base, in `base_motion.hpp`.
+
+#include "ensemble/realization.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace stylobate {
+
+/// A physical effect that the baseline leaves out. A number stands for ever (`Stream`): a new one takes the next.
+enum class Mechanism : std::uint8_t {
+    stribeck,
+    joint_friction,
+    drag,
+    corner_loss,
+    hertz,
+    rate_damping,
+    face_damping,
+    friction_wear,
+    corner_wear,
+    table_pitch,
+    vertical_motion,
+    harmonic_distortion,
+    time_offset,
+    sensor_gain,
+    dowel,
+    adhesion,
+    eccentricity,
+    wedge,
+    drum_offset
+};
+inline constexpr int mechanism_count = 19;
+const char* to_string(Mechanism mechanism);
+
+/// Where a mechanism acts.
+enum class MechanismPlace {
+    joint, ///< a bed, counted as in `Layout::beds`
+    block, ///< a free one, counted as in `Layout::blocks`
+    base
+};
+
+/// What a parameter is to its mechanism.
+enum class ParameterRole {
+    acting, ///< at its neutral value the mechanism does nothing by it; at least one of these is given
+    needed, ///< says how the mechanism acts, and is given
+    detail  ///< says how the mechanism acts; has a default
+};
+
+struct MechanismParameter {
+    const char* name;
+    const char* suffix; ///< of its key in a study file: its unit
+    const char* unit;   ///< as people write it; empty: none
+    double low, high;   ///< what it may be
+    bool open;          ///< `low` itself is outside
+    ParameterRole role;
+    double neutral; ///< of an acting one; of the others the default
+    /// The member that it is in a realization; none where the sampler does something else with it.
+    std::variant<std::monostate, double JointExtension::*, double BlockExtension::*, double BaseExtension::*,
+                 double BaseChange::*>
+        member;
+    const char* says;
+
+    std::string key() const { return std::string(name) + suffix; }
+};
+
+struct MechanismRule {
+    Mechanism mechanism;
+    const char* name; ///< in study files
+    MechanismPlace place;
+    const char* says;
+    std::span<const MechanismParameter> parameters;
+};
+
+/// All of them, in the order of the enumeration.
+std::span<const MechanismRule> mechanism_rules();
+const MechanismRule& rule_of(Mechanism mechanism);
+
+inline constexpr std::size_t most_parameters = 4;
+
+/// A mechanism with the same values at one or several places.
+struct MechanismSpec {
+    Mechanism mechanism = Mechanism::stribeck;
+    std::vector<int> places;                      ///< joints or blocks, ascending; empty: all of them, or the base
+    std::array<double, most_parameters> values{}; ///< in the order of the rule's parameters
+    friend bool operator==(const MechanismSpec&, const MechanismSpec&) = default;
+};
+
+/// A spec with no parameter but neutral values and defaults.
+/// @param friction of [contact]: the neutral dynamic friction of `stribeck`
+MechanismSpec neutral_spec(Mechanism mechanism, double friction);
+
+/// Whether it says anything but neutral values.
+bool acts(const MechanismSpec& spec, double friction);
+
+/// "stribeck_velocity": of the values that were drawn, in results.
+std::string input_name(Mechanism mechanism, const MechanismParameter& parameter);
+
+} // namespace stylobate

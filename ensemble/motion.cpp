@@ -1,0 +1,55 @@
+#include "ensemble/motion.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace stylobate {
+
+Integrated integrate(const std::vector<double>& a, double d)
+{
+    Integrated motion{std::vector<double>(a.size()), std::vector<double>(a.size())};
+    for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+        motion.v[i + 1] = motion.v[i] + d * (a[i] + a[i + 1]) / 2;
+        motion.u[i + 1] = motion.u[i] + motion.v[i] * d + d * d * (a[i] / 3 + a[i + 1] / 6);
+    }
+    return motion;
+}
+
+std::vector<double> acceleration_through(const std::vector<double>& u, double d)
+{
+    // The slope is continuous at every sample: a(i-1) + 4 a(i) + a(i+1) = 6 (u(i+1) - 2 u(i) + u(i-1)) / d2, at rest
+    // at the first one: 2 a(0) + a(1) = 6 (u(1) - u(0)) / d2, and a = 0 at the last one. By elimination from the left.
+    assert(u.size() >= 2 && "a motion passes through two displacements at least");
+    const std::size_t n = u.size();
+    const double per_d2 = 6 / (d * d);
+    std::vector<double> a(n), above(n);
+    double diagonal = 2;
+    a[0] = per_d2 * (u[1] - u[0]) / diagonal;
+    above[0] = 1 / diagonal;
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        diagonal = 4 - above[i - 1];
+        above[i] = 1 / diagonal;
+        a[i] = (per_d2 * ((u[i + 1] - u[i]) - (u[i] - u[i - 1])) - a[i - 1]) / diagonal;
+    }
+    a[n - 1] = 0;
+    for (std::size_t i = n - 1; i-- > 0;)
+        a[i] -= above[i] * a[i + 1];
+    return a;
+}
+
+Motion motion_of(std::vector<double> acceleration, double dt_s)
+{
+    Motion motion;
+    motion.dt_s = dt_s;
+    motion.acceleration_m_s2 = std::move(acceleration);
+    Integrated moved = integrate(motion.acceleration_m_s2, dt_s);
+    motion.velocity_m_s = std::move(moved.v);
+    motion.displacement_m = std::move(moved.u);
+    for (const double a : motion.acceleration_m_s2)
+        motion.pga_m_s2 = std::max(motion.pga_m_s2, std::fabs(a));
+    return motion;
+}
+
+} // namespace stylobate

@@ -1,0 +1,22 @@
+#pragma once
+/// The base motion of `excitation.kind = "table"`: samples as they stand, nothing corrected.
+
+#include "ensemble/motion.hpp"
+
+#include <filesystem>
+
+namespace stylobate {
+
+/// Reads a file of columns with one line of names above: time_s, and acceleration_m_s2 or displacement_m; other columns
+/// are left alone. Blanks, tabs, commas or semicolons between them; lines that begin with # are comments. Times are
+/// uniform.
+///
+/// The motion begins at rest with the first sample. An acceleration is linear between its samples; where there is none,
+/// it is that of the cubic spline through the displacements, counted from the first one. Where there are both, the
+/// acceleration drives: displacements are too coarse to be differentiated twice.
+///
+/// @throws InputError if it cannot be read, lacks the columns, has times that are not uniform, too few samples, or does
+///         not move
+Motion read_base_table(const std::filesystem::path& file);
+
+} // namespace stylobate

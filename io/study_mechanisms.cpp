@@ -1,0 +1,300 @@
+#include "io/study_mechanisms.hpp"
+
+#include "io/study_excitation.hpp"
+#include "io/study_names.hpp"
+#include "io/toml_document.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+const char* place_word(MechanismPlace place)
+{
+    return place == MechanismPlace::joint ? "joint" : "block";
+}
+
+/// The keys of a record, for the vertical motion of the base.
+const std::vector<std::string> record_keys = {"file", "component", "unit", "baseline"};
+
+class Reader {
+public:
+    Reader(const KeyReader& section, Study& study) : section_(section), study_(study), layout_(lay_out(study.structure))
+    {
+    }
+
+    void read()
+    {
+        std::vector<std::string> known;
+        for (const MechanismRule& rule : mechanism_rules())
+            known.emplace_back(rule.name);
+        section_.allow_only(known);
+        for (const MechanismRule& rule : mechanism_rules())
+            if (section_.has(rule.name))
+                read_mechanism(rule);
+    }
+
+private:
+    int places(MechanismPlace place) const
+    {
+        return static_cast<int>(place == MechanismPlace::joint ? layout_.beds.size() : layout_.blocks.size());
+    }
+
+    /// "The structure has 6 joints: 0 is drum 1 on drum 0, 5 is drum 6 on drum 5."
+    std::string what_there_is(MechanismPlace place) const
+    {
+        const auto name = [&](int i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (place == MechanismPlace::block)
+                return layout_.blocks[k].name;
+            const PlacedBed& bed = layout_.beds[k];
+            return fmt::format("{} on {}", layout_.blocks[static_cast<std::size_t>(bed.upper)].name,
+                               bed.lower < 0 ? "the ground" : layout_.blocks[static_cast<std::size_t>(bed.lower)].name);
+        };
+        const int count = places(place);
+        const std::string last = count > 1 ? fmt::format(", {} is {}", count - 1, name(count - 1)) : std::string();
+        return fmt::format("The structure has {} {}{}: 0 is {}{}.", count, place_word(place), count == 1 ? "" : "s",
+                           name(0), last);
+    }
+
+    void check_excitation(const MechanismRule& rule) const
+    {
+        const ExcitationKind kind = study_.excitation.kind;
+        if (rule.place != MechanismPlace::base)
+            return;
+        const std::string unused =
+            fmt::format("is not used by excitation.kind = \"{}\"", word_for(excitation_kind_names, kind));
+        if (kind == ExcitationKind::none)
+            section_.refuse(rule.name, unused, "Remove it: the base does not move.");
+        const bool pulse = kind == ExcitationKind::half_sine || kind == ExcitationKind::full_sine ||
+                           kind == ExcitationKind::ricker || kind == ExcitationKind::pulse;
+        if (rule.mechanism == Mechanism::harmonic_distortion && pulse)
+            section_.refuse(rule.name, unused,
+                            "Remove it: a pulse has no overtones. Motions that oscillate have: harmonic, tapered, "
+                            "sweep, noise, record, table.");
+    }
+
+    void read_mechanism(const MechanismRule& rule)
+    {
+        check_excitation(rule);
+        if (rule.mechanism == Mechanism::face_damping && study_.contact.damping == DampingAt::ends)
+            section_.refuse(rule.name, "and contact.damping = \"ends\" exclude each other",
+                            "\"ends\" is a share of 1 in every joint. Give one of the two.");
+        std::vector<MechanismSpec> specs;
+        std::vector<bool> taken(static_cast<std::size_t>(rule.place == MechanismPlace::base ? 1 : places(rule.place)));
+        const bool list = section_.find(rule.name)->type == TomlValue::Type::array;
+        if (list && rule.place == MechanismPlace::base)
+            section_.refuse(rule.name, "is a list, and there is one base", "Give one table: { key = value, ... }.");
+        const std::vector<KeyReader> tables =
+            list ? section_.tables(rule.name) : std::vector<KeyReader>{section_.table(rule.name)};
+        if (tables.empty())
+            section_.refuse(rule.name, "is empty", "Remove it, or give { key = value, ... }.");
+        for (const KeyReader& keys : tables) {
+            MechanismSpec spec = read_one(keys, rule);
+            read_places(keys, rule, taken, spec.places);
+            check_room(keys, spec);
+            const auto same = std::find_if(specs.begin(), specs.end(),
+                                           [&](const MechanismSpec& other) { return other.values == spec.values; });
+            if (same == specs.end())
+                specs.push_back(std::move(spec));
+            else
+                same->places.insert(same->places.end(), spec.places.begin(), spec.places.end());
+        }
+        for (MechanismSpec& spec : specs) {
+            std::sort(spec.places.begin(), spec.places.end());
+            if (static_cast<long>(spec.places.size()) == can_act(rule.place))
+                spec.places.clear();
+        }
+        std::sort(specs.begin(), specs.end(),
+                  [](const MechanismSpec& a, const MechanismSpec& b) { return a.places < b.places; });
+        study_.mechanisms.insert(study_.mechanisms.end(), specs.begin(), specs.end());
+    }
+
+    /// So many places there are at which it can act.
+    long can_act(MechanismPlace place) const
+    {
+        if (place != MechanismPlace::block)
+            return places(place);
+        return std::count_if(layout_.blocks.begin(), layout_.blocks.end(),
+                             [](const PlacedBlock& block) { return !block.fixed; });
+    }
+
+    MechanismSpec read_one(const KeyReader& keys, const MechanismRule& rule)
+    {
+        std::vector<std::string> known;
+        if (rule.place != MechanismPlace::base)
+            known = {place_word(rule.place), std::string(place_word(rule.place)) + "s"};
+        for (const MechanismParameter& parameter : rule.parameters)
+            known.push_back(parameter.key());
+        const bool vertical = rule.mechanism == Mechanism::vertical_motion;
+        if (vertical)
+            known.insert(known.end(), record_keys.begin(), record_keys.end());
+        keys.allow_only(known);
+
+        MechanismSpec spec = neutral_spec(rule.mechanism, study_.contact.friction);
+        if (vertical && keys.has("file")) {
+            read_vertical(keys);
+            return spec;
+        }
+        if (vertical)
+            keys.refuse_unused({"ratio"}, "a vertical motion without a file");
+        bool acts = false;
+        std::vector<std::string> acting;
+        for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
+            const MechanismParameter& parameter = rule.parameters[i];
+            const std::string key = parameter.key();
+            if (parameter.role == ParameterRole::needed)
+                spec.values[i] = keys.number(key, range_of(parameter));
+            else
+                spec.values[i] = keys.number_or(key, range_of(parameter), spec.values[i]);
+            if (parameter.role == ParameterRole::acting) {
+                acting.push_back(key);
+                acts = acts || keys.has(key);
+            }
+        }
+        if (acting.size() == 1 && !acts)
+            keys.missing(acting.front(), range_of(rule.parameters.front()).hint);
+        if (!acts)
+            keys.refuse_all(fmt::format("{} says nothing.\n  Give one of {}.", keys.path(), fmt::join(acting, ", ")));
+        return spec;
+    }
+
+    void read_vertical(const KeyReader& keys)
+    {
+        if (keys.has("ratio"))
+            keys.refuse("ratio", "and file exclude each other", "Give one of the two.");
+        VerticalSpec vertical;
+        vertical.file = keys.text("file");
+        vertical.component = keys.text_or_empty("component");
+        vertical.unit = acceleration_unit(keys);
+        vertical.baseline = keys.boolean_or("baseline", vertical.baseline);
+        study_.vertical = vertical;
+    }
+
+    /// @param taken of which places it has been said before   @param[out] all where it acts, each named
+    void read_places(const KeyReader& keys, const MechanismRule& rule, std::vector<bool>& taken,
+                     std::vector<int>& all) const
+    {
+        if (rule.place == MechanismPlace::base)
+            return;
+        const std::string one = place_word(rule.place), several = one + "s";
+        if (keys.has(one) && keys.has(several))
+            keys.refuse(several, fmt::format("and {} exclude each other", one), "Give one of the two.");
+        const std::string there_is = what_there_is(rule.place);
+        const auto last = static_cast<std::uint64_t>(places(rule.place) - 1);
+        if (keys.has(one))
+            all = {static_cast<int>(keys.whole(one, 0, last, there_is))};
+        for (const std::uint64_t place : keys.whole_list_or_none(several, 0, last, there_is))
+            all.push_back(static_cast<int>(place));
+        const bool named = !all.empty();
+        if (!named)
+            for (int place = 0; place < places(rule.place); ++place)
+                if (rule.place == MechanismPlace::joint || !layout_.blocks[static_cast<std::size_t>(place)].fixed)
+                    all.push_back(place);
+        for (const int place : all) {
+            const auto k = static_cast<std::size_t>(place);
+            const std::string& key = keys.has(one) ? one : several;
+            if (rule.place == MechanismPlace::block && layout_.blocks[k].fixed)
+                keys.refuse(key, fmt::format("has {} in it, which is fixed to the shaking table", place), there_is);
+            if (taken[k]) {
+                const std::string twice = fmt::format("{} {} comes twice", one, place);
+                if (named)
+                    keys.refuse(key,
+                                fmt::format("is not the first of {}: {}", section_.path() + "." + rule.name, twice),
+                                "Say once what acts there.");
+                keys.refuse_all(fmt::format("{} acts everywhere, and {}.\n  Say where, by {} or {}.", keys.path(),
+                                            twice, one, several));
+            }
+            taken[k] = true;
+        }
+    }
+
+    /// What is lost of a face leaves some of it, and the centre of mass lies in its block.
+    void check_room(const KeyReader& keys, const MechanismSpec& spec) const
+    {
+        const auto width = [&](int block) {
+            return block < 0 ? HUGE_VAL : layout_.blocks[static_cast<std::size_t>(block)].width_m;
+        };
+        for (const int place : spec.places) {
+            if (spec.mechanism == Mechanism::corner_loss) {
+                const PlacedBed& bed = layout_.beds[static_cast<std::size_t>(place)];
+                const double face = std::min(width(bed.lower), width(bed.upper));
+                if (!(spec.values[0] + spec.values[1] < face))
+                    keys.refuse(keys.has("left_m") ? "left_m" : "right_m",
+                                fmt::format("leaves nothing of joint {}, whose face is {} m", place, face),
+                                "left_m and right_m together are less than the face.");
+            }
+            if (spec.mechanism == Mechanism::eccentricity && !(std::abs(spec.values[0]) < width(place) / 2))
+                keys.refuse("offset_m", fmt::format("is outside block {}, which is {} m wide", place, width(place)),
+                            "Give less than half of its width.");
+        }
+    }
+
+    const KeyReader& section_;
+    Study& study_;
+    const Layout layout_;
+};
+
+/// In TOML: { joint = 0, ratio = 0.57 }
+std::string entry(const MechanismSpec& spec, const Study& study)
+{
+    const MechanismRule& rule = rule_of(spec.mechanism);
+    std::vector<std::string> parts;
+    if (spec.places.size() == 1)
+        parts.push_back(fmt::format("{} = {}", place_word(rule.place), spec.places.front()));
+    else if (!spec.places.empty())
+        parts.push_back(fmt::format("{}s = [{}]", place_word(rule.place), fmt::join(spec.places, ", ")));
+    if (spec.mechanism == Mechanism::vertical_motion && study.vertical) {
+        const VerticalSpec& vertical = *study.vertical;
+        parts.push_back("file = " + toml_quoted(vertical.file));
+        if (!vertical.component.empty())
+            parts.push_back("component = " + toml_quoted(vertical.component));
+        if (!vertical.unit.empty())
+            parts.push_back("unit = " + toml_quoted(vertical.unit));
+        parts.push_back(fmt::format("baseline = {}", vertical.baseline));
+    } else {
+        for (std::size_t i = 0; i < rule.parameters.size(); ++i)
+            parts.push_back(rule.parameters[i].key() + " = " + toml_number(spec.values[i]));
+    }
+    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+}
+
+} // namespace
+
+Range range_of(const MechanismParameter& parameter)
+{
+    const std::string unit = parameter.unit;
+    std::string hint = parameter.says;
+    if (!unit.empty())
+        hint = fmt::format("In {}: {}", unit, hint);
+    else if (hint[0] >= 'a' && hint[0] <= 'z')
+        hint[0] = static_cast<char>(hint[0] - 'a' + 'A');
+    return {parameter.low, parameter.high, parameter.open, hint + ".", 0};
+}
+
+void read_mechanisms(const KeyReader& section, Study& study)
+{
+    Reader(section, study).read();
+}
+
+std::vector<std::pair<std::string, std::string>> mechanism_entries(const Study& study)
+{
+    std::vector<std::pair<std::string, std::string>> entries;
+    for (std::size_t i = 0; i < study.mechanisms.size();) {
+        const Mechanism mechanism = study.mechanisms[i].mechanism;
+        std::vector<std::string> values;
+        for (; i < study.mechanisms.size() && study.mechanisms[i].mechanism == mechanism; ++i)
+            values.push_back(entry(study.mechanisms[i], study));
+        entries.emplace_back(to_string(mechanism), values.size() == 1
+                                                       ? values.front()
+                                                       : fmt::format("[\n    {}\n]", fmt::join(values, ",\n    ")));
+    }
+    return entries;
+}
+
+} // namespace stylobate
