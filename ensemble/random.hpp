@@ -27,6 +27,9 @@ enum class Stream : std::uint64_t {
     pulse_gamma = 11,         ///< oscillatory character of a velocity pulse; element = 0
     base_noise = 64,          ///< white noise of a synthetic earthquake; element = sample
     mean_peak = 65,           ///< white noise of the motions by which a mean peak is found; index = motion, from 0
+    virtual_specimen = 66,    ///< contacts and scatter of a campaign with nothing hidden; index = campaign
+    virtual_placement = 67,   ///< where its blocks are put; index = campaign
+    camera_noise = 68,        ///< of its cameras; index = campaign x runs + run
     /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
     /// or block, 0 of the base and of what is drawn once.
     mechanisms = 128
