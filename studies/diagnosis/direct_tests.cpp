@@ -17,6 +17,8 @@ namespace {
 constexpr double rides_below = 0.6;
 // Shorter rides tell nothing.
 constexpr std::size_t shortest_ride = 30; // samples
+// In these the blocks lie as they were put down.
+constexpr std::size_t first_samples = 20;
 
 double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to)
 {
@@ -37,6 +39,7 @@ std::vector<int> lowest_blocks(const Specimen& s)
 
 /// One run at the spacing of the scales.
 struct Ride {
+    std::size_t run = 0;                    ///< of the campaign
     std::vector<double> base;               ///< displacement of the file [m]
     std::vector<double> rate, acceleration; ///< of it, smoothed
     std::vector<double> x, y, theta;        ///< of the lowest block, or of the table: raw samples
@@ -111,7 +114,8 @@ Prepared prepare(const Campaign& campaign, const TrackScales& scales)
         rides_below * s.gravity_m_s2 * std::min(s.friction_nominal.value_or(0.5), 2 * half_width / (top - bottom));
     const LocalCubic& wide = scales.widths.back();
     const double dt = scales.spacing_s;
-    for (const MeasuredRun& run : campaign.runs) {
+    for (std::size_t index = 0; index < campaign.runs.size(); ++index) {
+        const MeasuredRun& run = campaign.runs[index];
         const SeenMotion& seen = out.table ? run.table : run.blocks;
         const bool has_base = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
         if (run.time_s.size() < 2 || seen.x_m.empty() || !has_base)
@@ -125,6 +129,7 @@ Prepared prepare(const Campaign& campaign, const TrackScales& scales)
                        : resampled(run.time_s, series.values.data() + column, stride, run.time_s.front(), dt, n);
         };
         Ride ride;
+        ride.run = index;
         const std::vector<double> u = base_displacement(run);
         ride.base = resampled(run.time_s, u.data(), 1, run.time_s.front(), dt, n);
         ride.rate = scales.rates.apply(1, ride.base);
@@ -512,6 +517,32 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
     }
 }
 
+/// Sensors and cameras have their own zeros: the base is put where the lowest block says that it is at first, up to how
+/// exactly that was put down.
+void align_bases(const Campaign& campaign, DirectResult& out)
+{
+    const Specimen& s = campaign.specimen;
+    const auto block = static_cast<std::size_t>(lowest_blocks(s).front());
+    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
+        const MeasuredRun& run = campaign.runs[r];
+        if (out.base_m[r].empty() || run.blocks.x_m.empty())
+            continue;
+        double sum = 0;
+        int count = 0;
+        for (std::size_t i = 0; i < std::min(first_samples, out.base_m[r].size()); ++i) {
+            const double apart =
+                run.blocks.x_m.values[i * s.half_width_m.size() + block] - s.rest_x_m[block] - out.base_m[r][i];
+            if (std::isfinite(apart)) {
+                sum += apart;
+                ++count;
+            }
+        }
+        if (count > 0)
+            for (double& x : out.base_m[r])
+                x += sum / count;
+    }
+}
+
 /// What lies askew before the shaking: means over the first samples of each run.
 void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out)
 {
@@ -605,6 +636,7 @@ DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, c
     }
     Prepared prepared = prepare(campaign, scales);
     test_base(campaign, scales, limits, prepared, out);
+    align_bases(campaign, out);
     test_rest(campaign, scales, limits, out);
     return out;
 }

@@ -11,6 +11,10 @@ namespace {
 
 // Joints that carry less than this part of their weight are about to open, or have just been hit.
 constexpr double least_normal = 0.25;
+// A block whose vertical acceleration is beyond this part of gravity is thrown up or hit,
+constexpr double most_lift = 0.5;
+// as far as it can be seen: by smoothing that leaves less noise than this part of gravity.
+constexpr double least_seen = 0.12;
 // A combination counts as free of unknowns below this part of the law's own size.
 constexpr double cancelled = 1e-9;
 
@@ -37,6 +41,7 @@ public:
             motion_.push_back(std::move(joints));
         }
         sum_paths();
+        find_hops();
     }
 
     std::vector<LawSample> samples(int run) const
@@ -143,7 +148,8 @@ private:
     bool steady(std::size_t joint, Law law, std::size_t i, std::size_t half) const
     {
         // velocities are known to the width of their own smoothing
-        const std::size_t margin = half + static_cast<std::size_t>(scales_.rates.half_width()) / 2;
+        const std::size_t margin =
+            half + static_cast<std::size_t>(scales_.rates.half_width()) / (law == Law::rocking ? 2 : 1);
         if (!track_.usable(i, static_cast<int>(margin)))
             return false;
         const auto state = [&](std::size_t k) {
@@ -155,7 +161,35 @@ private:
         for (std::size_t k = i - margin; k <= i + margin; ++k)
             if (state(k) != now)
                 return false;
-        return true;
+        return law == Law::rocking || !hops(s_.joints[joint].second, i, half);
+    }
+
+    /// Whether a block is thrown up or hit in a window: it then touches what it slides on now and again, and what it
+    /// does while it touches is not what the smoothed velocities show.
+    bool hops(int block, std::size_t i, std::size_t half) const
+    {
+        if (hopping_.empty())
+            return false;
+        const std::vector<int>& before = hopping_[static_cast<std::size_t>(block)];
+        return before[i + half + 1] != before[i - half];
+    }
+
+    void find_hops()
+    {
+        const double enough = least_seen * s_.gravity_m_s2;
+        int width = 0;
+        while (width < static_cast<int>(scales_.widths.size()) &&
+               scales_.noise_m * scales_.widths[static_cast<std::size_t>(width)].noise(2) > enough)
+            ++width;
+        if (width == static_cast<int>(scales_.widths.size()))
+            return;
+        for (int b = 0; b < s_.blocks(); ++b) {
+            std::vector<int> before(track_.samples() + 1, 0);
+            for (std::size_t i = 0; i < track_.samples(); ++i)
+                before[i + 1] =
+                    before[i] + (std::fabs(track_.of(width, 2, in_y, b, i)) > most_lift * s_.gravity_m_s2 ? 1 : 0);
+            hopping_.push_back(std::move(before));
+        }
     }
 
     std::vector<LawTerm> laws_of(std::size_t i, std::size_t half, const std::vector<std::vector<char>>& covered) const
@@ -305,6 +339,7 @@ private:
     std::vector<double> weights_;
     std::vector<std::vector<JointMotion>> motion_; ///< [sample][joint]
     std::vector<std::vector<LawTerm>> paths_;      ///< [sample][joint]: slip and rotation so far
+    std::vector<std::vector<int>> hopping_;        ///< [block][n + 1] samples before in which it hops
 };
 
 } // namespace

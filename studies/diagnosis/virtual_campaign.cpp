@@ -95,8 +95,7 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
         if (exponent > 1) {
             const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
             joint.extension.force_exponent = exponent;
-            joint.extension.reference_overlap_m2 =
-                upper.mass_kg * r.gravity_m_s2 / joint.normal_stiffness_n_m2;
+            joint.extension.reference_overlap_m2 = upper.mass_kg * r.gravity_m_s2 / joint.normal_stiffness_n_m2;
         }
         joint.extension.rate_s_m = rate;
     }
@@ -130,7 +129,8 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
         for (std::size_t b = 0; b < columns; ++b) {
             const auto k = static_cast<std::size_t>(built.block[b]);
             const double y = r.blocks[k].y_m + readings.y_m[i * blocks + k];
-            if (!std::isfinite(y) || y - r.blocks[k].half_height_m < fallen * (r.blocks[k].y_m - r.blocks[k].half_height_m) - 1e-9 ||
+            if (!std::isfinite(y) ||
+                y - r.blocks[k].half_height_m < fallen * (r.blocks[k].y_m - r.blocks[k].half_height_m) - 1e-9 ||
                 std::fabs(readings.theta_rad[i * blocks + k]) > 0.8)
                 fell = i;
         }

@@ -1,5 +1,6 @@
 #pragma once
-/// Campaigns with nothing hidden: the same specimen, motions and cameras, simulated with healthy contacts of many kinds.
+/// Campaigns with nothing hidden: the same specimen, motions and cameras, simulated with healthy contacts of many
+/// kinds.
 ///
 /// What a diagnosis would find in them is what it may find by chance. The contacts are drawn anew for each campaign, as
 /// nobody knows those of a real specimen: their form, stiffness, exponent, damping and where it acts, and its rate. So
@@ -24,12 +25,12 @@ struct HealthyScatter {
     double stiffness = 0.7;        ///< of ln K_N
     double least_damping = 0.03;   ///< damping ratios, uniform in the logarithm
     double most_damping = 0.5;
-    double most_exponent = 1.4;    ///< of the force, uniform from 1; contact form "area" alone
-    double most_rate_s_m = 1.0;    ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
+    double most_exponent = 1.4; ///< of the force, uniform from 1; contact form "area" alone
+    double most_rate_s_m = 1.0; ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
 };
 
 struct VirtualCampaigns {
-    std::vector<Campaign> campaigns; ///< run by run as the measured one, without what a collapse ends
+    std::vector<Campaign> campaigns;   ///< run by run as the measured one, without what a collapse ends
     std::vector<std::string> contacts; ///< of each, in words
     std::uint64_t simulations = 0;
     std::uint64_t block_steps = 0;

@@ -1,0 +1,167 @@
+#include "studies/diagnosis/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace stylobate {
+
+namespace {
+
+// Under which name the gains of structures are kept.
+constexpr const char* structure = "structure";
+// Friction that a study would assume where the specimen states none.
+constexpr double friction_unknown = 0.7;
+// Of a tail that is continued beyond the campaigns there are.
+constexpr double least_excess = 1;
+
+} // namespace
+
+const char* to_string(Channel channel)
+{
+    switch (channel) {
+    case Channel::direct:
+        return "direct";
+    case Channel::balance:
+        return "balance";
+    case Channel::windows:
+        return "windows";
+    }
+    return "";
+}
+
+bool possible(const CauseFit& fit)
+{
+    const std::string& m = fit.cause.mechanism;
+    if (!std::isfinite(fit.size) || !std::isfinite(fit.sd) || fit.gain <= 0)
+        return false;
+    if (m == "joint_friction")
+        return fit.size > 0.05 && fit.size < 3;
+    if (m == "stribeck")
+        return fit.size > 0.05 && fit.size < 1;
+    if (m == "drag" || m == "dowel" || m == "corner_loss" || m == "corner_wear" || m == "friction_wear")
+        return fit.size > 0;
+    return true;
+}
+
+std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits)
+{
+    std::erase_if(fits, [](const CauseFit& fit) { return !possible(fit); });
+    std::stable_sort(fits.begin(), fits.end(), [](const CauseFit& a, const CauseFit& b) { return a.gain > b.gain; });
+    std::set<std::pair<std::string, std::string>> seen;
+    std::erase_if(fits,
+                  [&](const CauseFit& fit) { return !seen.emplace(fit.cause.mechanism, fit.cause.place).second; });
+    return fits;
+}
+
+BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& scales,
+                                 const std::vector<std::vector<double>>& base_m, const std::vector<Cause>& given)
+{
+    BalanceEvidence out;
+    out.scales = scales;
+    const double friction = campaign.specimen.friction_nominal.value_or(friction_unknown);
+    std::vector<LawSample> all;
+    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
+        const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
+        out.samples.push_back(law_samples(campaign.specimen, scales, track, static_cast<int>(r), friction));
+        all.insert(all.end(), out.samples.back().begin(), out.samples.back().end());
+    }
+    if (all.empty()) {
+        out.why_not = "No joint slid or rocked long enough, in a way that leaves none of its forces unknown.";
+        return out;
+    }
+    out.fit.emplace(campaign.specimen, scales, std::move(all), friction, static_cast<int>(campaign.runs.size()));
+    std::vector<CauseFit> fits;
+    for (const Cause& cause : balance_causes(campaign.specimen, scales))
+        fits.push_back(out.fit->fit(cause, given));
+    out.causes = best_of_each(std::move(fits));
+    out.structures = out.fit->describe(given);
+    return out;
+}
+
+void ChanceGains::add(Channel channel, const std::vector<CauseFit>& fits)
+{
+    std::map<std::string, double> most;
+    for (const CauseFit& fit : fits)
+        most[fit.cause.mechanism] = std::max(most[fit.cause.mechanism], fit.gain);
+    const std::size_t before = campaigns(channel);
+    // mechanisms that only some campaigns name
+    for (auto& [key, gains] : gains_)
+        if (key.first == channel && key.second != structure)
+            most.emplace(key.second, 0);
+    for (const auto& [mechanism, gain] : most) {
+        std::vector<double>& gains = gains_[{channel, mechanism}];
+        gains.resize(before, 0);
+        gains.push_back(gain);
+    }
+}
+
+void ChanceGains::add(const std::vector<StructureFit>& structures)
+{
+    gains_[{Channel::balance, structure}].push_back(structures.empty() ? 0 : structures.front().gain);
+}
+
+std::size_t ChanceGains::campaigns(Channel channel) const
+{
+    std::size_t most = 0;
+    for (const auto& [key, gains] : gains_)
+        if (key.first == channel && key.second != structure)
+            most = std::max(most, gains.size());
+    return most;
+}
+
+const std::vector<double>& ChanceGains::of(Channel channel, const std::string& mechanism) const
+{
+    static const std::vector<double> nothing;
+    const auto found = gains_.find({channel, mechanism});
+    return found == gains_.end() ? nothing : found->second;
+}
+
+double ChanceGains::quantile95(Channel channel, const std::string& mechanism) const
+{
+    std::vector<double> gains = of(channel, mechanism);
+    if (gains.empty())
+        return 0;
+    std::sort(gains.begin(), gains.end());
+    const double at = 0.95 * static_cast<double>(gains.size() - 1);
+    const auto k = static_cast<std::size_t>(at);
+    return k + 1 < gains.size() ? gains[k] + (at - static_cast<double>(k)) * (gains[k + 1] - gains[k]) : gains.back();
+}
+
+double ChanceGains::quantile95_of_structures() const
+{
+    return quantile95(Channel::balance, structure);
+}
+
+double ChanceGains::probability(Channel channel, const std::string& mechanism, double gain) const
+{
+    std::vector<double> gains = of(channel, mechanism);
+    const auto n = static_cast<double>(gains.size());
+    if (gains.empty())
+        return 1;
+    std::sort(gains.begin(), gains.end());
+    const auto tail = static_cast<std::size_t>(0.9 * n);
+    const double from = gains[std::min(tail, gains.size() - 1)];
+    if (gain <= from) {
+        const auto above = gains.end() - std::lower_bound(gains.begin(), gains.end(), gain);
+        return (static_cast<double>(above) + 1) / (n + 1);
+    }
+    double excess = 0;
+    for (std::size_t k = tail; k < gains.size(); ++k)
+        excess += gains[k] - from;
+    excess /= static_cast<double>(gains.size() - tail);
+    const double share = (static_cast<double>(gains.size() - tail) + 1) / (n + 1);
+    return share * std::exp(-(gain - from) / std::max(excess, least_excess));
+}
+
+double ChanceGains::probability_of_structure(double gain) const
+{
+    return probability(Channel::balance, structure, gain);
+}
+
+void ChanceGains::set(Channel channel, const std::string& mechanism, std::vector<double> gains)
+{
+    gains_[{channel, mechanism}] = std::move(gains);
+}
+
+} // namespace stylobate

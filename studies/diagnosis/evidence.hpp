@@ -1,0 +1,71 @@
+#pragma once
+/// What a campaign says for each cause, by every way of looking at it, and the same of campaigns with nothing hidden.
+
+#include "ensemble/campaign.hpp"
+#include "studies/diagnosis/balance_fit.hpp"
+#include "studies/diagnosis/direct_tests.hpp"
+#include "studies/diagnosis/track.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Ways of looking. Each has its own chance gains.
+enum class Channel {
+    direct,  ///< base and sensors, while the lowest block rides on the table; blocks at rest
+    balance, ///< the laws of the joints, from the balance of forces
+    windows  ///< free windows of the simulation
+};
+const char* to_string(Channel channel);
+
+/// The forces of a campaign.
+struct BalanceEvidence {
+    TrackScales scales;
+    std::vector<std::vector<LawSample>> samples; ///< (runs)
+    std::optional<BalanceFit> fit;               ///< nothing where no joint slid or rocked long enough
+    std::vector<CauseFit> causes;         ///< one for each mechanism and place, physically possible ones, best first
+    std::vector<StructureFit> structures; ///< most telling first
+    std::string why_not;                  ///< where there is no fit
+};
+
+/// @param base_m (runs)(nt) the base displacement to be used; empty: not known
+/// @param given causes that are taken as given: what is fitted is fitted beside them
+BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& scales,
+                                 const std::vector<std::vector<double>>& base_m, const std::vector<Cause>& given = {});
+
+/// Whether a fitted size is one that the mechanism can have.
+bool possible(const CauseFit& fit);
+
+/// The best of each mechanism and place (over sides and second parameters), possible ones alone, best first.
+std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits);
+
+/// Gains that campaigns with nothing hidden give.
+class ChanceGains {
+public:
+    /// Takes the largest gain of each mechanism in one campaign; a mechanism that it does not name had 0.
+    void add(Channel channel, const std::vector<CauseFit>& fits);
+    /// The most telling structure of one campaign.
+    void add(const std::vector<StructureFit>& structures);
+
+    std::size_t campaigns(Channel channel) const;
+    /// 95 % quantile; 0 where there are no campaigns.
+    double quantile95(Channel channel, const std::string& mechanism) const;
+    double quantile95_of_structures() const;
+    /// Probability of a gain at least as large by chance: the share of the campaigns, beyond their upper tenth
+    /// continued exponentially with its mean excess (at least 1 nat: chi square's tail).
+    double probability(Channel channel, const std::string& mechanism, double gain) const;
+    double probability_of_structure(double gain) const;
+
+    /// (campaigns) gains by channel and mechanism, for storing; "structure" is the mechanism of structures.
+    const std::map<std::pair<Channel, std::string>, std::vector<double>>& gains() const { return gains_; }
+    void set(Channel channel, const std::string& mechanism, std::vector<double> gains);
+
+private:
+    const std::vector<double>& of(Channel channel, const std::string& mechanism) const;
+    std::map<std::pair<Channel, std::string>, std::vector<double>> gains_;
+};
+
+} // namespace stylobate
