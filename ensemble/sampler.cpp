@@ -356,7 +356,7 @@ void Sampler::watch(const Values& values, Realization& realization) const
 
 double Sampler::step(const Realization& realization) const
 {
-    const StepBound bound = step_bound(realization.blocks, realization.joints, realization.watched);
+    const StepBound bound = step_bound(realization);
     if (!study_.run.step_s)
         return study_.run.step_fraction * bound.dt_s;
     if (*study_.run.step_s > bound.dt_s && !study_.run.allow_step_above_bound)

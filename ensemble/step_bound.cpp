@@ -1,5 +1,7 @@
 #include "ensemble/step_bound.hpp"
 
+#include "ensemble/extension.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -11,6 +13,10 @@
 namespace stylobate {
 namespace {
 
+// Beds that stiffen with their load, and dashpots that do, are taken at this multiple of the load at rest; what softens
+// with it at the second one.
+constexpr double bound_load = 10, least_load = 0.01;
+
 /// A joint at full contact in the reference stack.
 struct FullContact {
     double chord = 0;   ///< length of the contact [m]
@@ -18,6 +24,9 @@ struct FullContact {
     double k_n = 0;     ///< normal stiffness [N/m]
     double k_theta = 0; ///< rotational stiffness about the centre [N m]
     double k_t = 0;     ///< tangential stiffness [N/m]
+    double c_n = 0;     ///< normal dashpots [N s/m]
+    double c_theta = 0; ///< their moment about the centre per rate of rotation [N m s]
+    double c_t = 0;     ///< tangential dashpot [N s/m]
 };
 
 FullContact full_contact(const std::vector<Block>& blocks, const Joint& joint)
@@ -28,8 +37,40 @@ FullContact full_contact(const std::vector<Block>& blocks, const Joint& joint)
     const double right = std::min(a.x_m + a.half_width_m, b.x_m + b.half_width_m);
     assert(right > left && "the blocks of a joint lie on each other");
     const double chord = right - left;
-    return {chord, (left + right) / 2, joint.normal_stiffness_n_m2 * chord,
-            joint.normal_stiffness_n_m2 * chord * chord * chord / 12, joint.tangential_stiffness_n_m};
+    return {chord,
+            (left + right) / 2,
+            joint.normal_stiffness_n_m2 * chord,
+            joint.normal_stiffness_n_m2 * chord * chord * chord / 12,
+            joint.tangential_stiffness_n_m,
+            joint.normal_damping_n_s_m,
+            0,
+            joint.tangential_damping_n_s_m};
+}
+
+/// The same with the realization's form and extensions, about a load of `times` that at rest.
+FullContact extended_contact(const Realization& r, int bed, double times)
+{
+    const Joint& joint = r.joints[static_cast<std::size_t>(bed)];
+    const JointExtension& e = joint.extension;
+    FullContact contact = full_contact(r.blocks, joint);
+    const double L = contact.chord, load = times * bed_load_n(r, bed);
+    const BedLaw law = bed_law(r, bed);
+    const double area = law.area(load);
+    double tangent = (1 + law.exponent) * load / (area * law.K_n); // of the force over that of the linear law
+    if (r.form == ContactForm::points)                             // pressure rho d^1.5
+        tangent *= 1.5 * std::cbrt(area / L * law.faces.per_root_depth * law.faces.per_root_depth);
+    const double spread = r.form == ContactForm::two_corner ? 4 : 12;
+    contact.k_n *= tangent;
+    contact.k_theta = contact.k_n * L * L / spread;
+    contact.k_t += e.dowel_stiffness_n_m;
+    const double length = joint.damping_chord_m > 0 ? joint.damping_chord_m : face_length_m(r, bed);
+    const double C = joint.normal_damping_n_s_m;
+    if (r.form != ContactForm::area)
+        contact.c_theta = C * L * L / spread;
+    else
+        contact.c_theta = e.face_damping * C * L / length * L * L / 4;
+    contact.c_n = C * std::max(1.0, joint.damping_chord_m > 0 ? L / length : 1.0) + e.rate_s_m * load;
+    return contact;
 }
 
 /// How the faces move against each other at a point of the contact when one block moves by (x, y, theta).
@@ -46,21 +87,30 @@ FaceMotion face_motion(const Block& block, bool upper, double arm)
     return {{0, -1, -arm}, {-1, 0, block.half_height_m}};
 }
 
+/// The largest eigenvalue of M^-1 K of a block.
+double largest_rate(const Block& block, const Eigen::Matrix3d& stiffness)
+{
+    const Eigen::Vector3d scale(1 / std::sqrt(block.mass_kg), 1 / std::sqrt(block.mass_kg),
+                                1 / std::sqrt(block.inertia_kg_m2));
+    const Eigen::Matrix3d dynamic = scale.asDiagonal() * stiffness * scale.asDiagonal();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(dynamic, Eigen::EigenvaluesOnly).eigenvalues()(2);
+}
+
 /// The largest eigenvalue of G diag(C_N, C_T) for a contact at `x` [1/s].
-double edge_rate(const std::vector<Block>& blocks, const Joint& joint, double x)
+double edge_rate(const std::vector<Block>& blocks, const Joint& joint, double x, double C_n, double C_t)
 {
     Eigen::Matrix2d compliance = Eigen::Matrix2d::Zero();
     for (const bool upper : {false, true}) {
         const Block& block = blocks[static_cast<std::size_t>(upper ? joint.upper : joint.lower)];
         if (block.fixed)
             continue;
-        const FaceMotion face = face_motion(block, upper, x - block.x_m);
+        const FaceMotion face = face_motion(block, upper, x - block.x_m - block.extension.eccentricity_m);
         Eigen::Matrix<double, 2, 3> motion;
         motion << face.opening.transpose(), face.sliding.transpose();
         const Eigen::Vector3d mobility(1 / block.mass_kg, 1 / block.mass_kg, 1 / block.inertia_kg_m2);
         compliance += motion * mobility.asDiagonal() * motion.transpose();
     }
-    const Eigen::Vector2d root(std::sqrt(joint.normal_damping_n_s_m), std::sqrt(joint.tangential_damping_n_s_m));
+    const Eigen::Vector2d root(std::sqrt(C_n), std::sqrt(C_t));
     const Eigen::Matrix2d symmetric = root.asDiagonal() * compliance * root.asDiagonal();
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()(1);
 }
@@ -73,6 +123,41 @@ double caught_between(const Block& block, const Joint& joint)
     const double k_n = joint.normal_stiffness_n_m2 * face, k_t = joint.tangential_stiffness_n_m;
     return 2 * std::max({k_n / block.mass_kg, k_t / block.mass_kg,
                          (k_n * face * face / 12 + k_t * arm * arm) / block.inertia_kg_m2});
+}
+
+/// What watched pairs ask of the step, when they catch a block between them.
+struct CaughtPairs {
+    double w2 = 0;   ///< [1/s2]
+    double beta = 0; ///< largest C over K [s]
+    int block = 0;   ///< that sets w2
+};
+
+CaughtPairs caught_pairs(const std::vector<Block>& blocks, const std::vector<Joint>& joints, std::size_t beds)
+{
+    CaughtPairs caught;
+    for (std::size_t j = beds; j < joints.size(); ++j) {
+        const Joint& joint = joints[j];
+        assert(joint.damping_chord_m > 0 && "the dashpots of a watched pair go with its length");
+        const auto long_face = [&](int b) {
+            const Block& block = blocks[static_cast<std::size_t>(b)];
+            return 2 * std::max(block.half_width_m, block.half_height_m);
+        };
+        const double length = std::min(long_face(joint.lower), long_face(joint.upper)) / joint.damping_chord_m;
+        caught.beta =
+            std::max({caught.beta, joint.normal_damping_n_s_m / (joint.normal_stiffness_n_m2 * joint.damping_chord_m),
+                      length * joint.tangential_damping_n_s_m / joint.tangential_stiffness_n_m});
+        for (const int b : {joint.lower, joint.upper}) {
+            const Block& block = blocks[static_cast<std::size_t>(b)];
+            if (block.fixed)
+                continue;
+            const double held = caught_between(block, joint);
+            if (2 * held > caught.w2) {
+                caught.w2 = 2 * held;
+                caught.block = b;
+            }
+        }
+    }
+    return caught;
 }
 
 } // namespace
@@ -110,41 +195,21 @@ StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>&
         beta = std::max({beta, joint.normal_damping_n_s_m / contact.k_n, joint.tangential_damping_n_s_m / contact.k_t});
         if (joint.damping_chord_m == 0)
             for (const double side : {-0.5, 0.5})
-                rate = std::max(rate, edge_rate(blocks, joint, contact.x + side * contact.chord));
+                rate = std::max(rate, edge_rate(blocks, joint, contact.x + side * contact.chord,
+                                                joint.normal_damping_n_s_m, joint.tangential_damping_n_s_m));
     }
 
     StepBound bound;
-    double w2 = 0;
-    for (std::size_t j = beds; j < joints.size(); ++j) {
-        const Joint& joint = joints[j];
-        assert(joint.damping_chord_m > 0 && "the dashpots of a watched pair go with its length");
-        const auto long_face = [&](int b) {
-            const Block& block = blocks[static_cast<std::size_t>(b)];
-            return 2 * std::max(block.half_width_m, block.half_height_m);
-        };
-        const double length = std::min(long_face(joint.lower), long_face(joint.upper)) / joint.damping_chord_m;
-        beta = std::max({beta, joint.normal_damping_n_s_m / (joint.normal_stiffness_n_m2 * joint.damping_chord_m),
-                         length * joint.tangential_damping_n_s_m / joint.tangential_stiffness_n_m});
-        for (const int b : {joint.lower, joint.upper}) {
-            const Block& block = blocks[static_cast<std::size_t>(b)];
-            if (block.fixed)
-                continue;
-            const double held = caught_between(block, joint);
-            if (2 * held > w2) {
-                w2 = 2 * held;
-                bound.block = b;
-            }
-        }
-    }
+    const CaughtPairs caught = caught_pairs(blocks, joints, beds);
+    double w2 = caught.w2;
+    bound.block = caught.block;
+    beta = std::max(beta, caught.beta);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         if (blocks[b].fixed)
             continue;
-        const Eigen::Vector3d scale(1 / std::sqrt(blocks[b].mass_kg), 1 / std::sqrt(blocks[b].mass_kg),
-                                    1 / std::sqrt(blocks[b].inertia_kg_m2));
-        const Eigen::Matrix3d dynamic = scale.asDiagonal() * stiffness[b] * scale.asDiagonal();
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(dynamic, Eigen::EigenvaluesOnly);
-        if (2 * solver.eigenvalues()(2) > w2) {
-            w2 = 2 * solver.eigenvalues()(2);
+        const double found = 2 * largest_rate(blocks[b], stiffness[b]);
+        if (found > w2) {
+            w2 = found;
             bound.block = static_cast<int>(b);
         }
     }
@@ -161,10 +226,70 @@ StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>&
     return bound;
 }
 
-LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
-                               int watched)
+StepBound step_bound(const Realization& r)
 {
-    const std::size_t beds = joints.size() - static_cast<std::size_t>(watched);
+    if (!is_extended(r))
+        return step_bound(r.blocks, r.joints, r.watched);
+    std::vector<Eigen::Matrix3d> stiffness(r.blocks.size(), Eigen::Matrix3d::Zero()), damping = stiffness;
+    double rate = 0;
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+        FullContact contact = extended_contact(r, j, bound_load);
+        if (joint.extension.force_exponent < 1) // it is stiffest where it is least pressed
+            contact = extended_contact(r, j, least_load);
+        for (const bool upper : {false, true}) {
+            const auto b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
+            const Block& block = r.blocks[b];
+            const FaceMotion face = face_motion(block, upper, contact.x - block.x_m - block.extension.eccentricity_m);
+            const Eigen::Matrix3d open = face.opening * face.opening.transpose();
+            const Eigen::Matrix3d slide = face.sliding * face.sliding.transpose();
+            stiffness[b] += contact.k_n * open + contact.k_t * slide;
+            stiffness[b](2, 2) += contact.k_theta;
+            damping[b] += contact.c_n * open + contact.c_t * slide;
+            damping[b](2, 2) += contact.c_theta;
+        }
+        // a dashpot that stays when only an edge is left
+        const bool stays = joint.damping_chord_m == 0 || r.form != ContactForm::area;
+        const double at_edge = r.form == ContactForm::area ? 1 - joint.extension.face_damping : 0.5;
+        const double C_n = (stays ? at_edge * joint.normal_damping_n_s_m : 0) +
+                           joint.extension.rate_s_m * bound_load * bed_load_n(r, j);
+        const double C_t = joint.damping_chord_m == 0 ? joint.tangential_damping_n_s_m : 0;
+        for (const double side : {-0.5, 0.5})
+            rate = std::max(rate, edge_rate(r.blocks, joint, contact.x + side * contact.chord, C_n, C_t));
+    }
+
+    StepBound bound;
+    const CaughtPairs caught = caught_pairs(r.blocks, r.joints, static_cast<std::size_t>(r.beds()));
+    double w2 = caught.w2, c = 0;
+    bound.block = caught.block;
+    for (std::size_t b = 0; b < r.blocks.size(); ++b) {
+        if (r.blocks[b].fixed)
+            continue;
+        const double found = 2 * largest_rate(r.blocks[b], stiffness[b]);
+        if (found > w2) {
+            w2 = found;
+            bound.block = static_cast<int>(b);
+        }
+        c = std::max(c, 2 * largest_rate(r.blocks[b], damping[b]));
+    }
+    c = std::max(c, caught.beta * w2);
+    bound.stiffness_s = 2 / std::sqrt(w2);
+    bound.dashpot_s = 4 / (std::sqrt(c * c + 4 * w2) + c); // root of 4 - 2 dt c - dt2 w2 without its cancellation
+    bound.edge_s = rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+    bound.dt_s = std::min(bound.dashpot_s, bound.edge_s);
+    if (bound.edge_s < bound.dashpot_s)
+        bound.governed_by = StepLimit::edge_dashpot;
+    else if (c > 0)
+        bound.governed_by = StepLimit::dashpot;
+    return bound;
+}
+
+namespace {
+
+LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
+                           const std::vector<FullContact>& contacts, double gravity_m_s2)
+{
+    const std::size_t beds = contacts.size();
     // unknowns: (x, y, theta) of each free block
     std::vector<Eigen::Index> first(blocks.size(), -1);
     Eigen::Index size = 0;
@@ -180,7 +305,7 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
     Eigen::MatrixXd opening = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(beds));
     for (std::size_t j = 0; j < beds; ++j) {
         const Joint& joint = joints[j];
-        const FullContact contact = full_contact(blocks, joint);
+        const FullContact& contact = contacts[j];
         Eigen::VectorXd slide = Eigen::VectorXd::Zero(size);
         Eigen::VectorXd turn = Eigen::VectorXd::Zero(size);
         auto open = opening.col(static_cast<Eigen::Index>(j));
@@ -188,15 +313,16 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
             const std::size_t b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
             if (blocks[b].fixed)
                 continue;
-            const FaceMotion face = face_motion(blocks[b], upper, contact.x - blocks[b].x_m);
+            const FaceMotion face =
+                face_motion(blocks[b], upper, contact.x - blocks[b].x_m - blocks[b].extension.eccentricity_m);
             open.segment<3>(first[b]) = face.opening;
             slide.segment<3>(first[b]) = face.sliding;
             turn(first[b] + 2) = upper ? 1 : -1;
         }
         K += contact.k_n * open * open.transpose() + contact.k_t * slide * slide.transpose() +
              contact.k_theta * turn * turn.transpose();
-        C += joint.normal_damping_n_s_m * open * open.transpose() +
-             joint.tangential_damping_n_s_m * slide * slide.transpose();
+        C += contact.c_n * open * open.transpose() + contact.c_t * slide * slide.transpose() +
+             contact.c_theta * turn * turn.transpose();
     }
 
     Eigen::VectorXd root_mass(size);
@@ -212,8 +338,7 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
     // what each joint carries at rest, and what that takes from the rotational stiffness of its blocks
     const Eigen::VectorXd settled = K.ldlt().solve(weight);
     for (std::size_t j = 0; j < beds; ++j) {
-        const double carried =
-            -full_contact(blocks, joints[j]).k_n * opening.col(static_cast<Eigen::Index>(j)).dot(settled);
+        const double carried = -contacts[j].k_n * opening.col(static_cast<Eigen::Index>(j)).dot(settled);
         for (const int block : {joints[j].lower, joints[j].upper}) {
             const std::size_t b = static_cast<std::size_t>(block);
             if (!blocks[b].fixed)
@@ -241,6 +366,27 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
     const Eigen::EigenSolver<Eigen::MatrixXd> roots(companion, false);
     response.step_s = 2 / (w_max * roots.eigenvalues().real().maxCoeff());
     return response;
+}
+
+} // namespace
+
+LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
+                               int watched)
+{
+    std::vector<FullContact> contacts;
+    for (std::size_t j = 0; j + static_cast<std::size_t>(watched) < joints.size(); ++j)
+        contacts.push_back(full_contact(blocks, joints[j]));
+    return response_of(blocks, joints, contacts, gravity_m_s2);
+}
+
+LinearResponse linear_response(const Realization& r)
+{
+    if (!is_extended(r))
+        return linear_response(r.blocks, r.joints, r.gravity_m_s2, r.watched);
+    std::vector<FullContact> contacts;
+    for (int j = 0; j < r.beds(); ++j)
+        contacts.push_back(extended_contact(r, j, 1));
+    return response_of(r.blocks, r.joints, contacts, r.gravity_m_s2);
 }
 
 } // namespace stylobate

@@ -56,6 +56,13 @@ struct StepBound {
 /// @pre at least one bed; stiffnesses, sizes and masses above 0; watched pairs have `damping_chord_m` > 0
 StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched = 0);
 
+/// The same for a realization in its own model (`is_extended`). Each bed has the tangent stiffness of its form and
+/// exponent, two_corner thrice the rotational one, and the dashpots of its form; stiffness and damping that grow with
+/// the load are taken at 10 times the load at rest (a softening bed, q < 1, at a hundredth of it). A stiffness may
+/// vanish while its dashpots stay, so these are bounded by themselves: with c = 2 max over the blocks of
+/// eig(M^-1 sum C_bb), 4 - 2 dt c - dt2 w2 > 0.
+StepBound step_bound(const Realization& realization);
+
 /// The linear vibrations of the whole structure about its static equilibrium, all contacts full, no slip.
 struct LinearResponse {
     std::vector<double> frequency_hz; ///< undamped natural frequencies, ascending (3 x free blocks); 0 for a shape in
@@ -72,5 +79,8 @@ struct LinearResponse {
 /// @pre as above, and every free block is connected to a fixed one by beds; watched pairs are left out
 LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
                                int watched = 0);
+
+/// The same for a realization in its own model, its beds about their loads at rest.
+LinearResponse linear_response(const Realization& realization);
 
 } // namespace stylobate
