@@ -169,8 +169,10 @@ public:
         if (bars && !y_.log)
             y_.include(0);
         const double least = y_.from;
+        const bool points = std::any_of(figure.series.begin(), figure.series.end(),
+                                        [](const FigureSeries& s) { return s.kind == SeriesKind::points; });
         if (!bars || x_.from < x_.to)
-            x_.pad(0);
+            x_.pad(points && !bars ? 0.03 : 0);
         y_.pad(0.05);
         if (bars && !y_.log && least == 0)
             y_.from = 0;

@@ -7,6 +7,7 @@
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "studies/json.hpp"
 #include "studies/output_path.hpp"
+#include "studies/result_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -15,20 +16,24 @@ namespace stylobate {
 int report_command(const CommonOptions& options, const std::string& file, std::string output)
 {
     check_output(file, output);
-    const bool diagnosed = is_diagnosis(file);
     if (output.empty())
         output = beside(file, ".html").string();
-    AtomicFile target(output); // refuses before any work is done
-    if (diagnosed) {
-        target.write(diagnosis_page(read_diagnosis(file), file).text());
+    std::string page;
+    std::vector<std::string> warnings;
+    if (is_diagnosis(file)) {
+        page = diagnosis_page(read_diagnosis(file), file).text();
     } else {
-        std::vector<std::string> warnings;
-        target.write(result_page(options, ResultReader(file), file, warnings).text());
-        Console console(options.quiet);
-        for (const std::string& warning : warnings)
-            console.warn(warning);
+        const ResultReader reader(file);
+        check_complete(reader, file);
+        const AtomicFile writable(output); // refuses before the pictures are drawn
+        page = result_page(options, reader, file, warnings).text();
     }
+    AtomicFile target(output);
+    target.write(page);
     target.commit();
+    Console console(options.quiet);
+    for (const std::string& warning : warnings)
+        console.warn(warning);
     if (options.json)
         fmt::print("{}\n", Json::object().member("written", output).text());
     else if (!options.quiet)

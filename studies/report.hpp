@@ -15,7 +15,7 @@ namespace stylobate {
 /// it again. Where the pictures cannot be drawn the page says so.
 /// @param file for names and messages
 /// @param warnings receives a line for each picture that could not be drawn
-/// @throws InputError if the run is not complete
+/// @pre the run is complete
 HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
                      std::vector<std::string>& warnings);
 

@@ -149,7 +149,7 @@ private:
                 most = std::max({most, c.gain_nats.value_or(0), 1.3 * c.null95.value_or(0)});
             HtmlTable table{
                 "lllrlrrl",
-                {"mechanism", "place", "size (95 % interval)", "gain [nats]", "", "by chance", "p", "decision"},
+                {"mechanism", "place", "size (95 % interval)", "gain [nats]", "", "by chance (95 %)", "p", "decision"},
                 {},
                 ""};
             for (const Candidate& c : d_.candidates) {
@@ -325,7 +325,7 @@ private:
     {
         page_.section("What could not be judged");
         if (d_.missing.empty()) {
-            page_.paragraph("Nothing that was looked for.");
+            page_.paragraph("All that was looked for could be judged.");
             return;
         }
         HtmlTable table{"ll", {"what", "why"}, {}, ""};

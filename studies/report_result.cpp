@@ -113,13 +113,29 @@ private:
                            header.total, header.seed, header.code_version);
     }
 
+    static const char* fate(State state)
+    {
+        switch (state) {
+        case State::stood:
+            return "stood and hardly moved";
+        case State::rocked:
+            return "did not collapse; it rocked more than it slid";
+        case State::slid:
+            return "did not collapse; it slid more than it rocked";
+        case State::collapsed:
+            return "collapsed";
+        default:
+            return "is invalid";
+        }
+    }
+
     void summary()
     {
         const Share collapsed = counts_.share(LimitState::collapse);
         page_.section("Summary");
         std::string text;
-        if (collapsed.trials == 1)
-            text = fmt::format("The realization {}.", collapsed.count > 0 ? "collapsed" : "did not collapse");
+        if (rows_.size() == 1)
+            text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         else
             text = fmt::format(
                 "{} of {} valid realizations{} collapsed: {} ({} {}).", collapsed.count, collapsed.trials,
@@ -153,6 +169,8 @@ private:
 
     void outcomes()
     {
+        if (rows_.size() == 1)
+            return;
         page_.section("Outcomes");
         const bool to_rest = study_.outcome.follow == Follow::rest;
         HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(interval_name())}, {}, ""};
@@ -211,7 +229,7 @@ private:
                 plot_slice(surface, {}, describe(LimitState::collapse), "Probability of collapse", png);
             });
         page_.table(table);
-        page_.note(describe_realizations(surface) + "; interval: " + describe_interval(surface.interval) +
+        page_.note(describe_realizations(surface) + "; " + describe_interval(surface.interval) +
                    (intervals ? "."
                               : ". The intervals of all cells are in the file, and in the tables of stylobate export "
                                 "--to csv."));
@@ -276,8 +294,9 @@ private:
                       {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
                       {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
                       {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
-        page_.note(fmt::format("Over the {} valid realization{} without a fall{}.", upright.size(),
-                               upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : ""));
+        if (rows_.size() > 1)
+            page_.note(fmt::format("Over the {} valid realization{} without a fall{}.", upright.size(),
+                                   upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : ""));
     }
 
     void energy()
@@ -353,7 +372,6 @@ private:
 HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
                      std::vector<std::string>& warnings)
 {
-    check_complete(reader, file);
     return ResultPage(options, reader, file, warnings).page();
 }
 
