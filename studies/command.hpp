@@ -42,6 +42,8 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
 int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
                    const std::string& component, const std::string& block);
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
+/// @param output the page; empty: beside the file, with .html
+int report_command(const CommonOptions& options, const std::string& file, std::string output);
 int info_command(const CommonOptions& options);
 
 } // namespace stylobate

@@ -8,6 +8,7 @@
 #include "studies/command.hpp"
 #include "studies/json.hpp"
 #include "studies/limit_state.hpp"
+#include "studies/output_path.hpp"
 #include "studies/result_picture.hpp"
 
 #include <fmt/format.h>
@@ -19,12 +20,6 @@ namespace stylobate {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path beside(const std::string& results, const std::string& ending)
-{
-    const fs::path path(results);
-    return path.parent_path() / (path.stem().string() + ending);
-}
 
 fs::path export_png(const CommonOptions& options, const std::string& results, const ExportOptions& wanted)
 {
@@ -71,14 +66,6 @@ fs::path export_csv(const std::string& results, const std::string& output)
     for (const std::uint64_t index : reader.trajectory_indices())
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
     return folder;
-}
-
-/// Results are never lost, not even to a slip in the name of the output.
-void check_output(const std::string& results, const std::string& output)
-{
-    std::error_code none;
-    if (!output.empty() && fs::equivalent(results, output, none))
-        throw InputError(fmt::format("-o {}: is the results file itself; choose another output", output));
 }
 
 } // namespace

@@ -126,6 +126,13 @@ int main(int argc, char** argv)
     add_common(*exporting, options);
     exporting->callback([&] { status = export_command(options, results, wanted); });
 
+    std::string page;
+    auto* report = app.add_subcommand("report", "one self-contained page of a result or a diagnosis");
+    report->add_option("FILE", results, "results file or diagnosis (HDF5)")->required();
+    report->add_option("-o,--output", page, "the page (default: the file's name with .html)");
+    add_common(*report, options);
+    report->callback([&] { status = report_command(options, results, page); });
+
     auto* info = app.add_subcommand("info", "version, instruction sets, threads");
     add_common(*info, options);
     info->callback([&] { status = info_command(options); });

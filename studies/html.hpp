@@ -1,0 +1,71 @@
+#pragma once
+/// Self-contained pages of HTML: nothing is loaded from elsewhere, and they can be printed.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// Ready markup. A text that is given where `Html` is wanted is escaped, so that no name of a file or a specimen can
+/// be taken for markup.
+struct Html {
+    Html() = default;
+    Html(std::string_view text);
+    Html(const std::string& text) : Html(std::string_view(text)) {}
+    Html(const char* text) : Html(std::string_view(text)) {}
+    /// Taken as it is.
+    static Html ready(std::string markup);
+
+    Html& operator+=(const Html& more);
+
+    std::string markup;
+};
+
+/// A text for HTML and for the values of attributes; bytes that are no UTF-8, and control characters, become U+FFFD.
+std::string html_escaped(std::string_view text);
+
+struct HtmlTable {
+    std::string align; ///< a letter for each column: l, r (numbers) or c
+    std::vector<Html> head;
+    std::vector<std::vector<Html>> rows;
+    std::string caption;
+};
+
+class HtmlPage {
+public:
+    HtmlPage(std::string title, std::string subtitle);
+
+    /// A numbered section; the contents at the top of the page lead to it.
+    void section(const std::string& title);
+    void heading(const std::string& title);
+    void paragraph(const Html& text);
+    /// Smaller.
+    void note(const Html& text);
+    /// What must not be missed. @param tone "good", "warn" or "bad"
+    void box(const std::string& tone, const std::string& title, const Html& text);
+    void list(const std::vector<Html>& items);
+    /// Names and what they are, in two columns.
+    void facts(const std::vector<std::pair<std::string, Html>>& facts);
+    void table(const HtmlTable& table);
+    /// Text as it is, its lines kept.
+    void block(std::string_view text);
+    void figure(const Html& picture, const Html& caption);
+
+    std::string text() const;
+
+private:
+    std::string title_, subtitle_, contents_, body_;
+    int sections_ = 0;
+};
+
+/// A picture inside the page.
+/// @throws InputError if the file cannot be read
+Html png_image(const std::filesystem::path& png, std::string_view alternative);
+
+/// RFC 4648.
+std::string base64(std::string_view bytes);
+
+} // namespace stylobate

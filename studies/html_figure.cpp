@@ -1,0 +1,434 @@
+#include "studies/html_figure.hpp"
+
+#include "io/utf8.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+constexpr double width = 900;
+constexpr double plot_height = 330;
+constexpr double left = 74;
+constexpr double right = 884;
+constexpr double letter = 7.1; ///< a letter's mean width at the font's size [px]
+constexpr std::size_t most_samples = 1600;
+
+/// Okabe and Ito (2008), the darker ones first: told apart by the colour-blind too.
+constexpr std::array<const char*, 7> palette{"#1f5673", "#d55e00", "#009e73", "#7b4b94",
+                                             "#b8860b", "#56b4e9", "#4d4d4d"};
+
+double letters(std::string_view text)
+{
+    double count = 0;
+    for (; !text.empty(); ++count)
+        text.remove_prefix(std::max<std::size_t>(utf8_length(text), 1));
+    return count;
+}
+
+/// An axis: its range in values, and where these lie in pixels.
+struct Axis {
+    double from = std::numeric_limits<double>::infinity();
+    double to = -std::numeric_limits<double>::infinity();
+    bool log = false;
+    double first_px = 0;
+    double last_px = 0;
+
+    bool holds(double value) const { return std::isfinite(value) && (!log || value > 0); }
+    void include(double value)
+    {
+        if (!holds(value))
+            return;
+        from = std::min(from, value);
+        to = std::max(to, value);
+    }
+    bool empty() const { return from > to; }
+    double scaled(double value) const { return log ? std::log10(value) : value; }
+    /// Room at both ends, a share of the range; and some range where there is none.
+    void pad(double share)
+    {
+        if (empty()) {
+            from = log ? 1 : 0;
+            to = log ? 10 : 1;
+            return;
+        }
+        double a = scaled(from), b = scaled(to);
+        if (b - a <= 1e-12 * std::max(std::abs(a), std::abs(b)) || b == a) {
+            const double around = log ? 0.5 : a == 0 ? 1 : std::abs(a) / 2;
+            a -= around;
+            b += around;
+        } else {
+            const double room = share * (b - a);
+            a -= room;
+            b += room;
+        }
+        from = log ? std::pow(10, a) : a;
+        to = log ? std::pow(10, b) : b;
+    }
+    double px(double value) const
+    {
+        const double part = (scaled(value) - scaled(from)) / (scaled(to) - scaled(from));
+        return first_px + part * (last_px - first_px);
+    }
+
+    std::vector<double> tics() const
+    {
+        std::vector<double> tics;
+        if (log) {
+            const bool few = scaled(to) - scaled(from) < 2.5;
+            for (double decade = std::floor(scaled(from)); decade <= scaled(to); ++decade)
+                for (const double k : {1.0, 2.0, 5.0})
+                    if (const double tic = k * std::pow(10, decade);
+                        (k == 1 || few) && tic >= from * (1 - 1e-9) && tic <= to * (1 + 1e-9))
+                        tics.push_back(tic);
+            return tics;
+        }
+        const double rough = (to - from) / 6;
+        const double decade = std::pow(10, std::floor(std::log10(rough)));
+        const double step = decade * (rough < 1.5 * decade   ? 1
+                                      : rough < 3.5 * decade ? 2
+                                      : rough < 7.5 * decade ? 5
+                                                             : 10);
+        for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
+            tics.push_back(i == 0 ? 0 : i * step);
+        return tics;
+    }
+};
+
+bool has_ends(const FigureSeries& s)
+{
+    return !s.low.empty() && s.low.size() == s.x.size() && s.high.size() == s.x.size();
+}
+
+bool has_values(const FigureSeries& s)
+{
+    return s.kind != SeriesKind::band && s.y.size() == s.x.size();
+}
+
+/// Least and greatest of so many neighbours, in their order.
+std::vector<std::size_t> thinned(const std::vector<double>& y)
+{
+    std::vector<std::size_t> kept;
+    const std::size_t bucket = std::max<std::size_t>(1, (y.size() + most_samples / 2 - 1) / (most_samples / 2));
+    for (std::size_t begin = 0; begin < y.size(); begin += bucket) {
+        const std::size_t end = std::min(begin + bucket, y.size());
+        std::size_t low = begin, high = begin;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!std::isfinite(y[i])) { // a gap stays one
+                low = high = i;
+                break;
+            }
+            low = y[i] < y[low] ? i : low;
+            high = y[i] > y[high] ? i : high;
+        }
+        kept.push_back(std::min(low, high));
+        if (low != high)
+            kept.push_back(std::max(low, high));
+    }
+    return kept;
+}
+
+std::string svg_text(double x, double y, const char* anchor, const std::string& text, const std::string& more = "")
+{
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                       html_escaped(text));
+}
+
+std::string path(const std::string& data, const std::string& look)
+{
+    return data.empty() ? "" : "<path d=\"" + data + "\" " + look + "/>\n";
+}
+
+class Drawing {
+public:
+    explicit Drawing(const Figure& figure) : figure_(figure)
+    {
+        x_.log = figure.x_log && figure.x_ticks.empty();
+        y_.log = figure.y_log;
+        const bool bars = bar_series() > 0;
+        for (const FigureSeries& s : figure.series) {
+            if (!has_values(s) && !has_ends(s))
+                continue;
+            for (const double x : s.x)
+                x_.include(x);
+            if (has_values(s))
+                for (const double y : s.y)
+                    y_.include(y);
+            if (has_ends(s))
+                for (std::size_t i = 0; i < s.x.size(); ++i) {
+                    y_.include(s.low[i]);
+                    y_.include(s.high[i]);
+                }
+        }
+        empty_ = x_.empty() || y_.empty();
+        if (bars && !y_.log)
+            y_.include(0);
+        const double least = y_.from;
+        const bool points = std::any_of(figure.series.begin(), figure.series.end(),
+                                        [](const FigureSeries& s) { return s.kind == SeriesKind::points; });
+        if (!bars || x_.from < x_.to)
+            x_.pad(points && !bars ? 0.03 : 0);
+        y_.pad(0.05);
+        if (bars && !y_.log && least == 0)
+            y_.from = 0;
+        if (!figure.x_ticks.empty()) {
+            x_.from = -0.6;
+            x_.to = static_cast<double>(figure.x_ticks.size()) - 0.4;
+        } else if (bars && !x_.log && !empty_) {
+            spacing_ = least_spacing();
+            x_.from -= 0.6 * spacing_;
+            x_.to += 0.6 * spacing_;
+        }
+        x_.first_px = left;
+        x_.last_px = right;
+    }
+
+    std::string svg()
+    {
+        const std::string legend_text = legend();
+        const double top = 14 + legend_height_;
+        const double bottom = top + plot_height;
+        y_.first_px = bottom;
+        y_.last_px = top;
+        const std::string axes_text = axes(top, bottom);
+        std::string marks;
+        for (const SeriesKind kind : {SeriesKind::band, SeriesKind::bars, SeriesKind::line, SeriesKind::points})
+            for (std::size_t i = 0; i < figure_.series.size(); ++i)
+                if (figure_.series[i].kind == kind)
+                    marks += series(figure_.series[i], colour(i));
+        if (empty_)
+            marks = svg_text((left + right) / 2, (top + bottom) / 2, "middle", "no data");
+        return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" "
+                           "role=\"img\" aria-label=\"{}\" font-family=\"inherit\" font-size=\"13\" "
+                           "fill=\"#1f2933\">\n{}{}{}</svg>",
+                           width, bottom + below_, width, html_escaped(figure_.title), legend_text, axes_text, marks);
+    }
+
+private:
+    static std::string colour(std::size_t i) { return palette[i % palette.size()]; }
+
+    std::string legend()
+    {
+        std::string out;
+        double x = left, y = 14;
+        for (std::size_t i = 0; i < figure_.series.size(); ++i) {
+            const FigureSeries& s = figure_.series[i];
+            if (s.name.empty())
+                continue;
+            const double length = 34 + letter * letters(s.name) + 14;
+            if (x > left && x + length > right) {
+                x = left;
+                y += 19;
+            }
+            if (s.kind == SeriesKind::points)
+                out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", x + 13, y - 4.5,
+                                   colour(i));
+            else
+                out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"26\" height=\"{}\" fill=\"{}\"{}/>\n", x,
+                                   y - (s.kind == SeriesKind::line ? 5.5 : 10), s.kind == SeriesKind::line ? 2 : 10,
+                                   colour(i), s.kind == SeriesKind::band ? " fill-opacity=\"0.25\"" : "");
+            out += svg_text(x + 34, y, "start", s.name);
+            x += length;
+        }
+        legend_height_ = out.empty() ? 0 : y + 4;
+        return out;
+    }
+
+    std::string axes(double top, double bottom)
+    {
+        std::string out;
+        const auto rule = [&](double x1, double y1, double x2, double y2, const char* stroke) {
+            out += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1,
+                               y1, x2, y2, stroke);
+        };
+        for (const double tic : y_.tics()) {
+            rule(left, y_.px(tic), right, y_.px(tic), "#e3e7eb");
+            out += svg_text(left - 8, y_.px(tic) + 4.5, "end", fmt::format("{:.6g}", tic));
+        }
+        below_ = 30;
+        if (figure_.x_ticks.empty()) {
+            for (const double tic : x_.tics()) {
+                rule(x_.px(tic), bottom, x_.px(tic), bottom + 5, "#5a6672");
+                out += svg_text(x_.px(tic), bottom + 20, "middle", fmt::format("{:.6g}", tic));
+            }
+        } else {
+            double longest = 0;
+            for (const std::string& name : figure_.x_ticks)
+                longest = std::max(longest, letter * letters(name));
+            const double room = (right - left) / (static_cast<double>(figure_.x_ticks.size()) + 0.2);
+            const bool slanted = longest > room - 8;
+            for (std::size_t i = 0; i < figure_.x_ticks.size(); ++i) {
+                const double x = x_.px(static_cast<double>(i));
+                if (slanted)
+                    out += svg_text(x + 4, bottom + 16, "end", figure_.x_ticks[i],
+                                    fmt::format(" transform=\"rotate(-35 {:.1f} {:.1f})\"", x + 4, bottom + 16));
+                else
+                    out += svg_text(x, bottom + 20, "middle", figure_.x_ticks[i]);
+            }
+            if (slanted)
+                below_ = 26 + 0.58 * longest;
+        }
+        rule(left, bottom, right, bottom, "#5a6672");
+        rule(left, top, left, bottom, "#5a6672");
+        if (!figure_.x_label.empty()) {
+            below_ += 20;
+            out += svg_text((left + right) / 2, bottom + below_ - 8, "middle", figure_.x_label);
+        }
+        const double middle = (top + bottom) / 2;
+        if (!figure_.y_label.empty())
+            out += svg_text(18, middle, "middle", figure_.y_label,
+                            fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", middle));
+        return out;
+    }
+
+    bool shown(double x, double y) const { return x_.holds(x) && y_.holds(y); }
+    std::string point(double x, double y) const { return fmt::format("{:.1f} {:.1f}", x_.px(x), y_.px(y)); }
+
+    std::string error_bars(const FigureSeries& s, const std::string& tone, double shift_px) const
+    {
+        std::string data;
+        if (has_ends(s))
+            for (std::size_t i = 0; i < s.x.size(); ++i)
+                if (shown(s.x[i], s.low[i]) && shown(s.x[i], s.high[i]))
+                    data += fmt::format("M{0:.1f} {1:.1f}L{0:.1f} {2:.1f}", x_.px(s.x[i]) + shift_px, y_.px(s.low[i]),
+                                        y_.px(s.high[i]));
+        return path(data, "stroke=\"" + tone + "\" stroke-width=\"1.5\" fill=\"none\"");
+    }
+
+    std::string series(const FigureSeries& s, const std::string& tone) const
+    {
+        if (s.kind == SeriesKind::band)
+            return band(s, tone);
+        if (!has_values(s))
+            return "";
+        if (s.kind == SeriesKind::line)
+            return line(s, tone);
+        const double half = bar_half_width();
+        const double shift_px = s.kind == SeriesKind::bars ? bar_shift(s) * 2 * half : 0;
+        std::string out;
+        for (std::size_t i = 0; i < s.x.size(); ++i) {
+            if (!shown(s.x[i], s.y[i]))
+                continue;
+            if (s.kind == SeriesKind::points) {
+                out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x_.px(s.x[i]),
+                                   y_.px(s.y[i]), s.x.size() > 300 ? 1.5 : 3.5, tone);
+            } else {
+                const double base = y_.px(y_.log ? y_.from : std::clamp(0.0, y_.from, y_.to));
+                const double end = y_.px(s.y[i]);
+                const double x = x_.px(s.x[i]) + shift_px;
+                out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+                                   "fill-opacity=\"0.8\"/>\n",
+                                   x - half, std::min(base, end), 2 * half, std::abs(base - end), tone);
+            }
+        }
+        return out + error_bars(s, s.kind == SeriesKind::bars ? "#1f2933" : tone, shift_px);
+    }
+
+    /// Series of bars stand side by side.
+    double bar_series() const
+    {
+        return static_cast<double>(std::count_if(figure_.series.begin(), figure_.series.end(),
+                                                 [](const FigureSeries& s) { return s.kind == SeriesKind::bars; }));
+    }
+    /// Between neighbours among the bars; 1 where there is one alone.
+    double least_spacing() const
+    {
+        double least = std::numeric_limits<double>::infinity();
+        for (const FigureSeries& s : figure_.series)
+            for (std::size_t i = 1; s.kind == SeriesKind::bars && i < s.x.size(); ++i)
+                if (const double spacing = std::abs(s.x[i] - s.x[i - 1]); spacing > 0)
+                    least = std::min(least, spacing);
+        return std::isfinite(least) ? least : 1;
+    }
+    double bar_half_width() const
+    {
+        return std::min(28.0, 0.36 * spacing_ * (right - left) / (x_.to - x_.from)) / std::max(1.0, bar_series());
+    }
+    double bar_shift(const FigureSeries& one) const
+    {
+        double before = 0;
+        for (const FigureSeries& s : figure_.series) {
+            if (&s == &one)
+                break;
+            before += s.kind == SeriesKind::bars ? 1 : 0;
+        }
+        return before - (bar_series() - 1) / 2;
+    }
+
+    std::string line(const FigureSeries& s, const std::string& tone) const
+    {
+        std::string data;
+        bool open = false;
+        for (const std::size_t i : thinned(s.y)) {
+            if (!shown(s.x[i], s.y[i])) {
+                open = false;
+                continue;
+            }
+            data += (open ? "L" : "M") + point(s.x[i], s.y[i]);
+            open = true;
+        }
+        return path(data, "stroke=\"" + tone + "\" stroke-width=\"1.6\" stroke-linejoin=\"round\" fill=\"none\"");
+    }
+
+    std::string band(const FigureSeries& s, const std::string& tone) const
+    {
+        if (!has_ends(s))
+            return "";
+        // each stretch without a gap is there and back
+        std::string data;
+        std::vector<std::size_t> stretch;
+        const auto close = [&] {
+            for (std::size_t k = 0; k < stretch.size(); ++k)
+                data += (k == 0 ? "M" : "L") + point(s.x[stretch[k]], s.high[stretch[k]]);
+            for (std::size_t k = stretch.size(); k-- > 0;)
+                data += "L" + point(s.x[stretch[k]], s.low[stretch[k]]);
+            data += stretch.empty() ? "" : "Z";
+            stretch.clear();
+        };
+        const std::size_t stride = std::max<std::size_t>(1, s.x.size() / most_samples);
+        for (std::size_t i = 0; i < s.x.size(); i += stride) {
+            if (shown(s.x[i], s.low[i]) && shown(s.x[i], s.high[i]))
+                stretch.push_back(i);
+            else
+                close();
+        }
+        close();
+        return path(data, "fill=\"" + tone + "\" fill-opacity=\"0.22\" stroke=\"none\"");
+    }
+
+    const Figure& figure_;
+    Axis x_, y_;
+    bool empty_ = false;
+    double spacing_ = 1; ///< of bars [unit of x]
+    double legend_height_ = 0;
+    double below_ = 0;
+};
+
+} // namespace
+
+Html figure_svg(const Figure& figure)
+{
+    return Html::ready(Drawing(figure).svg());
+}
+
+Html bar_svg(double value, MaybeReal mark, double most)
+{
+    constexpr double length = 96;
+    const auto px = [&](double v) { return std::clamp(v / most, 0.0, 1.0) * length; };
+    std::string svg =
+        fmt::format("<svg width=\"{0:.0f}\" height=\"12\" viewBox=\"0 0 {0:.0f} 12\" aria-hidden=\"true\">"
+                    "<rect y=\"2\" width=\"{1:.1f}\" height=\"8\" fill=\"{2}\"/>",
+                    length + 2, px(value), mark && value > *mark ? "#1f5673" : "#b5bfc9");
+    if (mark)
+        svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"0\" y2=\"12\" stroke=\"#b23a3a\" "
+                           "stroke-width=\"1.6\"/>",
+                           px(*mark) + 0.8);
+    return Html::ready(svg + "</svg>");
+}
+
+} // namespace stylobate

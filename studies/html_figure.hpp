@@ -1,0 +1,18 @@
+#pragma once
+/// Figures of a page, drawn as SVG.
+
+#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/html.hpp"
+
+namespace stylobate {
+
+/// The figure without its title and caption: axes, series, and a legend if a series has a name. What is not finite, or
+/// not positive on a logarithmic axis, is left out; without any point there are empty axes that say so. Lines of more
+/// samples than the width has pixels are drawn by the least and the greatest of neighbours.
+Html figure_svg(const Figure& figure);
+
+/// A bar from 0 for a cell of a table, with a mark: how large a gain is, and how large chance makes it.
+/// @param most what the full width stands for, > 0
+Html bar_svg(double value, MaybeReal mark, double most);
+
+} // namespace stylobate

@@ -1,0 +1,26 @@
+#pragma once
+/// The pages of `stylobate report`.
+
+#include "io/result_store.hpp"
+#include "studies/command.hpp"
+#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/html.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What was run and what became of it: summary, probabilities, pictures, order of falls, motions, energy, and how to do
+/// it again. Where the pictures cannot be drawn the page says so.
+/// @param file for names and messages
+/// @param warnings receives a line for each picture that could not be drawn
+/// @pre the run is complete
+HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
+                     std::vector<std::string>& warnings);
+
+/// The verdict first, then what it rests on.
+/// @param file for names
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file);
+
+} // namespace stylobate

@@ -1,0 +1,378 @@
+/// The page of a result.
+
+#include "ensemble/input_error.hpp"
+#include "io/plot_slice.hpp"
+#include "io/plot_surface.hpp"
+#include "io/study_file.hpp"
+#include "io/temporary_folder.hpp"
+#include "studies/limit_state.hpp"
+#include "studies/report.hpp"
+#include "studies/report_study.hpp"
+#include "studies/result_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of sorted values, linear between them; NaN of none.
+double quantile(const std::vector<double>& sorted, double share)
+{
+    if (sorted.empty())
+        return std::numeric_limits<double>::quiet_NaN();
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+std::string percent(double share)
+{
+    return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–";
+}
+
+std::string interval_text(const Share& share)
+{
+    return fmt::format("{:.1f} – {:.1f} %", 100 * share.lower, 100 * share.upper);
+}
+
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
+}
+
+/// A realization's value, and what it is.
+struct Measure {
+    const char* name;
+    const char* unit;
+    double Outcome::*value;
+};
+
+/// 5 %, median, 95 % and the greatest of each measure.
+HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector<Measure>& measures)
+{
+    HtmlTable table{"lrrrr", {"", "5 %", "median", "95 %", "greatest"}, {}, ""};
+    if (rows.size() == 1)
+        table = {"lr", {"", "value"}, {}, ""};
+    for (const Measure& measure : measures) {
+        std::vector<double> values;
+        for (const ResultRow* row : rows)
+            values.push_back(row->outcome.*measure.value);
+        std::sort(values.begin(), values.end());
+        std::vector<Html> line = {fmt::format("{} [{}]", measure.name, measure.unit)};
+        if (rows.size() == 1)
+            line.emplace_back(number(values[0]));
+        else
+            for (const double share : {0.05, 0.5, 0.95, 1.0})
+                line.emplace_back(number(quantile(values, share)));
+        table.rows.push_back(std::move(line));
+    }
+    return table;
+}
+
+class ResultPage {
+public:
+    ResultPage(const CommonOptions& options, const ResultReader& reader, const std::string& file,
+               std::vector<std::string>& warnings)
+        : options_(options), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
+          study_(parse_study(header_.study_toml, file + " (its study)")), rows_(reader.rows()),
+          counts_(header_.block_names.size()), page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
+          surface_(!header_.frequency_hz.empty())
+    {
+        for (const ResultRow& row : rows_) {
+            counts_.add(row);
+            (row.outcome.state == State::invalid ? invalid_ : valid_).push_back(&row);
+        }
+    }
+
+    HtmlPage page()
+    {
+        summary();
+        studied();
+        outcomes();
+        if (surface_)
+            cells();
+        pictures();
+        order();
+        motions();
+        energy();
+        again();
+        return page_;
+    }
+
+private:
+    static std::string subtitle(const ResultHeader& header)
+    {
+        return fmt::format("Kind of study: {}. Realizations: {}. Seed {}. Made by stylobate {}.", header.kind,
+                           header.total, header.seed, header.code_version);
+    }
+
+    static const char* fate(State state)
+    {
+        switch (state) {
+        case State::stood:
+            return "stood and hardly moved";
+        case State::rocked:
+            return "did not collapse; it rocked more than it slid";
+        case State::slid:
+            return "did not collapse; it slid more than it rocked";
+        case State::collapsed:
+            return "collapsed";
+        default:
+            return "is invalid";
+        }
+    }
+
+    void summary()
+    {
+        const Share collapsed = counts_.share(LimitState::collapse);
+        page_.section("Summary");
+        std::string text;
+        if (rows_.size() == 1)
+            text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        else
+            text = fmt::format(
+                "{} of {} valid realizations{} collapsed: {} ({} {}).", collapsed.count, collapsed.trials,
+                surface_ ? fmt::format(" over {} × {} cells of frequency and PGA", header_.frequency_hz.size(),
+                                       header_.pga_m_s2.size())
+                         : "",
+                percent(collapsed.probability), describe_interval(interval_name()), interval_text(collapsed));
+        if (surface_)
+            text += " The cells differ in their shaking, so that this share describes the choice of cells too; the "
+                    "probability of each is below.";
+        if (collapsed.count > 0)
+            text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
+        page_.paragraph(text);
+        if (!invalid_.empty()) {
+            std::string list;
+            for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)
+                list += fmt::format("{}{} ({})", i > 0 ? ", " : "", invalid_[i]->index,
+                                    to_string(invalid_[i]->outcome.invalid_reason));
+            page_.box("warn", fmt::format("{} of {} realizations invalid", invalid_.size(), rows_.size()),
+                      "They were set aside and are no trials. Realizations " + list +
+                          (invalid_.size() > 10 ? " and others." : "."));
+        }
+    }
+
+    void studied()
+    {
+        page_.section("What was run");
+        page_.facts(study_facts(study_));
+        page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
+    }
+
+    void outcomes()
+    {
+        if (rows_.size() == 1)
+            return;
+        page_.section("Outcomes");
+        const bool to_rest = study_.outcome.follow == Follow::rest;
+        HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(interval_name())}, {}, ""};
+        for (std::size_t i = 0; i < limit_state_names().size(); ++i) {
+            const auto limit = static_cast<LimitState>(i);
+            if ((limit == LimitState::total && !to_rest) ||
+                (limit == LimitState::unseated && study_.structure.epistyles.empty()))
+                continue;
+            const Share share = counts_.share(limit);
+            table.rows.push_back({describe(limit), fmt::format("{} of {}", share.count, share.trials),
+                                  percent(share.probability), interval_text(share)});
+        }
+        page_.table(table);
+        if (to_rest && counts_.share(LimitState::total).count > 0)
+            page_.note(
+                fmt::format("Median time of the total collapse: {:.3g} s.", counts_.median_total_collapse_time_s()));
+        page_.note("Rocking or sliding without collapse: by whichever of the two moved it more.");
+    }
+
+    /// The probability of collapse in each cell.
+    void cells()
+    {
+        const SurfaceTable surface = reader_.surface();
+        const std::size_t nf = surface.frequency_hz.size(), np = surface.pga_m_s2.size();
+        constexpr std::size_t most_with_intervals = 10;
+        const bool intervals = nf <= most_with_intervals;
+        HtmlTable table;
+        table.caption = fmt::format("Probability of collapse [%]{}; columns: frequency [Hz], rows: PGA [m/s²]",
+                                    intervals ? ", below it its interval" : "");
+        table.align = "r" + std::string(nf, 'c');
+        table.head = {"PGA"};
+        for (const double frequency : surface.frequency_hz)
+            table.head.emplace_back(fmt::format("{:.3g}", frequency));
+        for (std::size_t p = np; p-- > 0;) {
+            std::vector<Html> row = {fmt::format("{:.3g}", surface.pga_m_s2[p])};
+            for (std::size_t f = 0; f < nf; ++f) {
+                const std::size_t cell = f * np + p;
+                if (surface.trials[cell] == 0) {
+                    row.emplace_back("–");
+                    continue;
+                }
+                std::string text = fmt::format("{:.0f}", 100 * surface.probability[cell]);
+                if (intervals)
+                    text += fmt::format("<br><small>{:.0f}–{:.0f}</small>", 100 * surface.lower[cell],
+                                        100 * surface.upper[cell]);
+                row.push_back(Html::ready(std::move(text)));
+            }
+            table.rows.push_back(std::move(row));
+        }
+        page_.section("Probability of collapse");
+        picture("The probability of collapse over frequency and PGA, with its contours.", [&](const fs::path& png) {
+            plot_surface(surface, describe(LimitState::collapse), "Probability of collapse", png);
+        });
+        if (np > 1)
+            picture("The same at some frequencies, with the intervals.", [&](const fs::path& png) {
+                plot_slice(surface, {}, describe(LimitState::collapse), "Probability of collapse", png);
+            });
+        page_.table(table);
+        page_.note(describe_realizations(surface) + "; " + describe_interval(surface.interval) +
+                   (intervals ? "."
+                              : ". The intervals of all cells are in the file, and in the tables of stylobate export "
+                                "--to csv."));
+    }
+
+    /// One realization over time.
+    void pictures()
+    {
+        if (surface_)
+            return;
+        page_.section("Motion");
+        constexpr std::size_t most = 3;
+        const std::size_t shown = std::min(most, rows_.size());
+        for (std::size_t i = 0; i < shown; ++i)
+            picture(fmt::format("Realization {}: {}.", rows_[i].index, to_string(rows_[i].outcome.state)),
+                    [&](const fs::path& png) { strip_picture(options_, reader_, file_, rows_[i].index, png); });
+        if (shown < rows_.size())
+            page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
+                                   "strip --realization I.",
+                                   shown, rows_.size(), file_));
+    }
+
+    void order()
+    {
+        const FallOrder falls = fall_order(header_.block_names, rows_);
+        const std::vector<std::size_t> blocks = order_of_falls(falls);
+        if (blocks.empty())
+            return;
+        page_.section("Order of falls");
+        if (falls.trials > 1)
+            picture("The share of the realizations in which a block had fallen by then.",
+                    [&](const fs::path& png) { order_picture(reader_, file_, -1, png); });
+        HtmlTable table{"lrrrrr",
+                        {"block", "fell", "share", describe_interval(falls.interval), "median time [s]", "fell first"},
+                        {},
+                        ""};
+        for (const std::size_t i : blocks) {
+            const FallOrder::Block& block = falls.blocks[i];
+            const Share share = share_of(falls.trials, block.fall_time_s.size());
+            table.rows.push_back({block.name, fmt::format("{} of {}", share.count, share.trials),
+                                  percent(share.probability), interval_text(share),
+                                  number(quantile(block.fall_time_s, 0.5)), fmt::format("{}", block.first)});
+        }
+        page_.table(table);
+        if (study_.outcome.follow != Follow::rest)
+            page_.note("Each realization was followed until its first fall only.");
+    }
+
+    void motions()
+    {
+        std::vector<const ResultRow*> upright;
+        for (const ResultRow* row : valid_)
+            if (row->outcome.state != State::collapsed)
+                upright.push_back(row);
+        if (upright.empty())
+            return;
+        page_.section("How far it moved");
+        page_.table(quantiles(
+            upright, {{"largest displacement of the top", "m", &Outcome::peak_top_displacement_m},
+                      {"residual displacement of the top, with its sign", "m", &Outcome::residual_top_displacement_m},
+                      {"sliding of all joints", "m", &Outcome::total_sliding_m},
+                      {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
+                      {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
+                      {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
+        if (rows_.size() > 1)
+            page_.note(fmt::format("Over the {} valid realization{} without a fall{}.", upright.size(),
+                                   upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : ""));
+    }
+
+    void energy()
+    {
+        if (valid_.empty())
+            return;
+        page_.section("Energy audit");
+        page_.table(quantiles(valid_, {{"work of the base", "J", &Outcome::energy_base_work_j},
+                                       {"kinetic, at the end", "J", &Outcome::energy_kinetic_j},
+                                       {"potential, against the start", "J", &Outcome::energy_potential_j},
+                                       {"contact springs, against the start", "J", &Outcome::energy_spring_j},
+                                       {"dissipated by friction", "J", &Outcome::energy_friction_j},
+                                       {"dissipated by damping", "J", &Outcome::energy_damping_j}}));
+        const auto worst = std::max_element(valid_.begin(), valid_.end(), [](const ResultRow* a, const ResultRow* b) {
+            return std::abs(a->outcome.energy_residual) < std::abs(b->outcome.energy_residual);
+        });
+        page_.paragraph(fmt::format("What the balance lacks is at most {:.2g} of the energy of the run (realization "
+                                    "{}).",
+                                    std::abs((*worst)->outcome.energy_residual), (*worst)->index));
+    }
+
+    void again()
+    {
+        page_.section("How to do it again");
+        page_.paragraph(fmt::format("With stylobate {} and the study below as STUDY.toml:", header_.code_version));
+        const std::string name = fs::path(file_).filename().string();
+        std::string commands;
+        if (header_.kind == "replay")
+            commands =
+                fmt::format("stylobate run STUDY.toml -o STUDY.h5\nstylobate replay STUDY.h5 --realization {} -o "
+                            "{}\n",
+                            header_.first, name);
+        else
+            commands =
+                fmt::format("stylobate run STUDY.toml -o {0}\nstylobate replay {0} --realization I    # any one of "
+                            "them, bit by bit\n",
+                            name);
+        page_.block(commands);
+        page_.heading("The study, every default filled in");
+        page_.block(header_.study_toml);
+    }
+
+    /// @param draw of a file PNG
+    template <class Draw>
+    void picture(const std::string& caption, Draw draw)
+    {
+        const fs::path png = folder_ / "picture.png";
+        try {
+            draw(png);
+            page_.figure(png_image(png, caption), caption);
+        } catch (const InputError& error) {
+            warnings_.push_back(fmt::format("a picture is missing: {}", error.what()));
+            page_.note(fmt::format("{} This picture could not be drawn: {}", caption, error.what()));
+        }
+    }
+
+    const CommonOptions& options_;
+    const ResultReader& reader_;
+    const ResultHeader& header_;
+    const std::string file_;
+    std::vector<std::string>& warnings_;
+    const Study study_;
+    const std::vector<ResultRow> rows_;
+    LimitCounts counts_;
+    HtmlPage page_;
+    const bool surface_;
+    std::vector<const ResultRow*> valid_, invalid_;
+    const TemporaryFolder folder_;
+};
+
+} // namespace
+
+HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
+                     std::vector<std::string>& warnings)
+{
+    return ResultPage(options, reader, file, warnings).page();
+}
+
+} // namespace stylobate

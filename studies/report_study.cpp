@@ -1,0 +1,166 @@
+#include "studies/report_study.hpp"
+
+#include "ensemble/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+/// "0.048 m", or "0.044 m to 0.052 m".
+std::string span_text(const std::vector<double>& values, const char* unit)
+{
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *least == *most ? fmt::format("{:.4g} {}", *least, unit)
+                           : fmt::format("{:.4g} {} to {:.4g} {}", *least, unit, *most, unit);
+}
+
+std::string counted(std::size_t n, const char* noun)
+{
+    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+/// Number and sizes of the blocks of a role; empty without any.
+std::string blocks_text(const std::vector<PlacedBlock>& blocks, BlockRole role, const char* noun)
+{
+    std::vector<double> width, height, mass;
+    std::size_t fixed = 0;
+    for (const PlacedBlock& block : blocks)
+        if (block.role == role) {
+            width.push_back(block.width_m);
+            height.push_back(block.height_m);
+            mass.push_back(block.mass_kg);
+            fixed += block.fixed;
+        }
+    if (width.empty())
+        return "";
+    return fmt::format("{}{}: width {}, height {}, mass {}", counted(width.size(), noun),
+                       fixed > 0 ? fmt::format(" ({} fixed)", fixed) : "", span_text(width, "m"),
+                       span_text(height, "m"), span_text(mass, "kg"));
+}
+
+std::string structure_text(const Study& study, const Layout& layout)
+{
+    std::string text = counted(study.structure.columns.size(), "column");
+    for (const std::string& part : {blocks_text(layout.blocks, BlockRole::drum, "drum"),
+                                    blocks_text(layout.blocks, BlockRole::epistyle, "epistyle")})
+        if (!part.empty())
+            text += "; " + part;
+    return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
+}
+
+std::string contact_text(const ContactSpec& contact)
+{
+    std::string text = fmt::format("friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
+                                   contact.friction, contact.normal_stiffness_n_m2, contact.tangential_stiffness_n_m);
+    text += contact.normal_damping_n_s_m ? fmt::format(", C_N {:.3g} N s/m", *contact.normal_damping_n_s_m)
+                                         : fmt::format(", normal damping ratio {:.3g}", contact.normal_damping_ratio);
+    return text + (contact.tangential_damping_n_s_m
+                       ? fmt::format(", C_T {:.3g} N s/m", *contact.tangential_damping_n_s_m)
+                       : fmt::format(", tangential damping ratio {:.3g}", contact.tangential_damping_ratio));
+}
+
+std::string axis_text(const Axis& axis, const char* unit)
+{
+    return axis.count == 1 ? fmt::format("{:.4g} {}", axis.from, unit)
+                           : fmt::format("{} from {:.4g} to {:.4g} {}", axis.count, axis.from, axis.to, unit);
+}
+
+const char* excitation_name(ExcitationKind kind)
+{
+    switch (kind) {
+    case ExcitationKind::none:
+        return "none: the base is at rest";
+    case ExcitationKind::harmonic:
+        return "harmonic";
+    case ExcitationKind::half_sine:
+        return "half sine of acceleration";
+    case ExcitationKind::full_sine:
+        return "full sine of acceleration";
+    case ExcitationKind::ricker:
+        return "Ricker's wavelet";
+    case ExcitationKind::pulse:
+        return "velocity pulse (Mavroeidis and Papageorgiou)";
+    case ExcitationKind::tapered:
+        return "harmonic of tapered acceleration";
+    case ExcitationKind::sweep:
+        return "sine sweep";
+    case ExcitationKind::noise:
+        return "synthetic earthquakes (filtered noise)";
+    case ExcitationKind::record:
+        return "record";
+    }
+    return "";
+}
+
+std::string excitation_text(const Study& study)
+{
+    const ExcitationSpec& e = study.excitation;
+    std::string text = excitation_name(e.kind);
+    if (e.kind == ExcitationKind::record)
+        text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
+    if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)
+        text += fmt::format(", {:.3g} cycles", e.cycles);
+    if (study.surface)
+        text += "; frequency: " + axis_text(study.surface->frequency_hz, "Hz") +
+                "; PGA: " + axis_text(study.surface->pga_m_s2, "m/s²");
+    else if (e.kind != ExcitationKind::none) {
+        if (e.frequency_hz > 0)
+            text += fmt::format(", {:.4g} Hz", e.frequency_hz);
+        text += e.pga_m_s2 > 0 ? fmt::format(", PGA {:.4g} m/s²", e.pga_m_s2) : ", PGA as recorded";
+    }
+    return text;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, Html>> study_facts(const Study& study)
+{
+    const Layout layout = lay_out(study.structure);
+    std::string perturbed;
+    for (const Perturbation& p : study.perturbations)
+        perturbed += (perturbed.empty() ? "" : ", ") + std::string(to_string(p.quantity));
+    std::replace(perturbed.begin(), perturbed.end(), '_', ' ');
+    return {{"Structure", structure_text(study, layout)},
+            {"Contact", contact_text(study.contact)},
+            {"Excitation", excitation_text(study)},
+            {"Drawn anew in each realization", perturbed.empty() ? "nothing" : perturbed},
+            {"Collapse", fmt::format("a block's centre below {:.3g} of its height at rest",
+                                     study.outcome.collapse_height_fraction)},
+            {"Followed", study.outcome.follow == Follow::rest ? "until what has fallen lies still"
+                                                              : "until the first block has fallen"}};
+}
+
+Html structure_svg(const Study& study)
+{
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    double left = std::numeric_limits<double>::infinity(), right = -left, top = 0;
+    for (const PlacedBlock& block : blocks) {
+        left = std::min(left, block.left());
+        right = std::max(right, block.right());
+        top = std::max(top, block.top());
+    }
+    constexpr double most_width = 420, most_height = 220, margin = 24, floor = 12;
+    const double scale = std::min(most_width / (right - left), most_height / top);
+    const double width = (right - left) * scale + 2 * margin, height = top * scale + floor + 4;
+    std::string svg =
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+                    "width=\"{0:.0f}\" role=\"img\" aria-label=\"the structure at rest\">\n"
+                    "<rect x=\"0\" y=\"{2:.1f}\" width=\"{0:.0f}\" height=\"{3:.1f}\" fill=\"#b5bfc9\"/>\n",
+                    width, height, height - floor, floor);
+    for (const PlacedBlock& block : blocks)
+        svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+                           "stroke=\"#5a6672\"/>\n",
+                           margin + (block.left() - left) * scale, height - floor - block.top() * scale,
+                           block.width_m * scale, block.height_m * scale,
+                           block.fixed                         ? "#a9a08c"
+                           : block.role == BlockRole::epistyle ? "#c3d3e0"
+                                                               : "#e9e2d0");
+    return Html::ready(svg + "</svg>");
+}
+
+} // namespace stylobate

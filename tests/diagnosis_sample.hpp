@@ -1,0 +1,170 @@
+#pragma once
+/// A diagnosis with something in every field, and hard characters in its texts. Its numbers are made up.
+
+#include "studies/diagnosis/diagnosis.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+
+inline Figure sample_figure()
+{
+    Figure figure;
+    figure.place = FigurePlace::wrong;
+    figure.title = "Run 004, block 2, rotation";
+    figure.caption = "Measured against the ensemble of the calibrated baseline; the band holds 95 % of it.";
+    figure.x_label = "time [s]";
+    figure.y_label = "rotation [rad]";
+    FigureSeries band{"baseline, 95 %", SeriesKind::band, {}, {}, {}, {}};
+    FigureSeries line{"measured", SeriesKind::line, {}, {}, {}, {}};
+    for (int i = 0; i < 3000; ++i) {
+        const double t = 0.001 * i;
+        const double theta = 0.02 * std::sin(8 * t) * std::exp(-t / 2);
+        band.x.push_back(t);
+        band.low.push_back(theta - 0.002 - 0.001 * t);
+        band.high.push_back(theta + 0.002 + 0.001 * t);
+        line.x.push_back(t);
+        line.y.push_back(i > 2000 && i < 2200 ? std::numeric_limits<double>::quiet_NaN()
+                                              : theta * (t > 1 ? 1 + 0.3 * (t - 1) : 1));
+    }
+    figure.series = {band, line};
+    return figure;
+}
+
+inline Diagnosis filled_diagnosis()
+{
+    Diagnosis d;
+    d.measured_file = "measured/col\"umn & co.h5";
+    d.measured_fingerprint = "crc32 1a2b3c4d";
+    d.specimen = "Seven drums <script>alert(1)</script>, 1:10, é";
+    d.study_toml = "[study]\nkind = \"single\"\n\n[contact]\nfriction = 0.68 # µ < 1\n";
+    d.code_version = "0.1.0+abc";
+    d.command = "stylobate diagnose 'col\"umn & co.h5' --study column.toml -o diagnosis.h5";
+    d.seed = 0xfedcba9876543210;
+    d.options = {"threads = 2", "simd = avx2"};
+    d.runs = 12;
+    d.runs_used = 11;
+
+    d.data_findings = {"Run 007 has no base motion; it is not used.", "Block 5 is not seen in 3 % of the samples."};
+    d.base_tests = {{"time_offset", "all runs", 0.0004, 0.0003, 0.001, "s", TestOutcome::passed,
+                     "The clocks of base and cameras agree."},
+                    {"sensor_gain", "run 004", 1.031, 0.004, 0.01, "", TestOutcome::failed,
+                     "The sensor reads 3.1 % more than the cameras see."},
+                    {"vertical_motion",
+                     "table",
+                     {},
+                     {},
+                     {},
+                     "m/s2",
+                     TestOutcome::not_judged,
+                     "The table was not seen by the cameras."}};
+    d.sensor_tests = {
+        {"noise", "block 2 theta", 1.9e-4, 1e-5, 4e-4, "rad", TestOutcome::passed, "The noise is as stated."}};
+    d.baseline = {{"contact.friction", "", 0.671, 0.65, 0.69, true, ""},
+                  {"contact.normal_stiffness_n_m2", "N/m2", 1e8, {}, {}, false, "small rocking alone would tell it"}};
+    d.wrong = {{"004", 2, "theta", 1.2, 2.0, 3.1}, {"005", -1, "x", 0.25, 0.5, 1.4}};
+
+    Candidate joint{"joint_friction",
+                    "joint 0",
+                    "ratio",
+                    "",
+                    0.57,
+                    0.49,
+                    0.66,
+                    1.0,
+                    41.2,
+                    4.4,
+                    0.0005,
+                    0.83,
+                    {"area", "two_corner"},
+                    {"points"},
+                    {},
+                    Decision::named,
+                    "It explains every run that slides."};
+    joint.evidence = {{"004", 30.5, "slip at joint 0 only"}, {"006", {}, "left out"}};
+    Candidate stribeck{"stribeck",
+                       "all joints",
+                       "dynamic_ratio",
+                       "",
+                       0.81,
+                       0.7,
+                       0.95,
+                       1.0,
+                       38.9,
+                       5.1,
+                       0.002,
+                       0.17,
+                       {"area"},
+                       {},
+                       {{"004", 28.1, ""}},
+                       Decision::in_set,
+                       "It slips as fast in these runs."};
+    Candidate drag{"drag", "block 6", "drag", "N s2/m2",          0.002, {}, 0.02, 0.0, 0.3, 4.1, 0.44, 0.0,
+                   {},     {},        {},     Decision::rejected, ""};
+    Candidate vertical{"vertical_motion",
+                       "base",
+                       "ratio",
+                       "",
+                       {},
+                       {},
+                       {},
+                       0.0,
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       Decision::not_judged,
+                       "Needs the table seen by the cameras."};
+    d.candidates = {joint, stribeck, drag, vertical};
+    d.nulls = {{"area", 200, "Friction, stiffness and places drawn anew and calibrated again in each."}};
+
+    d.verdict = Verdict::named;
+    d.verdict_text = "Joint 0 has less friction than the others: 0.57 of theirs (0.49 to 0.66).";
+    d.indistinguishable = {"joint_friction", "stribeck"};
+    d.unexplained = Unexplained{3,
+                                "x",
+                                "velocity",
+                                "What remains at block 3 grows with velocity.",
+                                {{"velocity", 0.31, 0.05}, {"amplitude", 0.02, {}}}};
+    d.extended_study = d.study_toml + "\n[mechanisms]\njoint_friction = { joint = 0, ratio = 0.57 }\n";
+    d.extended_study_file = "diagnosis_extended.toml";
+    d.gain = ModelGain{1.0,
+                       0.58,
+                       0.5,
+                       0.66,
+                       "",
+                       0.41,
+                       {"004", "005"},
+                       CollapsePrediction{4, 0.31, 0.12, 2, 4, "Two of them fell."},
+                       "Most of it in run 004."};
+    d.next_test = NextTest{"harmonic, 3 Hz, 2.5 m/s2, then 5 m/s2",
+                           "Slow and fast slip in one test.",
+                           {"joint_friction", "stribeck"},
+                           {{"harmonic, 3 Hz, 2.5 m/s2", 6.2, ""}, {"sweep, 1 to 8 Hz", {}, "expected to fall"}}};
+    d.missing = {{"vertical_motion", "the table was not seen by the cameras"}};
+    d.method = {"The baseline was calibrated first, then each mechanism was fitted beside it."};
+    d.cost = {61234, 450000, 1234567890123, 212.5, 2, 6.8};
+
+    Figure bars;
+    bars.place = FigurePlace::gain;
+    bars.title = "Error by run";
+    bars.y_label = "error";
+    bars.x_ticks = {"004", "005"};
+    bars.series = {{"baseline", SeriesKind::bars, {0, 1}, {1.1, 0.9}, {1.0, 0.8}, {1.2, 1.0}},
+                   {"extended", SeriesKind::bars, {0, 1}, {0.6, 0.5}, {0.5, 0.4}, {0.7, 0.6}}};
+    Figure marks;
+    marks.place = FigurePlace::candidates;
+    marks.title = "Gain by amplitude <i>";
+    marks.x_label = "peak acceleration [m/s²]";
+    marks.y_label = "gain [nats]";
+    marks.x_log = marks.y_log = true;
+    marks.series = {{"", SeriesKind::points, {1, 3, 10}, {0.2, 5, 40}, {0.1, 3, 30}, {0.4, 8, 55}}};
+    d.figures = {sample_figure(), bars, marks};
+    return d;
+}
+
+} // namespace stylobate

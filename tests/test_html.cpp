@@ -1,0 +1,174 @@
+/// Pages and figures: what comes from elsewhere is text and never markup; figures hold what they are given.
+
+#include "studies/html.hpp"
+#include "studies/html_figure.hpp"
+#include "studies/report.hpp"
+#include "tests/diagnosis_sample.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace stylobate {
+namespace {
+
+std::size_t count_of(std::string_view text, std::string_view part)
+{
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size()))
+        ++n;
+    return n;
+}
+
+/// Every element that is opened is closed, in order: HTML's void elements and what ends itself aside.
+void expect_balanced(const std::string& page)
+{
+    std::vector<std::string> open;
+    for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at + 1)) {
+        const std::size_t end = page.find('>', at);
+        ASSERT_NE(end, std::string::npos);
+        const std::string tag = page.substr(at + 1, end - at - 1);
+        if (tag.starts_with('!') || tag.ends_with('/'))
+            continue;
+        const std::string name = tag.substr(tag.starts_with('/'), tag.find_first_of(" \n") - tag.starts_with('/'));
+        if (name == "meta" || name == "img" || name == "br")
+            continue;
+        if (!tag.starts_with('/')) {
+            open.push_back(name);
+            continue;
+        }
+        ASSERT_FALSE(open.empty()) << tag;
+        EXPECT_EQ(open.back(), name) << "at byte " << at;
+        open.pop_back();
+    }
+    EXPECT_TRUE(open.empty());
+}
+
+/// Nothing is loaded from elsewhere, and nothing runs.
+void expect_self_contained(const std::string& page)
+{
+    EXPECT_EQ(page.find("<script"), std::string::npos);
+    EXPECT_EQ(page.find("<link"), std::string::npos);
+    EXPECT_EQ(page.find("url("), std::string::npos);
+    EXPECT_EQ(page.find("@import"), std::string::npos);
+    EXPECT_EQ(count_of(page, "src="), count_of(page, "src=\"data:"));
+    EXPECT_EQ(count_of(page, "href="), count_of(page, "href=\"#"));
+}
+
+TEST(Html, EscapesWhatComesFromElsewhere)
+{
+    EXPECT_EQ(html_escaped("a<b> & \"c\" 'd'"), "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+    EXPECT_EQ(html_escaped("µ é ✓"), "µ é ✓");
+    EXPECT_EQ(html_escaped("\xff\x01z\n"), "\xef\xbf\xbd\xef\xbf\xbdz\n");
+    const Html text = "<b>";
+    EXPECT_EQ(text.markup, "&lt;b&gt;");
+    EXPECT_EQ(Html::ready("<b>").markup, "<b>");
+}
+
+TEST(Html, Base64AsInRfc4648)
+{
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foo"), "Zm9v");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(HtmlFigure, PutsPointsWhereTheAxesSay)
+{
+    Figure figure;
+    figure.x_log = true;
+    figure.series = {{"", SeriesKind::line, {1, 10, 100}, {0, 1, 2}, {}, {}}};
+    const std::string svg = figure_svg(figure).markup;
+    // on a logarithmic axis a decade is a decade: the middle point lies half way in x, and in y
+    double x[3] = {}, y[3] = {};
+    const std::size_t at = svg.find("<path d=\"M");
+    ASSERT_NE(at, std::string::npos) << svg;
+    ASSERT_EQ(
+        std::sscanf(svg.c_str() + at, "<path d=\"M%lf %lfL%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1], &x[2], &y[2]),
+        6);
+    EXPECT_NEAR(x[1], (x[0] + x[2]) / 2, 0.11);
+    EXPECT_NEAR(y[1], (y[0] + y[2]) / 2, 0.11);
+    EXPECT_LT(x[0], x[2]);
+    EXPECT_GT(y[0], y[2]); // up is up
+    for (const char* label : {">1<", ">10<", ">100<"})
+        EXPECT_NE(svg.find(label), std::string::npos) << label;
+}
+
+TEST(HtmlFigure, LeavesGapsAndKeepsPeaksOfLongSeries)
+{
+    FigureSeries series{"long", SeriesKind::line, {}, {}, {}, {}};
+    for (int i = 0; i < 100000; ++i) {
+        series.x.push_back(i);
+        series.y.push_back(i == 54321 ? 7.0 : i / 20000 == 4 ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+    }
+    Figure figure;
+    figure.series = {series};
+    const std::string svg = figure_svg(figure).markup;
+    EXPECT_LT(svg.size(), 60000U);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    // the one high sample is the highest point of the axis' range, and is drawn there
+    const std::size_t at = svg.find("<path d=\"M");
+    const std::string path = svg.substr(at, svg.find('"', at + 10) - at);
+    double least = 1e9;
+    for (std::size_t p = path.find_first_of("ML"); p != std::string::npos; p = path.find_first_of("ML", p + 1)) {
+        double x = 0, y = 0;
+        if (std::sscanf(path.c_str() + p + 1, "%lf %lf", &x, &y) == 2)
+            least = std::min(least, y);
+    }
+    EXPECT_LT(least, 60);
+    EXPECT_EQ(count_of(path, "M"), 1U); // the gap is at the end
+}
+
+TEST(HtmlFigure, OfNothingSaysSo)
+{
+    for (const bool log : {false, true}) {
+        Figure figure;
+        figure.x_log = figure.y_log = log;
+        figure.series = {{"<none>", SeriesKind::points, {0, -1}, {0, -2}, {}, {}},
+                         {"unequal", SeriesKind::line, {1, 2}, {1}, {}, {}},
+                         {"no ends", SeriesKind::band, {1, 2}, {}, {}, {}}};
+        if (!log)
+            figure.series.erase(figure.series.begin());
+        const std::string svg = figure_svg(figure).markup;
+        EXPECT_NE(svg.find("no data"), std::string::npos) << svg;
+        EXPECT_EQ(svg.find("nan"), std::string::npos);
+        EXPECT_EQ(svg.find("inf"), std::string::npos);
+        EXPECT_EQ(svg.find("<none>"), std::string::npos);
+    }
+}
+
+TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
+{
+    const std::string page = diagnosis_page(filled_diagnosis(), "folder/diagnosis.h5").text();
+    expect_self_contained(page);
+    expect_balanced(page);
+    EXPECT_NE(page.find("Seven drums &lt;script&gt;alert(1)&lt;/script&gt;, 1:10, é"), std::string::npos);
+    std::size_t before = 0;
+    for (const char* title : {"Verdict", "What is wrong, and where", "Candidates", "What is not explained",
+                              "The extended model and its gain", "The next test", "The data", "The calibrated baseline",
+                              "What could not be judged", "Method and cost", "How to do it again"}) {
+        const std::size_t at = page.find(std::string("&ensp;") + title + "</h2>");
+        EXPECT_NE(at, std::string::npos) << title;
+        EXPECT_GT(at, before) << title;
+        before = at;
+    }
+    EXPECT_EQ(count_of(page, "<figure>"), 3U);
+    for (const char* words : {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81 (0.7 to 0.95)",
+                              "could not be judged", "1a2b3c4d", "crc32", "diagnosis_extended.toml", "sweep, 1 to 8 Hz",
+                              "18364758544493064720", "stylobate diagnose &#39;col&quot;umn &amp; co.h5&#39;"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+TEST(DiagnosisPage, OfAnEmptyDiagnosisIsAPageToo)
+{
+    const std::string page = diagnosis_page(Diagnosis{}, "d.h5").text();
+    expect_self_contained(page);
+    expect_balanced(page);
+    EXPECT_NE(page.find("Nothing is wrong beyond what chance explains"), std::string::npos);
+    EXPECT_EQ(page.find("not known"), std::string::npos);
+}
+
+} // namespace
+} // namespace stylobate
