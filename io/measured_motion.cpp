@@ -1,0 +1,500 @@
+#include "io/measured_motion.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/ground_motion.hpp"
+#include "io/measured_noise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace stylobate {
+namespace {
+
+/// The state: displacement, velocity, acceleration, jerk until the next sample; bias of the accelerometer, zero of the
+/// cameras.
+enum State { u, v, a, j, bias, zero, states };
+using Vector = std::array<double, states>;
+using Matrix = std::array<Vector, states>;
+
+Vector times(const Matrix& matrix, const Vector& x)
+{
+    Vector y{};
+    for (std::size_t i = 0; i < states; ++i)
+        for (std::size_t k = 0; k < states; ++k)
+            y[i] += matrix[i][k] * x[k];
+    return y;
+}
+
+double dot(const Vector& x, const Vector& y)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < states; ++i)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+/// matrix * other
+Matrix times(const Matrix& matrix, const Matrix& other)
+{
+    Matrix product{};
+    for (std::size_t i = 0; i < states; ++i)
+        for (std::size_t k = 0; k < states; ++k)
+            if (matrix[i][k] != 0)
+                for (std::size_t l = 0; l < states; ++l)
+                    product[i][l] += matrix[i][k] * other[k][l];
+    return product;
+}
+
+Matrix transposed(const Matrix& matrix)
+{
+    Matrix t;
+    for (std::size_t i = 0; i < states; ++i)
+        for (std::size_t k = 0; k < states; ++k)
+            t[i][k] = matrix[k][i];
+    return t;
+}
+
+enum Sensor { accelerometer, displacement, cameras, rest, sensors };
+
+/// One value, at a grid step or within the interval after it.
+struct Measurement {
+    Sensor sensor;
+    Vector row; ///< value = row . state + noise
+    double value;
+    double variance;
+};
+
+/// Everything of a run that says how the table moved, on a uniform grid.
+struct Problem {
+    double dt_s = 0;
+    std::vector<std::vector<Measurement>> at; ///< of each grid step
+    Vector start_mean{};
+    Vector start_variance{};
+    std::size_t steps() const { return at.size(); }
+};
+
+/// What the filter leaves for the smoother.
+struct Update {
+    Vector gain; ///< P h / S
+    double innovation;
+    double variance; ///< S
+};
+struct Step {
+    Vector mean;       ///< predicted
+    Matrix covariance; ///< predicted
+    std::vector<Update> updates;
+};
+
+struct Process {
+    bool smooth_jerk = false;
+    double sd = 0;
+};
+
+Matrix transition(const Problem& problem, const Process& process)
+{
+    const double d = problem.dt_s;
+    Matrix f{};
+    f[u] = {1, d, d * d / 2, d * d * d / 6, 0, 0};
+    f[v] = {0, 1, d, d * d / 2, 0, 0};
+    f[a] = {0, 0, 1, d, 0, 0};
+    f[j][j] = process.smooth_jerk ? 1 : 0;
+    f[bias][bias] = f[zero][zero] = 1;
+    return f;
+}
+
+/// @param steps  receives what the smoother needs; null: only the likelihood is wanted
+/// @return logarithm of the likelihood, without its constants
+double filter(const Problem& problem, const Process& process, std::vector<Step>* steps)
+{
+    const Matrix f = transition(problem, process);
+    Vector x = problem.start_mean;
+    Matrix p{};
+    for (std::size_t i = 0; i < states; ++i)
+        p[i][i] = problem.start_variance[i];
+    if (!process.smooth_jerk)
+        p[j][j] = process.sd * process.sd;
+    double likelihood = 0;
+    for (std::size_t k = 0; k < problem.steps(); ++k) {
+        if (k > 0) {
+            x = times(f, x);
+            p = times(f, transposed(times(f, p))); // F (F P)' = F P F', P being symmetric
+            p[j][j] += process.sd * process.sd;
+        }
+        Step step{x, p, {}};
+        for (const Measurement& m : problem.at[k]) {
+            const Vector ph = times(p, m.row);
+            const double s = dot(m.row, ph) + m.variance;
+            const double innovation = m.value - dot(m.row, x);
+            likelihood -= (std::log(s) + innovation * innovation / s) / 2;
+            Update update{{}, innovation, s};
+            for (std::size_t i = 0; i < states; ++i) {
+                update.gain[i] = ph[i] / s;
+                x[i] += update.gain[i] * innovation;
+            }
+            for (std::size_t i = 0; i < states; ++i)
+                for (std::size_t l = 0; l < states; ++l)
+                    p[i][l] -= ph[i] * ph[l] / s;
+            if (steps)
+                step.updates.push_back(update);
+        }
+        if (steps)
+            steps->push_back(std::move(step));
+    }
+    return likelihood;
+}
+
+struct Smoothed {
+    std::vector<Vector> mean;
+    std::vector<Vector> variance;
+};
+
+/// Backward: r and N collect what later values say; x = x_pred + P r, V = P - P N P.
+Smoothed smooth(const Problem& problem, const Process& process, const std::vector<Step>& steps)
+{
+    const Matrix f = transition(problem, process), ft = transposed(f);
+    Smoothed smoothed;
+    smoothed.mean.resize(steps.size());
+    smoothed.variance.resize(steps.size());
+    Vector r{};
+    Matrix n{};
+    for (std::size_t k = steps.size(); k-- > 0;) {
+        if (k + 1 < steps.size()) {
+            r = times(ft, r);
+            n = times(ft, transposed(times(ft, n)));
+        }
+        const Step& step = steps[k];
+        for (std::size_t i = step.updates.size(); i-- > 0;) {
+            // r = h y / S + L' r, N = h h' / S + L' N L with L = I - K h'
+            const Vector& h = problem.at[k][i].row;
+            const Update& update = step.updates[i];
+            const double rk = dot(update.gain, r);
+            const Vector nk = times(n, update.gain);
+            const double knk = dot(update.gain, nk);
+            for (std::size_t q = 0; q < states; ++q) {
+                r[q] += h[q] * (update.innovation / update.variance - rk);
+                for (std::size_t l = 0; l < states; ++l)
+                    n[q][l] += h[q] * h[l] * (1 / update.variance + knk) - h[q] * nk[l] - nk[q] * h[l];
+            }
+        }
+        const Vector pr = times(step.covariance, r);
+        const Matrix pnp = times(step.covariance, transposed(times(step.covariance, n)));
+        for (std::size_t q = 0; q < states; ++q) {
+            smoothed.mean[k][q] = step.mean[q] + pr[q];
+            smoothed.variance[k][q] = std::max(step.covariance[q][q] - pnp[q][q], 0.0);
+        }
+    }
+    return smoothed;
+}
+
+/// The likeliest intensity: decades first, then the golden section.
+Process likeliest(const Problem& problem, bool smooth_jerk, double& likelihood)
+{
+    const auto value = [&](double exponent) {
+        const double l = filter(problem, {smooth_jerk, std::pow(10, exponent)}, nullptr);
+        return std::isfinite(l) ? l : -std::numeric_limits<double>::max();
+    };
+    constexpr double lowest = -4, highest = 8, tolerance = 0.02;
+    double best = lowest;
+    likelihood = value(lowest);
+    for (double e = lowest + 1; e <= highest; ++e)
+        if (const double l = value(e); l > likelihood) {
+            likelihood = l;
+            best = e;
+        }
+    const double part = (std::numbers::phi - 1);
+    double from = best - 1, to = best + 1;
+    double left = to - part * (to - from), right = from + part * (to - from);
+    double at_left = value(left), at_right = value(right);
+    while (to - from > tolerance) {
+        if (at_left > at_right) {
+            to = right;
+            right = left;
+            at_right = at_left;
+            at_left = value(left = to - part * (to - from));
+        } else {
+            from = left;
+            left = right;
+            at_left = at_right;
+            at_right = value(right = from + part * (to - from));
+        }
+    }
+    likelihood = std::max(at_left, at_right);
+    return {smooth_jerk, std::pow(10, (from + to) / 2)};
+}
+
+double spacing(const MeasuredRun& run)
+{
+    const std::vector<double>& t = run.time_s;
+    constexpr std::size_t fewest = 8;
+    if (t.size() < fewest)
+        throw InputError(fmt::format("run {}: {} samples are too few for a base motion; {} are needed.", run.name,
+                                     t.size(), fewest));
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < t.size(); ++i) {
+        if (!(t[i] > t[i - 1]))
+            throw InputError(fmt::format("run {}: the clock goes from {} s to {} s at sample {}: it must grow.",
+                                         run.name, t[i - 1], t[i], i));
+        steps.push_back(t[i] - t[i - 1]);
+    }
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    const double span = t.back() - t.front();
+    const double intervals = std::max(std::round(span / *middle), 1.0);
+    constexpr double most_intervals = 1e7;
+    if (intervals > most_intervals)
+        throw InputError(fmt::format("run {}: the clock spans {} s at steps of {} s: it has a gap beyond sense.",
+                                     run.name, span, *middle));
+    return span / intervals;
+}
+
+double largest_size(const std::vector<double>& values)
+{
+    double largest = 0;
+    for (const double value : values)
+        if (std::isfinite(value))
+            largest = std::max(largest, std::abs(value));
+    return largest;
+}
+
+bool measured(const Series& series, std::size_t times)
+{
+    return series.values.size() == times &&
+           std::any_of(series.values.begin(), series.values.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// So many samples at the beginning (or the end) in which nothing but noise is seen: blocks whose mean is that of the
+/// first one, and of these only the nearer half: a motion that swells hides in the noise at first.
+std::size_t quiet_samples(const std::vector<double>& values, double noise, bool at_end)
+{
+    constexpr std::size_t block = 20;
+    constexpr double far = 4; // deviations of the difference of two means
+    const double tolerance = far * noise * std::sqrt(2.0 / block);
+    const auto mean = [&](std::size_t b) {
+        double sum = 0;
+        for (std::size_t i = b * block; i < (b + 1) * block; ++i)
+            sum += values[at_end ? values.size() - 1 - i : i];
+        return sum / block;
+    };
+    const std::size_t blocks = values.size() / block;
+    std::size_t quiet = 0;
+    while (quiet < blocks && std::abs(mean(quiet) - mean(0)) < tolerance) // false where a value is missing
+        ++quiet;
+    return quiet * block / 2;
+}
+
+/// The largest change (order 1) or bend (order 2) of samples over a hundredth of the run, per time to that power.
+double largest_rate(const std::vector<double>& values, double dt_s, int order)
+{
+    const std::size_t stride = std::max<std::size_t>(values.size() / 100, 1);
+    double largest = 0;
+    for (std::size_t i = 2 * stride; i < values.size(); ++i) {
+        const double change =
+            order == 1 ? values[i] - values[i - stride] : values[i] - 2 * values[i - stride] + values[i - 2 * stride];
+        if (std::isfinite(change))
+            largest = std::max(largest, std::abs(change));
+    }
+    return largest / std::pow(static_cast<double>(stride) * dt_s, order);
+}
+
+double first_value(const std::vector<double>& values)
+{
+    const auto at = std::find_if(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+    return at == values.end() ? 0 : *at;
+}
+
+class Setup {
+public:
+    Setup(const MeasuredRun& run, MeasuredMotion& result) : run_(run), result_(result)
+    {
+        problem.dt_s = spacing(run);
+        const double span = run.time_s.back() - run.time_s.front();
+        problem.at.resize(static_cast<std::size_t>(std::lround(span / problem.dt_s)) + 1);
+        const std::size_t times = run.time_s.size();
+        const bool seen = measured(run.table.x_m, times);
+        const bool displaced = measured(run.base_displacement_m, times);
+        const bool accelerated = measured(run.base_acceleration_m_s2, times);
+        if (!seen && !displaced && !accelerated)
+            throw InputError(fmt::format("run {}: nothing of the base was measured: neither acceleration nor "
+                                         "displacement nor the cameras' view of the table.",
+                                         run.name));
+        start(seen, displaced, accelerated);
+        if (accelerated)
+            add(accelerometer, run.base_acceleration_m_s2, result.accelerometer);
+        if (displaced)
+            add(displacement, run.base_displacement_m, result.displacement);
+        if (seen)
+            add(cameras, run.table.x_m, result.cameras);
+        if (!seen && !displaced)
+            add_rest();
+    }
+
+    Problem problem;
+
+private:
+    /// What is known before: next to nothing, but in numbers of the size of the motion, lest rounding eat the rest.
+    void start(bool seen, bool displaced, bool accelerated)
+    {
+        const auto square = [](double x) { return x * x; };
+        constexpr double wide = 10, largest_bias_m_s2 = 1;
+        const Series& place = displaced ? run_.base_displacement_m : run_.table.x_m;
+        const double dt = problem.dt_s;
+        Vector& variance = problem.start_variance;
+        double acceleration = largest_size(run_.base_acceleration_m_s2.values);
+        if (seen || displaced) {
+            const double reach = wide * noise(place) + largest_rate(place.values, dt, 1) * dt;
+            problem.start_mean[u] = first_value(place.values);
+            variance[u] = square(wide * reach);
+            variance[v] = square(wide * (largest_rate(place.values, dt, 1) + noise(place)));
+            acceleration = std::max(acceleration, largest_rate(place.values, dt, 2));
+        } else {
+            result_.assumed_at_rest = true;
+        }
+        acceleration += noise(run_.base_acceleration_m_s2);
+        variance[a] = square(wide * acceleration);
+        variance[j] = square(wide * acceleration / (10 * dt));
+        if (accelerated)
+            variance[bias] = square(largest_bias_m_s2);
+        if (seen && displaced) {
+            problem.start_mean[zero] = first_value(run_.table.x_m.values) - problem.start_mean[u];
+            variance[zero] = square(
+                wide * (wide * (noise(place) + noise(run_.table.x_m)) + largest_rate(place.values, dt, 1) * wide * dt));
+        }
+    }
+
+    /// As declared, else from the samples; a sensor without any noise is none: its last digit is left.
+    static double noise(const Series& series)
+    {
+        const double least = 1e-7 * std::max(largest_size(series.values), 1e-6);
+        const bool declared = series.noise_sd && *series.noise_sd > 0;
+        return std::max(declared ? *series.noise_sd : noise_of(series.values), least);
+    }
+
+    void add(Sensor sensor, const Series& series, SensorFit& fit)
+    {
+        fit.noise_sd = noise(series);
+        for (std::size_t i = 0; i < series.values.size(); ++i) {
+            if (!std::isfinite(series.values[i]))
+                continue;
+            ++fit.samples;
+            const double position = (run_.time_s[i] - run_.time_s.front()) / problem.dt_s;
+            constexpr double rounding = 1e-6; // of a clock: a sample at a grid step is not in the interval before it
+            const double k = std::clamp(std::floor(position + rounding), 0.0, static_cast<double>(problem.steps() - 1));
+            const double s = std::max(position - k, 0.0) * problem.dt_s;
+            Vector row{};
+            if (sensor == accelerometer)
+                row = {0, 0, 1, s, 1, 0};
+            else
+                row = {1, s, s * s / 2, s * s * s / 6, 0, sensor == cameras ? 1.0 : 0.0};
+            if (sensor == cameras && result_.displacement.samples == 0)
+                row[zero] = 0;
+            problem.at[static_cast<std::size_t>(k)].push_back(
+                {sensor, row, series.values[i], fit.noise_sd * fit.noise_sd});
+        }
+    }
+
+    /// Where only the acceleration is known the table rests before and after it.
+    void add_rest()
+    {
+        constexpr double at_rest_m_s = 1e-4;
+        const Measurement still{rest, {0, 1, 0, 0, 0, 0}, 0, at_rest_m_s * at_rest_m_s};
+        const std::vector<double>& values = run_.base_acceleration_m_s2.values;
+        const std::size_t n = problem.steps();
+        const std::size_t head = quiet_samples(values, result_.accelerometer.noise_sd, false);
+        const std::size_t tail = quiet_samples(values, result_.accelerometer.noise_sd, true);
+        for (std::size_t k = 0; k < std::min(head, n); ++k)
+            problem.at[k].push_back(still);
+        for (std::size_t k = 0; k < std::min(tail, n - std::min(head, n)); ++k)
+            problem.at[n - 1 - k].push_back(still);
+    }
+
+    const MeasuredRun& run_;
+    MeasuredMotion& result_;
+};
+
+void measure_misfit(const Problem& problem, const Smoothed& smoothed, Sensor sensor, SensorFit& fit)
+{
+    double squares = 0;
+    for (std::size_t k = 0; k < problem.steps(); ++k)
+        for (const Measurement& m : problem.at[k])
+            if (m.sensor == sensor) {
+                const double misfit = m.value - dot(m.row, smoothed.mean[k]);
+                squares += misfit * misfit;
+            }
+    if (fit.samples > 0)
+        fit.misfit_sd = std::sqrt(squares / fit.samples);
+}
+
+/// Velocity and displacement anew from the acceleration, by the rule of `Motion`, to the last bit.
+void integrate(Motion& motion, double u0, double v0)
+{
+    const double d = motion.dt_s;
+    double v1 = v0, u1 = u0;
+    for (std::size_t i = 0; i < motion.acceleration_m_s2.size(); ++i) {
+        if (i > 0) {
+            const double a0 = motion.acceleration_m_s2[i - 1], a1 = motion.acceleration_m_s2[i];
+            u1 += v1 * d + d * d * (a0 / 3 + a1 / 6);
+            v1 += d * (a0 + a1) / 2;
+        }
+        motion.velocity_m_s.push_back(v1);
+        motion.displacement_m.push_back(u1);
+    }
+}
+
+} // namespace
+
+MeasuredMotion smoothed_base_motion(const MeasuredRun& run)
+{
+    MeasuredMotion result;
+    const Problem problem = Setup(run, result).problem;
+    double white = 0, walk = 0;
+    const Process rough = likeliest(problem, false, white), even = likeliest(problem, true, walk);
+    const Process process = walk > white ? even : rough;
+    result.smooth_jerk = process.smooth_jerk;
+    result.process_sd = process.sd;
+
+    std::vector<Step> steps;
+    filter(problem, process, &steps);
+    const Smoothed smoothed = smooth(problem, process, steps);
+    Motion& motion = result.motion;
+    motion.dt_s = problem.dt_s;
+    for (std::size_t k = 0; k < problem.steps(); ++k) {
+        motion.acceleration_m_s2.push_back(smoothed.mean[k][a]);
+        result.displacement_sd_m.push_back(std::sqrt(smoothed.variance[k][u]));
+        result.acceleration_sd_m_s2.push_back(std::sqrt(smoothed.variance[k][a]));
+    }
+    integrate(motion, smoothed.mean[0][u], smoothed.mean[0][v]);
+    motion.pga_m_s2 = largest_size(motion.acceleration_m_s2);
+    motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);
+    motion.corrected = true;
+    motion.baseline.pga_before_m_s2 = largest_size(run.base_acceleration_m_s2.values);
+    motion.baseline.pga_m_s2 = motion.pga_m_s2;
+    motion.baseline.pgv_m_s = largest_size(motion.velocity_m_s);
+    motion.baseline.pgd_m = largest_size(motion.displacement_m);
+    motion.source = "run " + run.name;
+
+    measure_misfit(problem, smoothed, accelerometer, result.accelerometer);
+    measure_misfit(problem, smoothed, displacement, result.displacement);
+    measure_misfit(problem, smoothed, cameras, result.cameras);
+    if (result.accelerometer.samples > 0) {
+        result.accelerometer.offset = smoothed.mean[0][bias];
+        result.accelerometer.offset_sd = std::sqrt(smoothed.variance[0][bias]);
+    }
+    if (result.cameras.samples > 0 && result.displacement.samples > 0) {
+        result.cameras.offset = smoothed.mean[0][zero];
+        result.cameras.offset_sd = std::sqrt(smoothed.variance[0][zero]);
+    }
+    return result;
+}
+
+Motion base_motion_of(const MeasuredRun& run)
+{
+    return smoothed_base_motion(run).motion;
+}
+
+} // namespace stylobate
