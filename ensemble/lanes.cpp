@@ -242,6 +242,16 @@ void LaneSet::advance()
 
 void LaneSet::advance(int first, int last)
 {
+    run(first, last);
+    if (last == chunk_steps)
+        for (int lane = 0; lane < kernels_.lanes; ++lane)
+            if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
+                look(lane);
+}
+
+/// The tables of the base's motion at the beginning of a chunk, and the steps.
+void LaneSet::run(int first, int last)
+{
     if (first == 0) {
         if (BaseMotion::on_host(study_)) {
             for (int lane = 0; lane < kernels_.lanes; ++lane)
@@ -256,10 +266,6 @@ void LaneSet::advance(int first, int last)
                     fill_extension(lane);
     }
     kernels_.run(topology_, bundle_, first, last);
-    if (last == chunk_steps)
-        for (int lane = 0; lane < kernels_.lanes; ++lane)
-            if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
-                look(lane);
 }
 
 /// Second differences of the base's displacement [m], for `chunk_steps` steps from one of the realization's own on.

@@ -44,6 +44,28 @@ public:
     /// how a simulation is made to follow measured motion. The work counts as the base's.
     void pull(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2);
 
+    // ---- a realization that is followed from outside: stepped without looks, read, pulled, and taken up elsewhere
+    // ----
+
+    /// All that the steps of a realization depend on but its base motion: in another lane, of this set or of another
+    /// one for the same structure and model, it goes on with the same bits.
+    std::vector<double> state(int lane) const;
+    /// Puts a realization into a free lane when steps 0 to `phase - 1` of the chunk have been done: at its static rest.
+    /// @pre its base motion is made on the host (`BaseMotion::on_host`), here and below
+    void load_followed(int lane, Realization realization, int phase);
+    /// The same in a state that it had after `step` steps; nothing pulls.
+    void load_followed(int lane, Realization realization, int phase, const std::vector<double>& state,
+                       std::uint64_t step);
+    /// Steps `first` to `last - 1` of the chunk, and no look: nothing ends, nothing is set aside.
+    void step_followed(int first, int last);
+    /// Displacement of a block's geometric centre (of the realization's numbering) from the reference stack, along the
+    /// axes of the laboratory even where the base turns.
+    /// @param phase  steps of the chunk that have been done
+    /// @param behind so many steps ago: 0 to 1, on the straight line between the last two
+    BlockMotion moved(int lane, int block, int phase, double behind = 0) const;
+    /// What the last step added to it.
+    BlockMotion increment(int lane, int block, int phase) const;
+
     /// The outcome of a realization that has ended.
     const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
     /// Frees a lane; its place is at rest and does nothing until the next `load`.
@@ -81,6 +103,9 @@ private:
     /// Parameters and static rest of a realization into its lane.
     void store_state(int lane, const Realization& r);
     void first_increments(int lane);
+    void run(int first, int last);
+    void begin_followed(int lane, int phase, std::uint64_t step);
+    std::size_t state_registers() const { return bundle_registers(topology_) - chunk_steps; }
     std::array<double, chunk_steps> base_chunk(int lane, double first_step) const;
     /// Tables of the vertical motion and of the base's rotation for the next chunk.
     void fill_extension(int lane);

@@ -1,0 +1,103 @@
+/// Lanes whose realizations are followed from outside (`lanes.hpp`).
+
+#include "ensemble/lanes.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace stylobate {
+
+std::vector<double> LaneSet::state(int lane) const
+{
+    std::vector<double> registers(state_registers());
+    for (std::size_t i = 0; i < registers.size(); ++i)
+        registers[i] = memory_[i * lanes_ + static_cast<std::size_t>(lane)];
+    return registers;
+}
+
+void LaneSet::load_followed(int lane, Realization realization, int phase)
+{
+    load(lane, std::move(realization));
+    begin_followed(lane, phase, 0);
+}
+
+void LaneSet::load_followed(int lane, Realization realization, int phase, const std::vector<double>& state,
+                            std::uint64_t step)
+{
+    assert(state.size() == state_registers() && "the state is one of the same structure and model");
+    clear(lane);
+    Place& place = places_[static_cast<std::size_t>(lane)];
+    place.busy = true;
+    ++active_;
+    place.realization = std::move(realization);
+    const Realization& r = place.realization;
+    place.motion = BaseMotion(study_.excitation, r, record_);
+    if (r.vertical != nullptr)
+        place.vertical = BaseMotion::along(r.vertical, r.step_s);
+    for (std::size_t i = 0; i < state.size(); ++i)
+        memory_[i * lanes_ + static_cast<std::size_t>(lane)] = state[i];
+    if (topology_.model.extended())
+        for (int i = 0; i < static_cast<int>(r.blocks.size()); ++i)
+            pull(lane, i, 0, 0, 0);
+    begin_followed(lane, phase, step);
+}
+
+/// The rows of the tables of the base's motion that are still to come in this chunk.
+void LaneSet::begin_followed(int lane, int phase, std::uint64_t step)
+{
+    assert(BaseMotion::on_host(study_.excitation.kind) && "formulas fill the table of all lanes at once");
+    first_step_[lane] = static_cast<double>(step) - phase;
+    motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);
+    if (topology_.model.extended())
+        fill_extension(lane);
+}
+
+void LaneSet::step_followed(int first, int last)
+{
+    run(first, last);
+    if (last == chunk_steps)
+        for (int lane = 0; lane < kernels_.lanes; ++lane)
+            if (!free(lane))
+                first_step_[lane] += chunk_steps;
+}
+
+BlockMotion LaneSet::moved(int lane, int block, int phase, double behind) const
+{
+    const int k = place_of_[static_cast<std::size_t>(block)];
+    if (k < topology_.fixed)
+        return {};
+    BlockMotion m = centre(k, lane);
+    if (realization(lane).base.pitch_rad_s2_m != 0) {
+        // at the end of a chunk the table still holds the rotation of one step before
+        const double phi = bundle_.at(OfPitch::angle, std::min(phase, chunk_steps - 1), lane);
+        const Block& at = realization(lane).blocks[static_cast<std::size_t>(block)];
+        const double x = at.x_m + m.x_m, y = at.y_m + m.y_m, s = std::sin(phi), c = std::cos(phi);
+        m = {x * c - y * s - at.x_m, x * s + y * c - at.y_m, m.theta_rad + phi};
+    }
+    const BlockMotion last = behind > 0 ? increment(lane, block, phase) : BlockMotion{};
+    return {m.x_m - behind * last.x_m, m.y_m - behind * last.y_m, m.theta_rad - behind * last.theta_rad};
+}
+
+BlockMotion LaneSet::increment(int lane, int block, int phase) const
+{
+    const int k = place_of_[static_cast<std::size_t>(block)];
+    if (k < topology_.fixed)
+        return {};
+    BlockMotion d = {bundle_.at(OfBlock::dx, k, lane), bundle_.at(OfBlock::dy, k, lane),
+                     bundle_.at(OfBlock::dtheta, k, lane)};
+    if (topology_.model.extended()) { // the centre of mass goes round the geometric one
+        const double e = bundle_.at(OfBlockExtension::eccentricity, k, lane);
+        const double theta = bundle_.at(OfBlock::theta, k, lane);
+        d.x_m += e * std::sin(theta) * d.theta_rad;
+        d.y_m -= e * std::cos(theta) * d.theta_rad;
+    }
+    if (realization(lane).base.pitch_rad_s2_m != 0) {
+        const double turn = bundle_.at(OfPitch::increment, std::min(phase, chunk_steps - 1), lane);
+        const Block& at = realization(lane).blocks[static_cast<std::size_t>(block)];
+        d = {d.x_m - turn * at.y_m, d.y_m + turn * at.x_m, d.theta_rad + turn};
+    }
+    return d;
+}
+
+} // namespace stylobate
