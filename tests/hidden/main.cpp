@@ -1,0 +1,192 @@
+/// hidden_campaigns: makes virtual shake-table campaigns with hidden effects, and scores diagnoses of them.
+
+#include "ensemble/input_error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/measured_file.hpp"
+#include "io/suggest.hpp"
+#include "tests/hidden/answer.hpp"
+#include "tests/hidden/detectability.hpp"
+#include "tests/hidden/score.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+using namespace stylobate;
+using namespace stylobate::hidden;
+
+namespace {
+
+struct Seeds {
+    std::uint64_t first = 0, last = 0;
+};
+
+/// "A..B", or one number.
+Seeds parse_seeds(const std::string& text)
+{
+    const std::size_t dots = text.find("..");
+    const std::string from = text.substr(0, dots), to = dots == std::string::npos ? from : text.substr(dots + 2);
+    Seeds seeds;
+    const auto number = [](const std::string& word, std::uint64_t& value) {
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        return error == std::errc() && end == word.data() + word.size();
+    };
+    if (!number(from, seeds.first) || !number(to, seeds.last) || seeds.last < seeds.first ||
+        seeds.last - seeds.first >= 100000)
+        throw InputError(
+            "--seeds", 0,
+            fmt::format("'{}' is not A..B with whole numbers A <= B < A + 100000.\n  For example 1..60.", text));
+    return seeds;
+}
+
+void check_effect(const std::string& name)
+{
+    std::vector<std::string> names = listed_names();
+    names.insert(names.end(), outside_names().begin(), outside_names().end());
+    if (std::find(names.begin(), names.end(), name) != names.end())
+        return;
+    const std::string meant = nearest_word(name, names);
+    throw InputError("--effect", 0,
+                     fmt::format("'{}' is no effect.\n  {}", name,
+                                 meant.empty() ? fmt::format("They are {}.", fmt::join(names, ", "))
+                                               : "Did you mean " + meant + "?"));
+}
+
+Answer answer_of(const VirtualCampaign& made)
+{
+    Answer answer;
+    answer.seed = made.seed;
+    answer.law = made.model.law == Law::nonsmooth ? "nonsmooth" : "compliant";
+    answer.specimen = made.planned.specimen.name;
+    answer.runs = static_cast<int>(made.runs.size());
+    for (const TrueRun& run : made.runs)
+        answer.collapses += run.history.collapsed ? 1 : 0;
+    const std::vector<Detectability> seen = detectability_of(made);
+    for (std::size_t k = 0; k < made.effects.size(); ++k) {
+        const HiddenEffect& effect = made.effects[k];
+        answer.effects.push_back({effect.name, effect.listed, effect.place, effect.parameter, effect.size,
+                                  effect.size_comparable, seen[k].snr_noise, seen[k].snr_scatter,
+                                  seen[k].detectable()});
+    }
+    return answer;
+}
+
+void write_text(const fs::path& path, const std::string& text)
+{
+    AtomicFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+/// The answer is written last: a campaign that has one is complete, and is not made again.
+void generate(const Seeds& seeds, const fs::path& out, const Wish& wish)
+{
+    std::error_code error;
+    fs::create_directories(out / "answers", error);
+    if (error)
+        throw InputError(out.string(), 0, "cannot be made a folder: " + error.message() + ". Give another one.");
+    for (std::uint64_t seed = seeds.first; seed <= seeds.last; ++seed) {
+        const fs::path answer = out / "answers" / fmt::format("{}.toml", seed);
+        if (fs::exists(answer))
+            continue;
+        const VirtualCampaign made = make_campaign(seed, wish);
+        write_campaign(made.campaign, out / fmt::format("campaign_{}.h5", seed));
+        write_text(out / fmt::format("campaign_{}.toml", seed), study_text_of(made.planned));
+        write_text(answer, text_of(answer_of(made)));
+        fmt::print("campaign {}: {}, {} runs\n", seed, made.planned.specimen.name, made.runs.size());
+        std::fflush(stdout);
+    }
+}
+
+void score_folder(const fs::path& answers, const fs::path& diagnoses, const std::string& page)
+{
+    std::vector<fs::path> files;
+    if (!fs::is_directory(answers))
+        throw InputError(answers.string(), 0, "is no folder. Give that of the answers, DIR/answers of 'generate'.");
+    for (const auto& entry : fs::directory_iterator(answers))
+        if (entry.path().extension() == ".toml")
+            files.push_back(entry.path());
+    if (files.empty())
+        throw InputError(answers.string(), 0, "holds no answers (SEED.toml). Give DIR/answers of 'generate'.");
+    std::vector<Answer> known;
+    for (const fs::path& file : files)
+        known.push_back(read_answer(file));
+    std::sort(known.begin(), known.end(), [](const Answer& a, const Answer& b) { return a.seed < b.seed; });
+    std::vector<std::optional<DiagnosisSummary>> said;
+    for (const Answer& answer : known) {
+        const fs::path file = diagnoses / fmt::format("{}.json", answer.seed);
+        said.push_back(fs::exists(file) ? std::optional(read_diagnosis(file)) : std::nullopt);
+    }
+    const std::string text = markdown(score(known, said));
+    fmt::print("{}", text);
+    if (!page.empty())
+        write_text(page, text);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Virtual shake-table campaigns with hidden effects, and the score of their diagnoses.");
+    app.require_subcommand(1);
+
+    std::string seeds, out, law;
+    std::vector<std::string> effects;
+    bool nothing = false, brief = false;
+    auto* make =
+        app.add_subcommand("generate", "makes campaign_SEED.h5, its study and answers/SEED.toml; goes on where it was");
+    make->add_option("--seeds", seeds, "A..B")->required();
+    make->add_option("--out", out, "folder")->required();
+    make->add_option("--effect", effects, "what is hidden, instead of what the seed says; twice for a pair")
+        ->allow_extra_args(false);
+    make->add_flag("--nothing", nothing, "nothing is hidden, whatever the seed says")->excludes("--effect");
+    make->add_flag("--short", brief, "two runs without repeats, for tests");
+    make->add_option("--law", law, "healthy contact law, instead of the seed's")
+        ->check(CLI::IsMember({"nonsmooth", "compliant"}));
+
+    std::string answers, diagnoses, page;
+    auto* judge_them = app.add_subcommand("score", "compares diagnoses with answers");
+    judge_them->add_option("--answers", answers, "folder of SEED.toml")->required();
+    judge_them->add_option("--diagnoses", diagnoses, "folder of SEED.json, as 'diagnose --json' prints them")
+        ->required();
+    judge_them->add_option("--markdown", page, "file for the tables, too");
+
+    try {
+        app.parse(argc, argv);
+        if (make->parsed()) {
+            Wish wish;
+            if (brief)
+                wish.most_motions = 2;
+            if (!law.empty())
+                wish.law = law == "nonsmooth" ? Law::nonsmooth : Law::compliant;
+            for (const std::string& name : effects)
+                check_effect(name);
+            for (const std::string& name : effects)
+                if (wish.law && !applies(name, *wish.law))
+                    throw InputError("--effect", 0,
+                                     fmt::format("{} means nothing under the law {}.\n  Take the other "
+                                                 "law.",
+                                                 name, law));
+            if (nothing || !effects.empty())
+                wish.effects = effects;
+            generate(parse_seeds(seeds), out, wish);
+        } else {
+            score_folder(answers, diagnoses, page);
+        }
+    } catch (const CLI::ParseError& error) {
+        const int status = app.exit(error);
+        return status == 0 ? 0 : 2;
+    } catch (const InputError& error) {
+        fmt::print(stderr, "hidden_campaigns: {}\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "hidden_campaigns: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,43 @@
+#pragma once
+/// A virtual campaign from its seed: specimen, motions, runs, what the cameras saw, and what was hidden.
+
+#include "ensemble/campaign.hpp"
+#include "tests/hidden/hidden_effect.hpp"
+#include "tests/hidden/shake.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate::hidden {
+
+/// What a campaign is drawn to be; what is not given, the seed decides.
+struct Wish {
+    std::optional<Law> law;
+    std::optional<SpecimenKind> specimen;
+    std::optional<std::vector<std::string>> effects; ///< names; empty: nothing hidden
+    int most_motions = 6;                            ///< from 4; fewer make a short campaign, without repeats
+};
+
+/// One run as it truly was.
+struct TrueRun {
+    Shaking shaking;
+    State start;
+    History history;
+};
+
+struct VirtualCampaign {
+    std::uint64_t seed = 0;
+    Campaign campaign; ///< what the file gives
+    Planned planned;
+    Model model;                       ///< the specimen as it was made, with all that is hidden
+    std::vector<HiddenEffect> effects; ///< none, one or two
+    bool of_command = false;           ///< the file knows the command alone
+    std::vector<TrueRun> runs;
+};
+
+/// One seed, one campaign: two thirds or more of them hide nothing.
+VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish = {});
+
+} // namespace stylobate::hidden
