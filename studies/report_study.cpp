@@ -1,6 +1,8 @@
 #include "studies/report_study.hpp"
 
+#include "ensemble/mechanism_spec.hpp"
 #include "ensemble/structure.hpp"
+#include "io/study_names.hpp"
 
 #include <fmt/format.h>
 
@@ -53,6 +55,14 @@ std::string structure_text(const Study& study, const Layout& layout)
     return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
 }
 
+const char* form_name(ContactForm form)
+{
+    for (const auto& named : contact_form_names)
+        if (named.value == form)
+            return named.word;
+    return "";
+}
+
 std::string contact_text(const ContactSpec& contact)
 {
     std::string text = fmt::format("friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
@@ -93,6 +103,8 @@ const char* excitation_name(ExcitationKind kind)
         return "synthetic earthquakes (filtered noise)";
     case ExcitationKind::record:
         return "record";
+    case ExcitationKind::table:
+        return "table of samples";
     }
     return "";
 }
@@ -101,7 +113,7 @@ std::string excitation_text(const Study& study)
 {
     const ExcitationSpec& e = study.excitation;
     std::string text = excitation_name(e.kind);
-    if (e.kind == ExcitationKind::record)
+    if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)
         text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
     if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)
         text += fmt::format(", {:.3g} cycles", e.cycles);
@@ -125,9 +137,14 @@ std::vector<std::pair<std::string, Html>> study_facts(const Study& study)
     for (const Perturbation& p : study.perturbations)
         perturbed += (perturbed.empty() ? "" : ", ") + std::string(to_string(p.quantity));
     std::replace(perturbed.begin(), perturbed.end(), '_', ' ');
+    std::string mechanisms;
+    for (const MechanismSpec& spec : study.mechanisms)
+        if (const std::string name = to_string(spec.mechanism); mechanisms.find(name) == std::string::npos)
+            mechanisms += fmt::format("{}{} ({})", mechanisms.empty() ? "" : ", ", name, rule_of(spec.mechanism).says);
     return {{"Structure", structure_text(study, layout)},
             {"Contact", contact_text(study.contact)},
             {"Excitation", excitation_text(study)},
+            {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
             {"Drawn anew in each realization", perturbed.empty() ? "nothing" : perturbed},
             {"Collapse", fmt::format("a block's centre below {:.3g} of its height at rest",
                                      study.outcome.collapse_height_fraction)},

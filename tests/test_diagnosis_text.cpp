@@ -137,10 +137,9 @@ TEST(DiagnosisWords, ComposeTheVerdictWhereTheDiagnosisHasNoWordsOfItsOwn)
 {
     Diagnosis d = filled_diagnosis();
     d.verdict_text.clear();
-    EXPECT_EQ(verdict_words(d),
-              "joint_friction at joint 0: a joint whose friction differs from the others', ratio 0.57 "
-              "(0.49 to 0.66), probability 0.83. These data cannot tell joint_friction and stribeck "
-              "apart. What remains is at block 3, x, and depends on velocity.");
+    EXPECT_EQ(verdict_words(d), "joint_friction at joint 0: a joint with another friction, ratio 0.57 "
+                                "(0.49 to 0.66), probability 0.83. These data cannot tell joint_friction and stribeck "
+                                "apart. What remains is at block 3, x, and depends on velocity.");
     EXPECT_EQ(interval_words({}, 2.0), "up to 2");
     EXPECT_EQ(interval_words(2.0, {}), "2 or more");
     EXPECT_EQ(estimate_words({}, {}, {}, "m"), "not known");

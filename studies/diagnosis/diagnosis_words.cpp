@@ -1,5 +1,7 @@
 #include "studies/diagnosis/diagnosis_words.hpp"
 
+#include "ensemble/mechanism_spec.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,29 +62,9 @@ std::string count_words(std::uint64_t n, const std::string& one, const std::stri
 
 std::string mechanism_words(const std::string& mechanism)
 {
-    static const std::pair<const char*, const char*> table[] = {
-        {"stribeck", "friction that falls with the speed of sliding"},
-        {"joint_friction", "a joint whose friction differs from the others'"},
-        {"drag", "air drag"},
-        {"corner_loss", "chipped or rounded edges"},
-        {"hertz", "contact that stiffens under load"},
-        {"rate_damping", "contact damping that grows with the load"},
-        {"face_damping", "contact damping at the ends of the face"},
-        {"friction_wear", "friction that wears off as a joint slips"},
-        {"corner_wear", "edges that wear as a joint rocks"},
-        {"table_pitch", "a table that pitches as it moves"},
-        {"vertical_motion", "a table that moves vertically too"},
-        {"harmonic_distortion", "harmonics in the base motion that its record lacks"},
-        {"time_offset", "clocks of base and cameras that differ"},
-        {"sensor_gain", "a wrong gain of the base sensor"},
-        {"dowel", "dowels between the blocks"},
-        {"adhesion", "a joint that sticks until it first slips"},
-        {"eccentricity", "a centre of mass beside the geometric centre"},
-        {"wedge", "a bed that is not level"},
-        {"drum_offset", "blocks that stand off their places"}};
-    for (const auto& [name, words] : table)
-        if (mechanism == name)
-            return words;
+    for (const MechanismRule& rule : mechanism_rules())
+        if (mechanism == rule.name)
+            return rule.says;
     return mechanism;
 }
 

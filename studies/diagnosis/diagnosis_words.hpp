@@ -22,7 +22,7 @@ std::string list_words(const std::vector<std::string>& list);
 /// "one run", "3 runs".
 std::string count_words(std::uint64_t n, const std::string& one, const std::string& many);
 
-/// What a mechanism is, for who does not know its name; the name itself if it is none of the list in design.
+/// What a mechanism is, for who does not know its name; the name itself if it is none that studies can name.
 std::string mechanism_words(const std::string& mechanism);
 
 /// "The simulation agrees with ...": a line.
