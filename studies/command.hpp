@@ -44,6 +44,10 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 /// @param output the page; empty: beside the file, with .html
 int report_command(const CommonOptions& options, const std::string& file, std::string output);
+/// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with _diagnosis.h5
+/// @param nulls campaigns with nothing hidden that are simulated to learn what chance gives
+int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,
+                     std::string output, long long nulls, long long seed);
 int info_command(const CommonOptions& options);
 
 } // namespace stylobate

@@ -103,6 +103,24 @@ int main(int argc, char** argv)
     add_common(*record, options);
     record->callback([&] { status = record_command(options, files, unit, component, block); });
 
+    std::string measured;
+    long long nulls = 24, seed = 1;
+    auto* diagnosing = app.add_subcommand("diagnose", "what the simulation gets wrong of measured data, the cause, the "
+                                                      "extended model, the gain");
+    diagnosing->add_option("MEASURED", measured, "measured campaign (HDF5, or a folder of CSV files)")->required();
+    diagnosing->add_option("--study", study, "study file with the contacts to begin with (default: a bed of stone)");
+    diagnosing->add_option("-o,--output", results,
+                           "file of the diagnosis (default: the campaign's name with _diagnosis.h5)");
+    diagnosing
+        ->add_option("--nulls", nulls, "campaigns with nothing hidden that are simulated to learn what chance gives")
+        ->check(CLI::Range(0LL, 10000LL))
+        ->capture_default_str();
+    diagnosing->add_option("--seed", seed, "of what is drawn in them")
+        ->check(CLI::Range(0LL, 999999999999LL))
+        ->capture_default_str();
+    add_common(*diagnosing, options);
+    diagnosing->callback([&] { status = diagnose_command(options, measured, study, results, nulls, seed); });
+
     ExportOptions wanted;
     auto* exporting = app.add_subcommand("export", "write a result in other formats");
     exporting->add_option("RESULTS", results, "results file (HDF5)")->required();

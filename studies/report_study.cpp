@@ -55,18 +55,12 @@ std::string structure_text(const Study& study, const Layout& layout)
     return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
 }
 
-const char* form_name(ContactForm form)
-{
-    for (const auto& named : contact_form_names)
-        if (named.value == form)
-            return named.word;
-    return "";
-}
-
 std::string contact_text(const ContactSpec& contact)
 {
-    std::string text = fmt::format("friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
-                                   contact.friction, contact.normal_stiffness_n_m2, contact.tangential_stiffness_n_m);
+    std::string text =
+        fmt::format("{} contacts, friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
+                    word_for(contact_form_names, contact.form), contact.friction, contact.normal_stiffness_n_m2,
+                    contact.tangential_stiffness_n_m);
     text += contact.normal_damping_n_s_m ? fmt::format(", C_N {:.3g} N s/m", *contact.normal_damping_n_s_m)
                                          : fmt::format(", normal damping ratio {:.3g}", contact.normal_damping_ratio);
     return text + (contact.tangential_damping_n_s_m

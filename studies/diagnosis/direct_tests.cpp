@@ -362,8 +362,7 @@ VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scal
     return out;
 }
 
-void test_base(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared,
-               DirectResult& out)
+void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared, DirectResult& out)
 {
     const std::string place = "base";
     std::size_t samples = 0;
@@ -455,8 +454,7 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
                  fmt::format("{} turns by {:.2e} rad for each m/s2 of the base.", prepared.what, slope)));
         if (pitches) {
             out.found.push_back(
-                cause_of("table_pitch", place, "pitch_rad_s2_m", "rad s2/m", 0, slope, pitch.sd[0], pitch.gain[0]));
-            out.pitch_rad_s2_m = slope;
+                cause_of("table_pitch", place, "rotation_rad_s2_m", "rad s2/m", 0, slope, pitch.sd[0], pitch.gain[0]));
         }
     } else {
         out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
@@ -496,25 +494,37 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
             cause_of("sensor_gain", place, "gain", "", 1, gain, fit.sd[0], 0.5 * std::pow((gain - 1) / fit.sd[0], 2)));
 
     // the base motion as it must have been
-    const bool distorted = any_harmonic && beyond(distortion, distortion_sd, limits.distortion, limits.sds);
+    if (wrong)
+        out.gain = gain;
+    if (late)
+        out.offset_s = offset;
+    if (any_harmonic && beyond(distortion, distortion_sd, limits.distortion, limits.sds))
+        for (std::size_t k = 0; k < 4; ++k)
+            out.harmonics[k] = fit.size[2 + k];
+}
+
+void correct_bases(const Campaign& campaign, const TrackScales& scales, DirectResult& out)
+{
+    const bool distorted =
+        std::any_of(std::begin(out.harmonics), std::end(out.harmonics), [](double size) { return size != 0; });
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const MeasuredRun& run = campaign.runs[r];
-        if (out.base_m[r].empty() || !(late || wrong || distorted))
+        if (out.corrected_m[r].empty() || !(out.gain != 1 || out.offset_s != 0 || distorted))
             continue;
         Ride whole;
-        whole.base = out.base_m[r];
-        whole.shift(late ? offset : 0, scales);
+        whole.base = out.corrected_m[r];
+        whole.shift(out.offset_s, scales);
         const std::vector<double>& u = whole.base;
         const double omega = omega_of(whole);
         for (std::size_t i = 0; i < u.size(); ++i) {
-            double x = (wrong ? gain : 1) * u[i];
+            double x = out.gain * u[i];
             if (distorted && run.kind == "harmonic" && omega > 0)
                 for (int k = 0; k < 4; ++k)
-                    x += fit.size[static_cast<std::size_t>(2 + k)] *
-                         harmonic_term(u[i], whole.rate[i] / omega, 2 + k / 2, k % 2 == 0);
-            out.base_m[r][i] = x;
+                    x += out.harmonics[k] * harmonic_term(u[i], whole.rate[i] / omega, 2 + k / 2, k % 2 == 0);
+            out.corrected_m[r][i] = x;
         }
     }
+    out.base_m = out.corrected_m;
 }
 
 /// Sensors and cameras have their own zeros: the base is put where the lowest block says that it is at first, up to how
@@ -625,19 +635,39 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
     }
 }
 
-} // namespace
-
-DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits)
+DirectResult uncorrected(const Campaign& campaign)
 {
     DirectResult out;
     for (const MeasuredRun& run : campaign.runs) {
         const bool has = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
-        out.base_m.push_back(has ? base_displacement(run) : std::vector<double>());
+        out.corrected_m.push_back(has ? base_displacement(run) : std::vector<double>());
     }
+    out.base_m = out.corrected_m;
+    return out;
+}
+
+} // namespace
+
+DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits)
+{
+    DirectResult out = uncorrected(campaign);
     Prepared prepared = prepare(campaign, scales);
-    test_base(campaign, scales, limits, prepared, out);
+    test_base(scales, limits, prepared, out);
+    correct_bases(campaign, scales, out);
     align_bases(campaign, out);
     test_rest(campaign, scales, limits, out);
+    return out;
+}
+
+DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scales, const DirectResult& shown)
+{
+    DirectResult out = uncorrected(campaign);
+    out.found = shown.found;
+    out.gain = shown.gain;
+    out.offset_s = shown.offset_s;
+    std::copy(std::begin(shown.harmonics), std::end(shown.harmonics), std::begin(out.harmonics));
+    correct_bases(campaign, scales, out);
+    align_bases(campaign, out);
     return out;
 }
 

@@ -31,13 +31,19 @@ struct DirectThresholds {
 
 /// What was found and how to correct for it.
 struct DirectResult {
-    std::vector<DataTest> base_tests;            ///< in the order in which they are judged
-    std::vector<DataTest> sensor_tests;          ///< at rest
-    std::vector<CauseFit> found;                 ///< named causes, gain in nats; sizes in the parameters' units
-    std::vector<std::vector<double>> base_m;     ///< (runs)(nt) corrected base displacement; empty where there is none
-    std::vector<std::vector<double>> vertical_m; ///< (runs)(nt) vertical displacement of the table; empty: none found
-    double pitch_rad_s2_m = 0;
+    std::vector<DataTest> base_tests;             ///< in the order in which they are judged
+    std::vector<DataTest> sensor_tests;           ///< at rest
+    std::vector<CauseFit> found;                  ///< named causes, gain in nats; sizes in the parameters' units
+    std::vector<std::vector<double>> corrected_m; ///< (runs)(nt) corrected base displacement; empty where there is none
+    std::vector<std::vector<double>> base_m;      ///< the same with the zero of the cameras
+    // what the correction is made of
+    double gain = 1;
+    double offset_s = 0;
+    double harmonics[4] = {}; ///< second and third, in phase and in quadrature, in harmonic runs
 };
+
+/// What other runs of the specimen showed, applied to these.
+DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scales, const DirectResult& shown);
 
 DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits = {});
 

@@ -4,7 +4,7 @@
 #include "ensemble/random.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/specimen.hpp"
-#include "io/measured_file.hpp"
+#include "io/measured_motion.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
@@ -60,44 +60,47 @@ Realization nominal(const Study& about, const StructureSpec& structure)
 }
 
 DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const SpecimenStructure& built,
-                            std::uint64_t seed, std::uint64_t number, const HealthyScatter& scatter)
+                            std::uint64_t seed, std::uint64_t number, const HealthyScatter& scatter,
+                            const std::vector<SizedCause>& causes)
 {
     Draws draw(seed, number, Stream::virtual_specimen);
     Study study = about;
+    // drawn in any case, so that the rest does not depend on it
     const std::size_t form = number % forms.size();
-    study.contact.form = forms[form];
     const double stiffness = std::exp(scatter.stiffness * draw.normal());
-    study.contact.normal_stiffness_n_m2 *= stiffness;
-    study.contact.tangential_stiffness_n_m *= stiffness;
     const double damping =
         scatter.least_damping * std::pow(scatter.most_damping / scatter.least_damping, draw.uniform());
-    study.contact.normal_damping_ratio = damping;
-    study.contact.tangential_damping_ratio = std::min(damping, 0.2);
-    study.contact.normal_damping_n_s_m.reset();
-    study.contact.tangential_damping_n_s_m.reset();
     const double friction = 1 + scatter.common_friction * draw.normal();
     const double share = draw.uniform() < 0.5 ? draw.uniform() : 1;
-    const double exponent =
-        forms[form] == ContactForm::area ? 1 + (scatter.most_exponent - 1) * draw.uniform() * draw.uniform() : 1;
+    const double bend = draw.uniform() * draw.uniform(), hurry = draw.uniform();
+    const double exponent = forms[form] == ContactForm::area ? 1 + (scatter.most_exponent - 1) * bend : 1;
     double height = 0;
-    for (std::size_t b = 0; b < measured.specimen.rest_y_m.size(); ++b)
-        height = std::max(height, measured.specimen.rest_y_m[b]);
-    const double rate =
-        scatter.most_rate_s_m * draw.uniform() / std::sqrt(measured.specimen.gravity_m_s2 * height) * 10;
-
+    for (const double y : measured.specimen.rest_y_m)
+        height = std::max(height, y);
+    const double rate = scatter.most_rate_s_m * hurry / (0.1 * std::sqrt(measured.specimen.gravity_m_s2 * height));
+    if (scatter.contacts) {
+        study.contact.form = forms[form];
+        study.contact.normal_stiffness_n_m2 *= stiffness;
+        study.contact.tangential_stiffness_n_m *= stiffness;
+        study.contact.normal_damping_ratio = damping;
+        study.contact.tangential_damping_ratio = std::min(damping, 0.2);
+        study.contact.normal_damping_n_s_m.reset();
+        study.contact.tangential_damping_n_s_m.reset();
+    }
     DrawnSpecimen out;
     Realization& r = out.realization;
     r = nominal(study, built.structure);
-    r.form = forms[form];
     for (Joint& joint : r.joints) {
         joint.friction *= friction * (1 + scatter.friction * draw.normal());
+        if (!scatter.contacts)
+            continue;
         joint.extension.face_damping = share;
+        joint.extension.rate_s_m = rate;
         if (exponent > 1) {
             const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
             joint.extension.force_exponent = exponent;
             joint.extension.reference_overlap_m2 = upper.mass_kg * r.gravity_m_s2 / joint.normal_stiffness_n_m2;
         }
-        joint.extension.rate_s_m = rate;
     }
     for (Block& block : r.blocks) {
         const double wider = 1 + measured.specimen.width_tolerance * draw.normal();
@@ -109,6 +112,8 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
         block.inertia_kg_m2 *= heavier * wider * wider;
     }
     r.extended = true;
+    for (const SizedCause& cause : causes)
+        apply_cause(cause, built, r);
     out.contacts = fmt::format("{}, K_N x {:.2f}, damping {:.2f} ({:.0f} % at the ends), exponent {:.2f}",
                                form_names[form], stiffness, damping, 100 * share, exponent);
     return out;
@@ -163,7 +168,7 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
 
 VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
                                    std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
-                                   const RunOptions& options, Observer& observer)
+                                   const std::vector<SizedCause>& causes, const RunOptions& options, Observer& observer)
 {
     VirtualCampaigns out;
     const SpecimenStructure built = build_specimen(measured.specimen);
@@ -184,7 +189,7 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
         times[i] = seen;
     }
     for (std::uint64_t c = 0; c < count; ++c) {
-        const DrawnSpecimen specimen = draw_specimen(measured, study, built, seed, first + c, scatter);
+        const DrawnSpecimen specimen = draw_specimen(measured, study, built, seed, first + c, scatter, causes);
         Campaign campaign;
         campaign.source = fmt::format("virtual campaign {}", first + c);
         campaign.specimen = measured.specimen;

@@ -11,6 +11,7 @@
 #include "ensemble/executor.hpp"
 #include "ensemble/observer.hpp"
 #include "ensemble/study.hpp"
+#include "studies/diagnosis/cause_model.hpp"
 
 #include <cstdint>
 #include <string>
@@ -20,6 +21,7 @@ namespace stylobate {
 
 /// What is drawn, 1 sigma where it is a spread.
 struct HealthyScatter {
+    bool contacts = true;          ///< draw contacts; false: those of the study
     double common_friction = 0.03; ///< relative
     double friction = 0.03;        ///< relative, of each joint
     double stiffness = 0.7;        ///< of ln K_N
@@ -38,9 +40,11 @@ struct VirtualCampaigns {
 };
 
 /// @param study contacts about which is drawn; its structure is the specimen's
+/// @param causes that act in all of them, for campaigns that are to show something; of the base: none
 /// @param first number of the first campaign: each is a pure function of (seed, number)
 VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
                                    std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
-                                   const RunOptions& options, Observer& observer);
+                                   const std::vector<SizedCause>& causes, const RunOptions& options,
+                                   Observer& observer);
 
 } // namespace stylobate

@@ -1,0 +1,120 @@
+#include "studies/diagnosis/cause_model.hpp"
+
+#include "ensemble/mechanism_spec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace stylobate {
+
+namespace {
+
+std::optional<Mechanism> mechanism_of(const std::string& name)
+{
+    for (const MechanismRule& rule : mechanism_rules())
+        if (name == rule.name)
+            return rule.mechanism;
+    return std::nullopt;
+}
+
+void set(MechanismSpec& spec, const char* name, double value)
+{
+    const MechanismRule& rule = rule_of(spec.mechanism);
+    for (std::size_t p = 0; p < rule.parameters.size(); ++p)
+        if (std::string_view(rule.parameters[p].name) == name)
+            spec.values[p] = value;
+}
+
+} // namespace
+
+void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realization& r)
+{
+    const Cause& cause = sized.cause;
+    const std::string& m = cause.mechanism;
+    const double size = sized.size;
+    if (m == "table_pitch")
+        r.base.pitch_rad_s2_m = size;
+    if (m == "vertical_motion" && cause.parameter == "ratio")
+        r.base.vertical_ratio = size;
+    for (int bed = 0; bed < r.beds(); ++bed) {
+        const bool here = cause.joint < 0 || built.bed[static_cast<std::size_t>(cause.joint)] == bed;
+        if (!here)
+            continue;
+        Joint& joint = r.joints[static_cast<std::size_t>(bed)];
+        JointExtension& e = joint.extension;
+        if (m == "joint_friction")
+            joint.friction *= size;
+        else if (m == "stribeck") {
+            e.dynamic_ratio = size;
+            e.stribeck_velocity_m_s = cause.fixed;
+        } else if (m == "friction_wear")
+            e.wear_per_m = size;
+        else if (m == "adhesion")
+            e.adhesion_n_m = size;
+        else if (m == "dowel") {
+            e.dowel_stiffness_n_m = size;
+            e.dowel_gap_m = cause.fixed;
+            e.dowel_yield_n = 1e9;
+        } else if (m == "corner_loss") {
+            if (cause.side != "right")
+                e.chip_left_m = size;
+            if (cause.side != "left")
+                e.chip_right_m = size;
+        } else if (m == "corner_wear")
+            e.corner_wear_m_rad = size;
+        else if (m == "wedge")
+            e.wedge_rad = size;
+    }
+    for (std::size_t b = 0; b < built.block.size(); ++b) {
+        if (cause.block >= 0 && static_cast<std::size_t>(cause.block) != b)
+            continue;
+        Block& block = r.blocks[static_cast<std::size_t>(built.block[b])];
+        if (m == "drag")
+            block.extension.drag_n_s2_m2 = size;
+        else if (m == "eccentricity")
+            block.extension.eccentricity_m = size;
+    }
+    r.extended = true;
+}
+
+void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Study& study)
+{
+    const Cause& cause = sized.cause;
+    const std::optional<Mechanism> mechanism = mechanism_of(cause.mechanism);
+    if (!mechanism)
+        return;
+    MechanismSpec spec = neutral_spec(*mechanism, study.contact.friction);
+    if (cause.joint >= 0)
+        spec.places = {built.bed[static_cast<std::size_t>(cause.joint)]};
+    if (cause.block >= 0)
+        spec.places = {built.block[static_cast<std::size_t>(cause.block)]};
+    const double size = sized.size;
+    switch (*mechanism) {
+    case Mechanism::stribeck:
+        set(spec, "dynamic_friction", size * study.contact.friction);
+        set(spec, "velocity", cause.fixed);
+        break;
+    case Mechanism::corner_loss:
+        set(spec, "left", cause.side == "right" ? 0 : size);
+        set(spec, "right", cause.side == "left" ? 0 : size);
+        break;
+    case Mechanism::dowel:
+        set(spec, "stiffness", size);
+        set(spec, "yield", 1e9);
+        set(spec, "gap", cause.fixed);
+        break;
+    default:
+        // one acting parameter: the first
+        for (std::size_t p = 0; p < rule_of(*mechanism).parameters.size(); ++p)
+            if (rule_of(*mechanism).parameters[p].role == ParameterRole::acting) {
+                spec.values[p] = size;
+                break;
+            }
+    }
+    study.mechanisms.push_back(spec);
+    std::sort(study.mechanisms.begin(), study.mechanisms.end(),
+              [](const MechanismSpec& a, const MechanismSpec& b) { return a.mechanism < b.mechanism; });
+}
+
+} // namespace stylobate

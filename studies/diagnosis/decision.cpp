@@ -1,0 +1,195 @@
+#include "studies/diagnosis/decision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+// Friction that differs by less differs between healthy joints.
+constexpr double friction_matters = 0.12;
+constexpr double stribeck_matters = 0.9;
+// A direct test is as sure as its thresholds are far.
+constexpr double direct_probability = 0.97;
+// Two places of one mechanism that explain alike are one finding.
+constexpr double most_surprise = 40;
+
+JudgedCause judged_cause(const CauseFit& fit, Channel channel, const ChanceGains& chance, const DecisionRule& rule)
+{
+    JudgedCause j;
+    j.fit = fit;
+    j.channel = channel;
+    const std::string& mechanism = fit.cause.mechanism;
+    j.chance95 = chance.quantile95(channel, mechanism);
+    j.chance = chance.probability(channel, mechanism, fit.gain);
+    j.surprise = std::min(fit.gain - j.chance95, -std::log(std::max(j.chance, 1e-30)) - 3);
+    const double left = fit.gain_without_best();
+    if (fit.gain - j.chance95 < rule.clear)
+        j.why_not = fmt::format("gains {:.1f} nats; chance gives up to {:.1f} (95 %)", fit.gain, j.chance95);
+    else if (j.chance > rule.chance)
+        j.why_not = fmt::format("such a gain has a probability of {:.2g} by chance", j.chance);
+    else if (left < rule.without_best * fit.gain && left < j.chance95 + rule.clear)
+        j.why_not =
+            fmt::format("without the run that speaks most for it {:.1f} of {:.1f} nats are left", left, fit.gain);
+    else if (!matters(fit))
+        j.why_not = "its size is within what specimens differ by";
+    else
+        j.considered = true;
+    return j;
+}
+
+void sort_judged(std::vector<JudgedCause>& judged)
+{
+    std::stable_sort(judged.begin(), judged.end(), [](const JudgedCause& a, const JudgedCause& b) {
+        return a.considered != b.considered ? a.considered : a.surprise > b.surprise;
+    });
+}
+
+/// Odds among those considered and 'none of them'.
+void set_probabilities(std::vector<JudgedCause>& judged, const DecisionRule& rule)
+{
+    double sum = std::exp(rule.sure);
+    double first = 0;
+    for (const JudgedCause& j : judged)
+        if (j.considered)
+            first = std::max(first, std::min(j.surprise, most_surprise));
+    sum = std::exp(rule.sure - first);
+    for (JudgedCause& j : judged)
+        if (j.considered)
+            sum += std::exp(std::min(j.surprise, most_surprise) - first);
+    for (JudgedCause& j : judged)
+        j.probability = j.considered ? 0.97 * std::exp(std::min(j.surprise, most_surprise) - first) / sum : 0;
+}
+
+} // namespace
+
+bool matters(const CauseFit& fit)
+{
+    const std::string& m = fit.cause.mechanism;
+    if (m == "joint_friction")
+        return std::fabs(std::log(fit.size)) > friction_matters;
+    if (m == "stribeck")
+        return fit.size < stribeck_matters;
+    return true;
+}
+
+std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,
+                               const std::vector<std::vector<double>>& windows_in_others, const ChanceGains& chance,
+                               const DecisionRule& rule)
+{
+    std::vector<JudgedCause> judged;
+    if (chance.campaigns(Channel::balance) > 0)
+        for (const CauseFit& fit : balance.causes)
+            judged.push_back(judged_cause(fit, Channel::balance, chance, rule));
+    if (chance.campaigns(Channel::windows) > 0)
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+            JudgedCause j = judged_cause(windows[i], Channel::windows, chance, rule);
+            if (i < windows_in_others.size())
+                j.gain_in_others = windows_in_others[i];
+            // the other contact forms must not deny what the best one says
+            for (const double gain : j.gain_in_others)
+                if (j.considered && gain < 0.5 * j.chance95) {
+                    j.considered = false;
+                    j.why_not = fmt::format(
+                        "another contact form gains {:.1f} nats by it: it depends on the contact form", gain);
+                }
+            judged.push_back(std::move(j));
+        }
+    // what both ways see at one place is one finding: the more surprising view of it
+    sort_judged(judged);
+    std::vector<JudgedCause> kept;
+    for (JudgedCause& j : judged)
+        if (std::none_of(kept.begin(), kept.end(), [&](const JudgedCause& other) {
+                return other.fit.cause.mechanism == j.fit.cause.mechanism && other.fit.cause.place == j.fit.cause.place;
+            }))
+            kept.push_back(std::move(j));
+    set_probabilities(kept, rule);
+    return kept;
+}
+
+Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::vector<JudgedCause> judged,
+               const ChanceGains& chance, const DecisionRule& rule,
+               const std::function<std::vector<JudgedCause>(const JudgedCause&)>& again)
+{
+    Decided out;
+    for (const CauseFit& fit : direct.found) {
+        JudgedCause j;
+        j.fit = fit;
+        j.channel = Channel::direct;
+        j.considered = true;
+        j.surprise = fit.gain;
+        j.chance = 0;
+        j.probability = direct_probability;
+        out.named.push_back(std::move(j));
+    }
+    // a wedge or an offset seen at rest explains what it makes of the motion
+    const auto known = [&](const JudgedCause& j) {
+        return std::any_of(direct.found.begin(), direct.found.end(), [&](const CauseFit& fit) {
+            const std::string& m = fit.cause.mechanism;
+            return (m == "wedge" || m == "drum_offset") &&
+                   (j.fit.cause.mechanism == "eccentricity" || j.fit.cause.mechanism == "corner_loss");
+        });
+    };
+    const auto take = [&](std::vector<JudgedCause>& list) -> const JudgedCause* {
+        for (const JudgedCause& j : list) {
+            if (!j.considered || known(j))
+                continue;
+            const auto already = [&](const JudgedCause& other) {
+                return other.fit.cause.mechanism == j.fit.cause.mechanism;
+            };
+            if (std::any_of(out.named.begin(), out.named.end(), already))
+                continue;
+            return &j;
+        }
+        return nullptr;
+    };
+    const auto gather_set = [&](const std::vector<JudgedCause>& list, const JudgedCause& best) {
+        for (const JudgedCause& j : list)
+            if (j.considered && j.fit.cause.mechanism != best.fit.cause.mechanism &&
+                j.surprise > best.surprise - rule.apart && !known(j))
+                out.in_set.push_back(j);
+    };
+    double explained = 0;
+    if (const JudgedCause* first = take(judged)) {
+        const JudgedCause named = *first;
+        gather_set(judged, named);
+        out.named.push_back(named);
+        explained = named.channel == Channel::balance ? named.fit.gain : 0;
+        std::vector<JudgedCause> rest = again(named);
+        if (const JudgedCause* second = take(rest)) {
+            // what is in the first one's set already is no second cause unless it stands by itself
+            out.named.push_back(*second);
+            explained += second->channel == Channel::balance ? second->fit.gain : 0;
+            std::erase_if(out.in_set,
+                          [&](const JudgedCause& j) { return j.fit.cause.mechanism == second->fit.cause.mechanism; });
+        }
+    }
+    out.judged = std::move(judged);
+
+    // 5: forces of no known kind
+    const double chance95 = chance.quantile95_of_structures();
+    if (!balance.structures.empty()) {
+        const StructureFit& best = balance.structures.front();
+        const bool clear = best.gain > chance95 + rule.structure_clear && best.gain_by_run.size() > 1 &&
+                           best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end()) >
+                               rule.without_best * best.gain;
+        double listed = explained;
+        for (const CauseFit& fit : balance.causes)
+            listed = std::max(listed, fit.gain);
+        if (clear && best.gain > listed + rule.structure_better) {
+            out.unexplained = best;
+            out.unexplained_chance = chance.probability_of_structure(best.gain);
+            std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
+            out.in_set.clear();
+        }
+    }
+    out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;
+    std::stable_sort(out.named.begin(), out.named.end(),
+                     [](const JudgedCause& a, const JudgedCause& b) { return a.probability > b.probability; });
+    return out;
+}
+
+} // namespace stylobate

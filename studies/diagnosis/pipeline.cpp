@@ -1,0 +1,423 @@
+#include "studies/diagnosis/pipeline.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/study_file.hpp"
+#include "studies/diagnosis/cause_model.hpp"
+#include "studies/diagnosis/chance.hpp"
+#include "studies/diagnosis/prediction.hpp"
+#include "studies/diagnosis/window_evidence.hpp"
+#include "studies/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t most_wrong = 20;
+constexpr double two_sided95 = 1.96;
+
+Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
+                       const std::vector<WindowBaseline>& baselines)
+{
+    Candidate c;
+    const Cause& cause = j.fit.cause;
+    c.mechanism = cause.mechanism;
+    c.place = cause.place + (cause.side.empty() ? "" : ", " + cause.side);
+    c.parameter = cause.parameter;
+    c.unit = cause.unit;
+    c.neutral = cause.neutral;
+    if (j.fit.gain > 0) {
+        c.size = j.fit.size;
+        if (j.fit.sd > 0) {
+            c.low = j.fit.size - two_sided95 * j.fit.sd;
+            c.high = j.fit.size + two_sided95 * j.fit.sd;
+        }
+    }
+    c.gain_nats = j.fit.gain;
+    if (j.channel != Channel::direct) {
+        c.null95 = j.chance95;
+        c.p = j.chance;
+    }
+    c.probability = j.probability;
+    for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
+        if (j.fit.gain_by_run[r] != 0)
+            c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
+    if (j.channel == Channel::windows)
+        for (std::size_t k = 0; k < j.gain_in_others.size() && k + 1 < baselines.size(); ++k) {
+            const std::string form = baselines[k + 1].contacts.substr(0, baselines[k + 1].contacts.find(','));
+            (j.gain_in_others[k] > j.chance95 ? c.forms_agreed : c.forms_disagreed).push_back(form);
+        }
+    c.decision = decision;
+    c.why = !j.why_not.empty() ? j.why_not
+            : j.channel == Channel::direct
+                ? "found by a direct test"
+                : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
+                              j.channel == Channel::balance ? "by the balance of forces" : "by free windows",
+                              j.fit.gain, j.chance95);
+    return c;
+}
+
+std::string size_text(const Candidate& c)
+{
+    if (!c.size)
+        return "";
+    return fmt::format(" ({} = {:.3g}{}{})", c.parameter, *c.size, c.unit.empty() ? "" : " " + c.unit,
+                       c.low && c.high ? fmt::format(", 95 % [{:.3g}, {:.3g}]", *c.low, *c.high) : "");
+}
+
+/// Gains of the candidates beside what chance gives.
+Figure candidates_figure(const std::vector<Candidate>& candidates)
+{
+    Figure figure;
+    figure.place = FigurePlace::candidates;
+    figure.title = "What each cause would explain, and what chance would";
+    figure.caption =
+        "Gain in log likelihood over the baseline; the line is what 95 % of simulated campaigns with nothing "
+        "hidden stay below.";
+    figure.x_label = "cause";
+    figure.y_label = "gain [nats]";
+    FigureSeries gain{"gain", SeriesKind::bars, {}, {}, {}, {}},
+        chance{"chance, 95 %", SeriesKind::points, {}, {}, {}, {}};
+    for (const Candidate& c : candidates) {
+        if (figure.x_ticks.size() == 10 || !c.gain_nats || !c.null95)
+            continue;
+        const auto x = static_cast<double>(figure.x_ticks.size());
+        figure.x_ticks.push_back(c.mechanism + ", " + c.place);
+        gain.x.push_back(x);
+        gain.y.push_back(*c.gain_nats);
+        chance.x.push_back(x);
+        chance.y.push_back(*c.null95);
+    }
+    figure.series = {gain, chance};
+    return figure;
+}
+
+/// What sliding joints say of friction, sample by sample.
+std::optional<Figure> friction_figure(const BalanceEvidence& balance, const Campaign& campaign)
+{
+    Figure figure;
+    figure.place = FigurePlace::data;
+    figure.title = "Friction of the joints that slide, from the balance of forces";
+    figure.caption =
+        "Each point is one window in which a joint slid all through: friction over normal force, without any "
+        "contact model. Bars: noise of the cameras.";
+    figure.x_label = "slip velocity [m/s]";
+    figure.y_label = "friction coefficient";
+    const double mu = campaign.specimen.friction_nominal.value_or(0.7);
+    for (std::size_t j = 0; j < campaign.specimen.joints.size(); ++j) {
+        FigureSeries series{fmt::format("joint {}", j), SeriesKind::points, {}, {}, {}, {}};
+        for (const LawSample& s : balance.fit->samples()) {
+            if (s.terms.size() != 1 || s.terms[0].law != Law::sliding || s.terms[0].joint != static_cast<int>(j))
+                continue;
+            const double value = s.value / s.terms[0].normal + mu, sd = s.sd / s.terms[0].normal;
+            if (sd > 0.3 || series.x.size() > 400)
+                continue;
+            series.x.push_back(std::fabs(s.terms[0].slip_m_s));
+            series.y.push_back(value);
+            series.low.push_back(value - sd);
+            series.high.push_back(value + sd);
+        }
+        if (!series.x.empty())
+            figure.series.push_back(std::move(series));
+    }
+    return figure.series.empty() ? std::nullopt : std::optional(figure);
+}
+
+/// Where the joints turn that rock, sample by sample.
+std::optional<Figure> turning_figure(const BalanceEvidence& balance)
+{
+    Figure figure;
+    figure.place = FigurePlace::data;
+    figure.title = "Where rocking joints carry, from the balance of forces";
+    figure.caption =
+        "Distance of the contact force inside the corner on which a joint turns, over the half width: 0 is a "
+        "sharp, hard corner. One point for each window.";
+    figure.x_label = "relative rotation [rad]";
+    figure.y_label = "distance inside the corner / half width";
+    FigureSeries series{"", SeriesKind::points, {}, {}, {}, {}};
+    for (const LawSample& s : balance.fit->samples()) {
+        if (s.terms.size() != 1 || s.terms[0].law != Law::rocking || series.x.size() > 800)
+            continue;
+        series.x.push_back(s.terms[0].rotation_rad);
+        series.y.push_back(s.value / s.terms[0].normal);
+    }
+    if (series.x.size() < 5)
+        return std::nullopt;
+    figure.series = {series};
+    return figure;
+}
+
+std::string join(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+    return text;
+}
+
+std::string verdict_text(const Diagnosis& d, const Decided& decided)
+{
+    if (d.verdict == Verdict::none)
+        return d.missing.empty()
+                   ? "Nothing was found that the simulation gets wrong beyond noise, scatter and its contact law."
+                   : "Nothing was found in what could be judged; some stages lacked data.";
+    if (d.verdict == Verdict::unexplained)
+        return fmt::format("Something acts that none of the known mechanisms explains: {}.",
+                           d.unexplained ? d.unexplained->text : "");
+    std::vector<std::string> names;
+    for (const Candidate* c : named_causes(d))
+        if (c->decision == Decision::named)
+            names.push_back(fmt::format("{} at {}{}", c->mechanism, c->place, size_text(*c)));
+    std::string text = fmt::format("The data show {}.", join(names));
+    if (!decided.in_set.empty())
+        text += fmt::format(" They do not tell it from {}.",
+                            join(std::vector<std::string>(d.indistinguishable.begin() + 1, d.indistinguishable.end())));
+    return text;
+}
+
+} // namespace
+
+std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, const DiagnosisOptions& options,
+                                  const Tell& tell, Observer& observer)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    Diagnosis d;
+    d.measured_file = measured.source;
+    d.specimen = measured.specimen.name;
+    d.code_version = code_version();
+    d.seed = options.seed;
+    d.options = {fmt::format("nulls = {}", options.nulls), fmt::format("threads = {}", options.run.threads)};
+    d.runs = measured.runs.size();
+    for (const Finding& finding : measured.findings)
+        d.data_findings.push_back(finding.place + ": " + finding.text);
+    SimulationCount count;
+
+    tell(fmt::format("{}: {} runs of {} blocks", measured.source, measured.runs.size(), measured.specimen.blocks()));
+    const TrackScales scales = track_scales(measured);
+    const SpecimenStructure built = build_specimen(measured.specimen);
+    Study study = start;
+    study.structure = built.structure;
+
+    // base and sensors
+    const DirectResult direct = direct_tests(measured, scales);
+    d.base_tests = direct.base_tests;
+    d.sensor_tests = direct.sensor_tests;
+    for (const DataTest& test : direct.base_tests) {
+        tell(fmt::format("  {:<12} {}: {}", to_string(test.outcome), test.name, test.sentence));
+        if (test.outcome == TestOutcome::not_judged)
+            d.missing.push_back({test.name, test.sentence});
+    }
+    for (const DataTest& test : direct.sensor_tests)
+        if (test.outcome == TestOutcome::failed)
+            tell(fmt::format("  {:<12} {} at {}: {}", to_string(test.outcome), test.name, test.place, test.sentence));
+    const Campaign campaign = corrected(measured, direct);
+    std::vector<SizedCause> known; // of the direct tests, for the model
+    for (const CauseFit& fit : direct.found)
+        if (fit.cause.mechanism == "wedge" || fit.cause.mechanism == "table_pitch" ||
+            (fit.cause.mechanism == "vertical_motion" && fit.cause.parameter == "ratio"))
+            known.push_back({fit.cause, fit.size});
+
+    // the balance of forces
+    const BalanceEvidence balance = balance_evidence(measured, scales, direct.base_m);
+    if (balance.fit) {
+        int sliding = 0, rocking = 0;
+        for (const LawSample& s : balance.fit->samples())
+            for (const LawTerm& t : s.terms)
+                ++(t.law == Law::sliding ? sliding : rocking);
+        tell(fmt::format("  balance of forces: {} windows in which a joint slides, {} in which one rocks", sliding,
+                         rocking));
+        d.baseline.push_back({"contact.friction", "",
+                              measured.specimen.friction_nominal.value_or(0.7) * balance.fit->friction_ratio(),
+                              measured.specimen.friction_nominal.value_or(0.7) *
+                                  (balance.fit->friction_ratio() - two_sided95 * balance.fit->friction_ratio_sd()),
+                              measured.specimen.friction_nominal.value_or(0.7) *
+                                  (balance.fit->friction_ratio() + two_sided95 * balance.fit->friction_ratio_sd()),
+                              sliding > 4, sliding > 4 ? "from the joints that slide" : "no joint slides long enough"});
+        if (auto figure = friction_figure(balance, measured))
+            d.figures.push_back(*figure);
+        if (auto figure = turning_figure(balance))
+            d.figures.push_back(*figure);
+        for (int j = 0; j < static_cast<int>(measured.specimen.joints.size()); ++j)
+            if (balance.fit->samples_of(Law::sliding, j) < 5)
+                d.missing.push_back(
+                    {fmt::format("friction of joint {} from the balance of forces", j),
+                     "It slides too rarely. A motion under which it slides, low and strong, would show it."});
+    } else {
+        d.missing.push_back({"balance of forces", balance.why_not});
+        tell("  balance of forces: " + balance.why_not);
+    }
+
+    // windows of the simulation; a vertical motion without a model of its own would be blamed on something
+    const bool unmodelled = std::any_of(direct.found.begin(), direct.found.end(), [](const CauseFit& fit) {
+        return fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio";
+    });
+    WindowEvidence windows;
+    if (!unmodelled)
+        windows = window_evidence(campaign, study, scales, known, true, options.run, observer);
+    else {
+        windows.complete = true;
+        windows.why_not = "The table moves vertically in a way that the base motion does not tell.";
+    }
+    count.simulations += windows.simulations;
+    count.window_simulations += windows.window_simulations;
+    count.block_steps += windows.block_steps;
+    if (!windows.complete)
+        return std::nullopt;
+    if (!windows.baselines.empty()) {
+        study = windows.baselines.front().study;
+        for (const WindowBaseline& b : windows.baselines)
+            tell(
+                fmt::format("  windows: {} scores {:.1f} nats", b.contacts, b.score - windows.baselines.front().score));
+        d.baseline.push_back(
+            {"contact.form", "", std::nullopt, std::nullopt, std::nullopt, true, windows.baselines.front().contacts});
+    } else {
+        d.missing.push_back({"free windows", windows.why_not});
+    }
+    study.text = study_text(study);
+    d.study_toml = study.text;
+
+    // what chance gives
+    Chance chance;
+    if (options.nulls > 0) {
+        ChanceOptions how{options.nulls, options.seed, options.cache, windows.why_not.empty(), options.run};
+        chance = chance_of(
+            measured, start, how,
+            [&](std::uint64_t n) { tell(fmt::format("  campaigns with nothing hidden: {} of {}", n, options.nulls)); },
+            observer);
+        count.simulations += chance.simulations;
+        count.window_simulations += chance.window_simulations;
+        count.block_steps += chance.block_steps;
+        if (!chance.complete)
+            return std::nullopt;
+        d.nulls.push_back({"area, two_corner and points", chance.campaigns,
+                           "contacts (form, stiffness, exponent, damping), friction of the joints, widths, masses and "
+                           "places of the blocks, noise of the cameras"});
+    } else {
+        d.missing.push_back({"what chance gives", "No campaigns with nothing hidden were simulated (nulls = 0): only "
+                                                  "direct tests can name a cause."});
+    }
+
+    // the verdict
+    const auto again = [&](const JudgedCause& given) {
+        const BalanceEvidence left = balance_evidence(measured, scales, direct.base_m, {given.fit.cause});
+        WindowEvidence rest;
+        if (!windows.baselines.empty()) {
+            std::vector<SizedCause> with = known;
+            for (const SizedCause& cause : model_causes({given}))
+                with.push_back(cause);
+            rest = window_evidence(campaign, start, scales, with, true, options.run, observer);
+            count.simulations += rest.simulations;
+            count.window_simulations += rest.window_simulations;
+            count.block_steps += rest.block_steps;
+        }
+        return judge(left, rest.causes, rest.gain_in_others, chance.gains, options.rule);
+    };
+    const Decided decided =
+        decide(direct, balance, judge(balance, windows.causes, windows.gain_in_others, chance.gains, options.rule),
+               chance.gains, options.rule, again);
+    if (observer.stop_requested())
+        return std::nullopt;
+    d.verdict = decided.verdict;
+    std::set<std::pair<std::string, std::string>> told;
+    const auto add = [&](const JudgedCause& j, Decision decision) {
+        if (told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
+            d.candidates.push_back(candidate_of(j, measured, decision, windows.baselines));
+    };
+    for (const JudgedCause& j : decided.named)
+        add(j, Decision::named);
+    for (const JudgedCause& j : decided.in_set)
+        add(j, Decision::in_set);
+    for (const JudgedCause& j : decided.judged)
+        add(j, Decision::rejected);
+    if (!decided.in_set.empty()) {
+        std::set<std::string> names;
+        for (const auto* list : {&decided.named, &decided.in_set})
+            for (const JudgedCause& j : *list)
+                if (j.channel != Channel::direct && names.insert(j.fit.cause.mechanism).second)
+                    d.indistinguishable.push_back(j.fit.cause.mechanism);
+    }
+    if (decided.unexplained) {
+        const Structure& s = decided.unexplained->structure;
+        Unexplained u;
+        u.block = s.block;
+        u.coordinate = s.coordinate;
+        u.depends_on = s.depends_on;
+        u.text = fmt::format("{}, {:.1f} nats better than the baseline where the best known cause gains {:.1f}", s.text,
+                             decided.unexplained->gain, balance.causes.empty() ? 0 : balance.causes.front().gain);
+        for (std::size_t k = 0; k < balance.structures.size() && k < 8; ++k) {
+            const StructureFit& f = balance.structures[k];
+            u.features.push_back(
+                {fmt::format("{} (block {}, {})", f.structure.depends_on, f.structure.block, f.structure.coordinate),
+                 f.gain, chance.gains.quantile95_of_structures()});
+        }
+        d.unexplained = u;
+    }
+    d.verdict_text = verdict_text(d, decided);
+    tell("  " + d.verdict_text);
+    if (!d.candidates.empty())
+        d.figures.push_back(candidates_figure(d.candidates));
+
+    // where the baseline is wrong, and what the extension gains
+    d.wrong = wrong_stretches(measured, study, {}, most_wrong, options.run, count, observer);
+    if (d.verdict == Verdict::named) {
+        if (!windows.baselines.empty())
+            d.gain =
+                predictive_gain(measured, scales, study, decided.named, options.seed, options.run, count, observer);
+        Study extended = study;
+        std::vector<std::string> left_out;
+        for (const JudgedCause& j : decided.named) {
+            if (j.fit.cause.mechanism == "vertical_motion" && j.fit.cause.parameter != "ratio") {
+                left_out.push_back("vertical_motion (its record is not known)");
+                continue;
+            }
+            add_mechanism({j.fit.cause, j.fit.size}, built, extended);
+        }
+        extended.excitation = ExcitationSpec{};
+        extended.excitation.kind = ExcitationKind::table;
+        extended.excitation.file = std::filesystem::absolute(measured.source).string();
+        extended.excitation.run = measured.runs.front().name;
+        extended.text = study_text(extended);
+        d.extended_study = extended.text;
+        if (!left_out.empty())
+            d.missing.push_back({"extended study", "It lacks " + join(left_out) + "."});
+    }
+    std::vector<JudgedCause> rivals;
+    for (const auto* list : {&decided.named, &decided.in_set, &decided.judged})
+        for (const JudgedCause& j : *list)
+            if (j.channel != Channel::direct && j.fit.gain > 0 && rivals.size() < 2 &&
+                std::none_of(rivals.begin(), rivals.end(), [&](const JudgedCause& other) {
+                    return other.fit.cause.mechanism == j.fit.cause.mechanism;
+                }))
+                rivals.push_back(j);
+    if (!decided.in_set.empty() || (!decided.named.empty() && decided.named.front().channel != Channel::direct))
+        d.next_test = next_test(measured, scales, study, rivals, options.seed, options.run, count, observer);
+    if (observer.stop_requested())
+        return std::nullopt;
+    d.runs_used = static_cast<std::uint64_t>(
+        std::count_if(measured.runs.begin(), measured.runs.end(),
+                      [](const MeasuredRun& run) { return !run.blocks.x_m.empty() && run.time_s.size() > 1; }));
+    d.method = {
+        "Base and sensors are tested directly, while the lowest block rides on the table and while all lies at rest.",
+        "The forces in the joints follow from the smoothed accelerations of the blocks by Newton's law alone; where a "
+        "joint slides or rocks, its law is checked, without contact stiffness, damping or simulation.",
+        "The simulation follows the measured motion as an observer, and free windows that start from it are compared "
+        "with what was seen, with and without each cause.",
+        "Campaigns with nothing hidden, simulated with contacts of many kinds, are put through the same stages: a "
+        "cause "
+        "must gain clearly more than it does there."};
+    d.cost.simulations = count.simulations;
+    d.cost.window_simulations = count.window_simulations;
+    d.cost.block_steps = count.block_steps;
+    d.cost.threads = options.run.threads;
+    d.cost.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return d;
+}
+
+} // namespace stylobate

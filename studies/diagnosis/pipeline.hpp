@@ -1,0 +1,36 @@
+#pragma once
+/// A diagnosis from beginning to end. `docs/diagnosis.md` explains the stages; each is a file of this folder.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+#include "studies/diagnosis/decision.hpp"
+#include "studies/diagnosis/diagnosis.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace stylobate {
+
+struct DiagnosisOptions {
+    std::uint64_t seed = 1;
+    std::uint64_t nulls = 24;        ///< campaigns with nothing hidden
+    std::filesystem::path cache;     ///< of what chance gives; empty: none is kept
+    std::filesystem::path extension; ///< where the extended study goes; empty: nowhere
+    DecisionRule rule;
+    RunOptions run;
+};
+
+/// Told what is being done, one line at a time.
+using Tell = std::function<void(const std::string&)>;
+
+/// @param study contacts to begin with; its structure is replaced by the specimen's
+/// @return nothing if the observer stopped it: what chance gives is kept in the cache, the same call goes on from there
+/// @throws InputError if the campaign cannot be diagnosed at all
+std::optional<Diagnosis> diagnose(const Campaign& campaign, const Study& study, const DiagnosisOptions& options,
+                                  const Tell& tell, Observer& observer);
+
+} // namespace stylobate

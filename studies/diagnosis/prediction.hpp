@@ -1,0 +1,47 @@
+#pragma once
+/// What naming a cause is worth: predictions of runs that were not used to size it, with and without it; and the test
+/// that would tell apart the causes that are left.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+#include "studies/diagnosis/cause_model.hpp"
+#include "studies/diagnosis/decision.hpp"
+#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/track.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// The campaign with the base motion as it must have been.
+Campaign corrected(const Campaign& campaign, const DirectResult& direct);
+
+/// Sizes of causes that act in the model; those that act on the base's horizontal motion are in its correction.
+std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named);
+
+/// Counts of what was simulated, added to.
+struct SimulationCount {
+    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
+};
+
+/// Where the baseline is off by more than noise and its own usual error: worst first, at most `most`.
+std::vector<WrongStretch> wrong_stretches(const Campaign& campaign, const Study& baseline,
+                                          const std::vector<SizedCause>& causes, std::size_t most,
+                                          const RunOptions& options, SimulationCount& count, Observer& observer);
+
+/// Every second motion is left out; the causes are sized by the others.
+/// @return nothing where there are fewer than two motions, or the observer stopped it
+std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+                                         const std::vector<JudgedCause>& named, std::uint64_t seed,
+                                         const RunOptions& options, SimulationCount& count, Observer& observer);
+
+/// Of a few motions that a table can make, the one whose outcome separates these causes best.
+std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+                                  const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
+                                  SimulationCount& count, Observer& observer);
+
+} // namespace stylobate

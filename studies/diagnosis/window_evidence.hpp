@@ -1,0 +1,53 @@
+#pragma once
+/// What free windows of the simulation say for each cause (`calibration_windows.hpp`): a cause is put into the model,
+/// the model follows the measured motion, and what it predicts in windows that run free is compared with what was seen,
+/// with and without the cause. Slow motions and short slips are seen here that the balance of forces does not see; but
+/// the model's own contacts matter, so that each contact form judges by itself.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+#include "studies/diagnosis/balance_fit.hpp"
+#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/diagnosis/cause_model.hpp"
+#include "studies/diagnosis/track.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// A contact model of the baseline that was tried.
+struct WindowBaseline {
+    std::string contacts; ///< in words
+    Study study;
+    double score = 0; ///< log score of all windows by its own scales [nats]
+};
+
+struct WindowEvidence {
+    std::vector<WindowBaseline> baselines; ///< the best of each contact form, best first
+    std::vector<CauseFit> causes;          ///< one for each mechanism and place, by the best baseline, best first
+    /// (causes) gain under the other forms, in the order of `baselines` from the second on
+    std::vector<std::vector<double>> gain_in_others;
+    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
+    std::string why_not; ///< where there are no windows
+    bool complete = false;
+};
+
+/// Causes and sizes that windows are asked about.
+struct TriedCause {
+    Cause cause;
+    std::vector<double> sizes;
+};
+std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScales& scales, double friction);
+
+/// @param start contacts to begin with
+/// @param given causes that are in the model already
+/// @param other_forms whether the best other forms judge too (what chance gives is needed of the best alone)
+WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
+                               const std::vector<SizedCause>& given, bool other_forms, const RunOptions& options,
+                               Observer& observer);
+
+} // namespace stylobate
