@@ -162,7 +162,7 @@ std::string join(const std::vector<std::string>& words)
     return text;
 }
 
-std::string verdict_text(const Diagnosis& d, const Decided& decided)
+std::string verdict_text(const Diagnosis& d)
 {
     if (d.verdict == Verdict::none)
         return d.missing.empty()
@@ -176,9 +176,9 @@ std::string verdict_text(const Diagnosis& d, const Decided& decided)
         if (c->decision == Decision::named)
             names.push_back(fmt::format("{} at {}{}", c->mechanism, c->place, size_text(*c)));
     std::string text = fmt::format("The data show {}.", join(names));
-    if (!decided.in_set.empty())
-        text += fmt::format(" They do not tell it from {}.",
-                            join(std::vector<std::string>(d.indistinguishable.begin() + 1, d.indistinguishable.end())));
+    if (d.indistinguishable.size() > 1)
+        text += fmt::format(" They do not tell {} from {}.", d.indistinguishable.front(),
+                            join({d.indistinguishable.begin() + 1, d.indistinguishable.end()}));
     return text;
 }
 
@@ -336,13 +336,13 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         add(j, Decision::in_set);
     for (const JudgedCause& j : decided.judged)
         add(j, Decision::rejected);
-    if (!decided.in_set.empty()) {
-        std::set<std::string> names;
-        for (const auto* list : {&decided.named, &decided.in_set})
-            for (const JudgedCause& j : *list)
-                if (j.channel != Channel::direct && names.insert(j.fit.cause.mechanism).second)
-                    d.indistinguishable.push_back(j.fit.cause.mechanism);
-    }
+    for (const JudgedCause& j : decided.named)
+        if (j.channel != Channel::direct && !decided.in_set.empty() && d.indistinguishable.empty())
+            d.indistinguishable.push_back(j.fit.cause.mechanism);
+    for (const JudgedCause& j : decided.in_set)
+        if (std::find(d.indistinguishable.begin(), d.indistinguishable.end(), j.fit.cause.mechanism) ==
+            d.indistinguishable.end())
+            d.indistinguishable.push_back(j.fit.cause.mechanism);
     if (decided.unexplained) {
         const Structure& s = decided.unexplained->structure;
         Unexplained u;
@@ -359,7 +359,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         }
         d.unexplained = u;
     }
-    d.verdict_text = verdict_text(d, decided);
+    d.verdict_text = verdict_text(d);
     tell("  " + d.verdict_text);
     if (!d.candidates.empty())
         d.figures.push_back(candidates_figure(d.candidates));
