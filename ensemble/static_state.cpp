@@ -161,7 +161,7 @@ void stack_up(const Realization& r, std::vector<Pose>& poses, StaticState& state
         poses[static_cast<std::size_t>(joint.upper)] = {l.x + cx * std::cos(l.theta) - cy * std::sin(l.theta),
                                                         l.y + cx * std::sin(l.theta) + cy * std::cos(l.theta),
                                                         l.theta + bed.rotation_rad};
-        const double limit = joint.friction * load.weight;
+        const double limit = joint.friction * load.weight + joint.extension.adhesion_n_m * length;
         state.spring_n.push_back(std::clamp(load.weight * slope, -limit, limit));
     }
 }
@@ -217,7 +217,7 @@ void stack_up_extended(const Realization& r, std::vector<Pose>& poses, StaticSta
             moved = std::max(
                 {moved, std::fabs(put.x - pose.x), std::fabs(put.y - pose.y), std::fabs(put.theta - pose.theta)});
             pose = put;
-            const double limit = joint.friction * N;
+            const double limit = joint.friction * N + joint.extension.adhesion_n_m * length;
             state.spring_n.push_back(std::clamp(T, -limit, limit));
         }
     }

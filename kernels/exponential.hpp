@@ -29,7 +29,7 @@ STYLOBATE_INLINE Real exponential(Real x)
     p = fma(r, p, Real(0x1.5555555555555p-5));
     p = fma(r, p, Real(0x1.5555555555555p-3));
     p = fma(r, p, Real(0.5));
-    return fma(r * r, p, r + Real(1.0)) * power_of_two(k);
+    return (Real(1.0) + fma(r * r, p, r)) * power_of_two(k);
 }
 
 /// ln x; x is kept within [1e-300, 1e300].

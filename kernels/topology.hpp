@@ -23,7 +23,7 @@ struct Topology {
     int joints = 0;
     const TopologyJoint* joint = nullptr; ///< (joints)
     int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
-    Model model;                          ///< which step is run, and whether the bundle has the extensions' rows
+    Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
     int beds() const { return joints - watched; }
     int free_blocks() const { return blocks - fixed; }
 };

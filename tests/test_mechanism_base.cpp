@@ -1,0 +1,169 @@
+/// Mechanisms of the base and of the air, each against its closed form, through the real kernel.
+
+#include "studies/verification/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace stylobate;
+using namespace stylobate::model;
+
+namespace {
+
+const Stone slab{0.2, 0.05, 4.0};
+
+/// A slab that floats: hardly any weight, and a bed that is none, so that nothing but the frame moves it.
+Realization floating(double dt)
+{
+    Realization r = single(slab, {1e7, 0, 0.5}, dt, 8);
+    r.gravity_m_s2 = 1e-6;
+    r.joints[0].normal_stiffness_n_m2 = 1e-6; // should it ever touch
+    r.joints[0].tangential_stiffness_n_m = 1e-6;
+    return r;
+}
+
+} // namespace
+
+TEST(Drag, SlowsAsOneOverTime)
+{
+    // v = v0 / (1 + c v0 t / m), so x = m / c ln(1 + c v0 t / m)
+    const double c = 2, dt = 1e-4;
+    Realization r = floating(dt);
+    r.blocks[1].extension.drag_n_s2_m2 = c;
+    const Study study = still(10);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    set.pull(0, 1, 300, 400, 0);
+    set.advance();
+    set.pull(0, 1, 0, 0, 0);
+    const Snapshot a = set.snapshot(0);
+    set.advance(0, 1);
+    const Snapshot b = set.snapshot(0);
+    const double v0 = std::hypot(b.x_m[1] - a.x_m[1], b.y_m[1] - a.y_m[1]) / dt;
+    EXPECT_GT(v0, 1.5);
+    set.advance(1, chunk_steps);
+    for (int chunk = 0; chunk < 150; ++chunk)
+        set.advance();
+    const Snapshot end = set.snapshot(0);
+    const double time = 151 * chunk_steps * dt, k = c / slab.mass;
+    const double path = std::hypot(end.x_m[1] - a.x_m[1], end.y_m[1] - a.y_m[1]);
+    EXPECT_NEAR(path, std::log(1 + k * v0 * time) / k, 1e-3 * path);
+    EXPECT_LT(path, 0.7 * v0 * time);
+}
+
+TEST(Drag, IsThatOfTheLaboratory)
+{
+    // a base that moves under what floats drags nothing along
+    Realization r = floating(1e-4);
+    r.frequency_hz = 3;
+    r.pga_m_s2 = 5;
+    r.blocks[1].extension.drag_n_s2_m2 = 50;
+    const Study study = harmonic(20, 1);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    const double start = set.snapshot(0).x_m[1];
+    for (int chunk = 1; chunk <= 300; ++chunk) {
+        set.advance();
+        const double t = chunk * chunk_steps * r.step_s;
+        EXPECT_NEAR(set.snapshot(0).x_m[1] - start + set.motion(0).displacement_m(t), 0, 1e-9) << chunk;
+    }
+}
+
+TEST(TablePitch, WhatFloatsStaysInTheLaboratory)
+{
+    // gravity apart, all terms of the turned frame: x and y stay, with r_lab = U + R(phi) r
+    Realization r = floating(2e-5);
+    r.frequency_hz = 3;
+    r.pga_m_s2 = 4;
+    r.base.pitch_rad_s2_m = 0.03; // to .12 rad
+    const Study study = harmonic(20, 2);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    const Snapshot start = set.snapshot(0);
+    double most = 0, turned = 0;
+    for (int chunk = 1; chunk <= 1200; ++chunk) {
+        set.advance();
+        const double t = chunk * chunk_steps * r.step_s, h = 1e-4;
+        const auto u = [&](double time) { return set.motion(0).displacement_m(time); };
+        const double phi = r.base.pitch_rad_s2_m * (u(t + h) - 2 * u(t) + u(t - h)) / (h * h);
+        const Snapshot s = set.snapshot(0);
+        const double x = u(t) + s.x_m[1] * std::cos(phi) - s.y_m[1] * std::sin(phi);
+        const double y = s.x_m[1] * std::sin(phi) + s.y_m[1] * std::cos(phi);
+        most = std::max({most, std::fabs(x - start.x_m[1]), std::fabs(y - start.y_m[1])});
+        turned = std::max(turned, std::fabs(phi));
+        EXPECT_NEAR(s.theta_rad[1] + phi, 0, 2e-4);
+    }
+    EXPECT_GT(turned, 0.1);
+    EXPECT_LT(most, 3e-5); // of a base displacement of 11 mm: first order in dt
+}
+
+TEST(TablePitch, TiltsGravity)
+{
+    // no friction: x'' = -U'' - g phi + phi'' y, so x = -(1 + k (g + w2 y)) U in the steady state
+    const double f = 2, k = 2e-3, w = 2 * std::numbers::pi * f;
+    Realization r = single(slab, {1e9, 0.1, 0}, 2e-5, 8);
+    r.frequency_hz = f;
+    r.pga_m_s2 = 1;
+    r.base.pitch_rad_s2_m = k;
+    const Study study = harmonic(6, 2);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    double low = 0, high = 0, base_low = 0, base_high = 0;
+    for (int chunk = 1; chunk * chunk_steps * r.step_s < 2; ++chunk) {
+        set.advance();
+        const double t = chunk * chunk_steps * r.step_s, x = set.snapshot(0).x_m[1],
+                     u = set.motion(0).displacement_m(t);
+        if (t < 1)
+            continue;
+        low = std::min(low, x);
+        high = std::max(high, x);
+        base_low = std::min(base_low, u);
+        base_high = std::max(base_high, u);
+    }
+    const double gain = 1 + k * (gravity + w * w * slab.height / 2);
+    EXPECT_NEAR((high - low) / (base_high - base_low), gain, 1e-3);
+    EXPECT_GT(gain, 1.02);
+}
+
+TEST(VerticalMotion, SlipBeginsWhereTheLighterSlabLetsGo)
+{
+    // on a slope it slips when g sin > mu (g cos + V'')
+    const double slope = 0.3, mu = 0.4, c = std::cos(std::atan(slope));
+    const double lightest = gravity * c * (slope / mu - 1); // V'' at which it just slips
+    for (const double part : {0.97, 1.03}) {
+        Realization r = single(slab, {1e9, 0.3, mu}, 2e-5, 8);
+        r.base_tilt_rad = std::atan(slope);
+        Motion motion = ramp_and_hold(0.3, 0.3);
+        for (double& a : motion.acceleration_m_s2)
+            a *= part * lightest;
+        motion.velocity_m_s.resize(motion.acceleration_m_s2.size());
+        motion.displacement_m.resize(motion.acceleration_m_s2.size());
+        r.vertical = std::make_shared<const Motion>(motion);
+        const Outcome o = run_one(still(0.6), r);
+        if (part < 1)
+            EXPECT_EQ(o.total_sliding_m, 0);
+        else
+            EXPECT_GT(o.total_sliding_m, 1e-4);
+    }
+}
+
+TEST(VerticalMotion, GoesWithTheHorizontalOne)
+{
+    // half of the horizontal displacement, upwards: what floats is left behind by that
+    Realization r = floating(1e-4);
+    r.frequency_hz = 3;
+    r.pga_m_s2 = 5;
+    r.base.vertical_ratio = 0.5;
+    const Study study = harmonic(20, 1);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    const Snapshot start = set.snapshot(0);
+    for (int chunk = 1; chunk <= 100; ++chunk) {
+        set.advance();
+        const Snapshot s = set.snapshot(0);
+        EXPECT_NEAR(s.y_m[1] - start.y_m[1], 0.5 * (s.x_m[1] - start.x_m[1]), 1e-12);
+    }
+    EXPECT_NE(set.snapshot(0).y_m[1], start.y_m[1]);
+}

@@ -1,0 +1,279 @@
+/// Mechanisms of the faces and contact forms, each against its closed form, through the real kernel.
+
+#include "ensemble/extension.hpp"
+#include "ensemble/static_state.hpp"
+#include "ensemble/step_bound.hpp"
+#include "studies/verification/rocking_block.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+using namespace stylobate;
+using namespace stylobate::model;
+
+namespace {
+
+/// The monolith on a base of its own width.
+Realization mono(double K_n, double xi = 0)
+{
+    const double rate = std::sqrt(K_n * mono_stone.width / mono_stone.mass);
+    Realization r = single(mono_stone, {K_n, xi, 5}, 0.1 / rate);
+    return r;
+}
+
+/// Frequency [Hz] of what `value` does from the second half of the first period on, by its upward crossings.
+double frequency(const Realization& r, const std::vector<double>& history)
+{
+    double mean = 0;
+    for (const double v : history)
+        mean += v / static_cast<double>(history.size());
+    std::vector<double> times;
+    for (std::size_t i = 1; i < history.size(); ++i)
+        if (history[i - 1] < mean && history[i] >= mean)
+            times.push_back((static_cast<double>(i) - (history[i] - mean) / (history[i] - history[i - 1])) * r.step_s);
+    return static_cast<double>(times.size() - 1) / (times.back() - times.front());
+}
+
+enum class Along { x, y };
+
+/// Free vibration after a small pull for one chunk: the top block's displacement, step by step.
+std::vector<double> vibration(const Realization& r, Along along, double pull_m_s2, int chunks)
+{
+    const Study study = still(10);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    const int top = static_cast<int>(r.blocks.size()) - 1;
+    set.pull(0, top, along == Along::x ? pull_m_s2 : 0, along == Along::y ? pull_m_s2 : 0, 0);
+    set.advance();
+    set.pull(0, top, 0, 0, 0);
+    std::vector<double> history;
+    for (int chunk = 0; chunk < chunks; ++chunk)
+        for (int k = 0; k < chunk_steps; ++k) {
+            set.advance(k, k + 1);
+            const Snapshot s = set.snapshot(0);
+            history.push_back(along == Along::x ? s.x_m.back() : s.y_m.back());
+        }
+    return history;
+}
+
+/// First frequency [Hz] of a block on a bed with these stiffnesses, rocking and shearing: two degrees of freedom.
+double first_frequency(const Stone& s, double k_t, double k_theta)
+{
+    const double h = s.height / 2, m = s.mass, I = m * (s.width * s.width + s.height * s.height) / 12;
+    // bottom of the block moves by x + h theta (x to the right, theta counter-clockwise)
+    const double a = k_t / m, b = k_t * h / std::sqrt(m * I), d = (k_t * h * h + k_theta - m * gravity * h) / I;
+    const double w2 = 0.5 * (a + d) - std::sqrt(0.25 * (a - d) * (a - d) + b * b);
+    return std::sqrt(w2) / (2 * std::numbers::pi);
+}
+
+/// Whether a block on this slope (tan) topples, from its static rest.
+bool topples(Realization r, double slope)
+{
+    r.base_tilt_rad = std::atan(slope);
+    return run_one(still(4), r).state == State::collapsed;
+}
+
+/// The slope at which it begins to topple, to 1e-3 of itself.
+double toppling_slope(const Realization& r, double sign, double low, double high)
+{
+    EXPECT_FALSE(topples(r, sign * low));
+    EXPECT_TRUE(topples(r, sign * high));
+    while (high - low > 1e-3 * high) {
+        const double middle = 0.5 * (low + high);
+        (topples(r, sign * middle) ? high : low) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/// b/h - 3 t*, t* = (sqrt(2 W / K) / (6 h))^(2/3): the compliant monolith with half its face left on that side.
+double static_capacity(double half_face, double K_n)
+{
+    const double h = mono_stone.height / 2, W = mono_stone.mass * gravity;
+    return half_face / h - 3 * std::pow(std::sqrt(2 * W / K_n) / (6 * h), 2.0 / 3);
+}
+
+} // namespace
+
+TEST(Hertz, RestsAndVibratesAsItsExponentSays)
+{
+    const double q = 1.5, reference = 2e-8;
+    Realization r = mono(1e8);
+    r.joints[0].extension.force_exponent = q;
+    r.joints[0].extension.reference_overlap_m2 = reference;
+    const double W = mono_stone.mass * gravity, B = mono_stone.width;
+    const double area = reference * std::pow(W / (1e8 * reference), 1 / q);
+    EXPECT_NEAR(static_state(r).y_m[1], -area / B, 1e-12 * B);
+    const double k = q * W / area * B; // tangent
+    const std::vector<double> y = vibration(r, Along::y, 0.01, 20);
+    EXPECT_NEAR(frequency(r, y), std::sqrt(k / mono_stone.mass) / (2 * std::numbers::pi),
+                1e-3 * frequency(r, y)); // the scheme at w dt .14: 8e-4
+    EXPECT_NEAR(*std::max_element(y.begin(), y.end()) + *std::min_element(y.begin(), y.end()),
+                2 * (mono_stone.height / 2 - area / B), 1e-8);
+}
+
+TEST(RateDamping, AnImpactLosesWhatTheEquationSays)
+{
+    // flown up and down again; m d'' = m g - K B d (1 + lambda d') by Runge and Kutta from the velocity of landing
+    const double lambda = 2.0, K_n = 1e7;
+    const Stone cube{0.1, 0.1, 2};
+    Realization r = single(cube, {K_n, 0, 0.5}, 2e-6);
+    r.joints[0].extension.rate_s_m = lambda;
+    const Study study = still(10);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    set.pull(0, 1, 0, 30, 0);
+    for (int chunk = 0; chunk < 80; ++chunk)
+        set.advance();
+    set.pull(0, 1, 0, 0, 0);
+    double before = set.snapshot(0).y_m[1] - 0.05, landing = 0, leaving = 0;
+    ASSERT_GT(before, 0);
+    bool down = false;
+    for (int chunk = 0; chunk < 2000 && leaving == 0; ++chunk)
+        for (int k = 0; k < chunk_steps; ++k) {
+            set.advance(k, k + 1);
+            const double y = set.snapshot(0).y_m[1] - 0.05;
+            if (!down && y < 0) {
+                landing = (before - y) / r.step_s;
+                down = true;
+            }
+            if (down && before < 0 && y > 0 && leaving == 0)
+                leaving = (y - before) / r.step_s;
+            before = y;
+        }
+    ASSERT_GT(landing, 0.1);
+    double d = 0, v = landing;
+    const double h = 1e-7, k = K_n * cube.width;
+    const auto rate = [&](double depth, double speed) {
+        return gravity - std::max(0.0, k * depth * (1 + lambda * speed)) / cube.mass;
+    };
+    while (d >= 0) {
+        const double v2 = v + 0.5 * h * rate(d, v), d2 = d + 0.5 * h * v;
+        d += h * v2;
+        v += h * rate(d2, v2);
+    }
+    EXPECT_NEAR(leaving / landing, -v / landing, 2e-3);
+    EXPECT_LT(-v / landing, 0.9); // it does lose something
+}
+
+TEST(FaceDamping, RestitutionOfTheRockingMonolith)
+{
+    // computed beforehand by another program: end-split dashpots, from half the slenderness, e of the first impact
+    const struct {
+        double z, e;
+    } values[] = {{0.1, 0.965}, {0.2, 0.944}, {0.3, 0.926}, {0.5, 0.912}};
+    for (const auto [z, e] : values) {
+        Realization r = verification::leaned_block(mono_stone, 1e8, 0.5, 0.05, z);
+        r.joints[0].extension.face_damping = 1;
+        EXPECT_NEAR(verification::impact_restitution(r), e, 0.004) << z;
+    }
+}
+
+TEST(CornerLoss, TopplesWhenTheLoadIsBeyondWhatIsLeft)
+{
+    const double chip = 0.004, b = mono_stone.width / 2, K = 1e9;
+    Realization r = mono(K, 0.3);
+    r.joints[0].extension.chip_right_m = chip;
+    const double chipped = static_capacity(b - chip, K), whole = static_capacity(b, K);
+    EXPECT_NEAR(toppling_slope(r, 1, 0.8 * chipped, 1.2 * chipped), chipped, 4e-3 * chipped);
+    EXPECT_NEAR(toppling_slope(r, -1, 0.8 * whole, 1.2 * whole), whole, 4e-3 * whole);
+}
+
+TEST(CornerLoss, IsTakenFromTheBlockThatEndsTheFace)
+{
+    // a narrow lower block under a wide one: the lower face is the one that is chipped
+    Realization r = stack({{0.048, 0.029, 0.1355}, {0.1, 0.029, 0.3}}, {1e9, 0.3, 5}, 2e-5, 0.2);
+    r.joints[1].extension.chip_left_m = 0.006;
+    const BedLaw law = bed_law(r, 1);
+    EXPECT_EQ(law.faces.loss.lower_left, 0.006);
+    EXPECT_EQ(law.faces.loss.upper_left, 0);
+    EXPECT_NEAR(face_length_m(r, 1), 0.042, 1e-15);
+}
+
+TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
+{
+    // a block that nothing can move (1 / m = 1 / I = 0) is turned to and fro at a depth: F = K d (2 b - 2 k P)
+    const TopologyJoint joint{0, 1};
+    const Topology topology{2, 1, 1, 1, &joint, 0, {true, ContactForm::area}};
+    std::vector<double> memory(bundle_registers(topology), 0.0);
+    const Bundle b = bind_bundle(topology, 1, memory.data());
+    const double depth = 1e-5, K = 1e8, wear = 0.2, turn = 1e-6;
+    for (int i : {0, 1}) {
+        b.at(OfBlock::half_width, i, 0) = i == 0 ? 0.05 : 0.024;
+        b.at(OfBlock::half_height, i, 0) = 0.02;
+    }
+    b.at(OfBlock::y, 1, 0) = -depth;
+    b.at(OfJoint::height, 0, 0) = 0.04;
+    b.at(OfJoint::depth_limit, 0, 0) = 0.002;
+    b.at(OfJoint::K_n, 0, 0) = K;
+    b.at(OfJointExtension::corner_wear, 0, 0) = wear;
+    for (int chunk = 0; chunk < 100; ++chunk) {
+        b.at(OfBlock::dtheta, 1, 0) = chunk % 2 == 0 ? turn : -turn;
+        kernels(Isa::scalar).run(topology, b, 0, chunk_steps);
+    }
+    const double path = 100 * chunk_steps * turn;
+    const double face = 0.048 - 2 * wear * (path - turn); // of the step before the last
+    EXPECT_NEAR(b.at(OfBlock::force_y, 1, 0), K * depth * face, 1e-4 * K * depth * face);
+    EXPECT_LT(face, 0.046);
+    // it stops before the face is gone
+    b.at(OfJointExtension::turned, 0, 0) = 1e6;
+    kernels(Isa::scalar).run(topology, b, 0, 1);
+    EXPECT_NEAR(b.at(OfBlock::force_y, 1, 0), K * depth * 0.1 * 0.048, 1e-3 * K * depth * 0.0048);
+}
+
+TEST(Wedge, TheStackRestsAtTheSumOfItsWedges)
+{
+    Realization r = spec({1e9, 0.1}, 2e-5);
+    r.joints[1].extension.wedge_rad = 0.01;
+    r.joints[4].extension.wedge_rad = -0.004;
+    const StaticState rest = static_state(r);
+    // the load of a bed leaves its middle by height x tilt: 12 N e / (K B3), 4 drums over the wedge
+    const double N = 5 * 0.1355 * gravity, lean = 12 * N * 0.0725 * 0.01 / (1e9 * std::pow(0.048, 3));
+    EXPECT_NEAR(rest.theta_rad[1], 0, 1e-4);
+    EXPECT_NEAR(rest.theta_rad[2], 0.01 + lean, 2 * lean);
+    EXPECT_NEAR(rest.theta_rad[6] - rest.theta_rad[4], -0.004, 1e-5);
+    EXPECT_GT(std::fabs(rest.theta_rad[2] - 0.01), 1e-6);
+}
+
+TEST(Eccentricity, TopplesEarlierToItsSide)
+{
+    const double e = 0.003, b = mono_stone.width / 2, K = 1e9;
+    Realization r = mono(K, 0.3);
+    r.blocks[1].extension.eccentricity_m = e;
+    const double near = static_capacity(b - e, K), far = static_capacity(b + e, K);
+    EXPECT_NEAR(toppling_slope(r, 1, 0.8 * near, 1.2 * near), near, 4e-3 * near);
+    EXPECT_NEAR(toppling_slope(r, -1, 0.8 * far, 1.2 * far), far, 4e-3 * far);
+}
+
+TEST(TwoCorner, RocksOnThriceTheStiffness)
+{
+    for (const double K : {1e7, 1e8}) {
+        Realization r = mono(K);
+        r.extended = true;
+        const double B = mono_stone.width, k_theta = K * B * B * B / 12;
+        EXPECT_NEAR(frequency(r, vibration(r, Along::x, 1e-4, 200)), first_frequency(mono_stone, K * B, k_theta),
+                    2e-3 * first_frequency(mono_stone, K * B, k_theta));
+        r.form = ContactForm::two_corner;
+        const double want = first_frequency(mono_stone, K * B, 3 * k_theta);
+        EXPECT_NEAR(frequency(r, vibration(r, Along::x, 1e-4, 200)), want, 2e-3 * want);
+        EXPECT_NEAR(linear_response(r).frequency_hz.front(), want, 2e-3 * want);
+        // and its vertical stiffness is that of the area form
+        const double axial = std::sqrt(K * B / mono_stone.mass) / (2 * std::numbers::pi);
+        EXPECT_NEAR(frequency(r, vibration(r, Along::y, 0.01, 20)), axial, 1e-3 * axial);
+    }
+}
+
+TEST(Points, RestsAsTheAreaFormAndIsHalfAsStiffAgain)
+{
+    Realization r = mono(1e8);
+    const double y = static_state(r).y_m[1];
+    r.form = ContactForm::points;
+    EXPECT_NEAR(static_state(r).y_m[1], y, 1e-12);
+    const double axial = std::sqrt(1.5 * 1e8 * mono_stone.width / mono_stone.mass) / (2 * std::numbers::pi);
+    EXPECT_NEAR(frequency(r, vibration(r, Along::y, 0.01, 20)), axial, 1.5e-3 * axial);
+    const double k_theta = 1.5 * 1e8 * std::pow(mono_stone.width, 3) / 12;
+    const double want = first_frequency(mono_stone, 1e8 * mono_stone.width, k_theta);
+    EXPECT_NEAR(frequency(r, vibration(r, Along::x, 1e-4, 200)), want, 2e-3 * want);
+}
