@@ -189,8 +189,13 @@ double BaseMotion::displacement_m(double time_s) const
 /// In the time of the motion itself.
 double BaseMotion::own_displacement_m(double time_s) const
 {
-    if (time_s <= 0)
-        return 0;
+    if (time_s <= 0) {
+        if (record_ == nullptr)
+            return 0;
+        // before its first sample it is at rest, or comes at the velocity that it has there
+        const double stretch = spacing_s_ / record_->dt_s;
+        return scale_ * stretch * (stretch * record_->displacement_m.front() + time_s * record_->velocity_m_s.front());
+    }
     if (record_ != nullptr) {
         // the acceleration goes to 0 within one sample after the last one, as in `fill`; then the velocity stays
         const std::vector<double>& a = record_->acceleration_m_s2;

@@ -74,6 +74,11 @@ Motion Distortion::distorted(const Motion& motion, const BaseChange& change) con
         for (std::size_t k = 0; k < part.size(); ++k)
             a[i] += part[k] * acceleration_[k][i];
     Motion result = motion_of(std::move(a), motion.dt_s);
+    for (std::size_t i = 0; i < result.velocity_m_s.size(); ++i) { // one that is measured may begin with a velocity
+        const double t = static_cast<double>(i) * motion.dt_s;
+        result.displacement_m[i] += motion.displacement_m.front() + t * motion.velocity_m_s.front();
+        result.velocity_m_s[i] += motion.velocity_m_s.front();
+    }
     result.pga_m_s2 = motion.pga_m_s2;
     result.predominant_frequency_hz = motion.predominant_frequency_hz;
     result.source = motion.source;

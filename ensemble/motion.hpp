@@ -28,7 +28,8 @@ struct BaselineReport {
 };
 
 /// Acceleration that is linear between equally spaced samples, with the velocity and displacement that follow from it
-/// exactly (v += d (a0 + a1) / 2, u += v d + d2 (a0 / 3 + a1 / 6)); at rest before the first sample.
+/// exactly (v += d (a0 + a1) / 2, u += v d + d2 (a0 / 3 + a1 / 6)); at rest before the first sample, or where it is
+/// measured at the velocity that it has there.
 struct Motion {
     double dt_s = 0;                       ///< sample spacing d
     std::vector<double> acceleration_m_s2; ///< (n)

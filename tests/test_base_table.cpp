@@ -1,0 +1,151 @@
+/// Tables of samples as base motions: what is read, and what is refused with which words.
+
+#include "ensemble/input_error.hpp"
+#include "io/base_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A file that goes with the test.
+class File {
+public:
+    explicit File(const std::string& content)
+        : path_(std::filesystem::temp_directory_path() /
+                ("stylobate_base_table_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                 ".csv"))
+    {
+        std::ofstream(path_, std::ios::binary) << content;
+    }
+    ~File() { std::filesystem::remove(path_); }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Rows of 0, 0.01, ... s.
+std::string rows(const std::string& head, int count, const std::function<std::string(double)>& row)
+{
+    std::string text = head + "\n";
+    for (int i = 0; i < count; ++i) {
+        char time[32];
+        std::snprintf(time, sizeof time, "%.2f", i * 0.01);
+        text += std::string(time) + "," + row(i * 0.01) + "\n";
+    }
+    return text;
+}
+
+std::string digits(double value)
+{
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
+double acceleration(double t)
+{
+    return 3 * t * std::sin(2 * pi * 2 * t);
+}
+
+TEST(BaseTable, AnAccelerationStandsAsItIs)
+{
+    const File file(rows("time_s,acceleration_m_s2", 200, [](double t) { return digits(acceleration(t)); }));
+    const Motion motion = read_base_table(file.path());
+    EXPECT_EQ(motion.dt_s, 0.01);
+    ASSERT_EQ(motion.acceleration_m_s2.size(), 200u);
+    double v = 0, largest = 0;
+    for (std::size_t i = 0; i < 200; ++i) {
+        const double t = static_cast<double>(i) * 0.01;
+        EXPECT_DOUBLE_EQ(motion.acceleration_m_s2[i], acceleration(t));
+        if (i > 0)
+            v += 0.005 * (acceleration(t - 0.01) + acceleration(t));
+        EXPECT_NEAR(motion.velocity_m_s[i], v, 1e-12); // nothing corrected: it may drift
+        largest = std::max(largest, std::fabs(acceleration(t)));
+    }
+    EXPECT_DOUBLE_EQ(motion.pga_m_s2, largest);
+    EXPECT_NEAR(motion.predominant_frequency_hz, 2, 0.1);
+    EXPECT_FALSE(motion.corrected);
+}
+
+TEST(BaseTable, TheMotionPassesThroughItsDisplacements)
+{
+    // a table that stands 5 mm off its zero
+    const auto u = [](double t) { return 0.005 + 0.01 * (1 - std::cos(2 * pi * t)); };
+    const File file(rows("time_s,displacement_m", 126, [&](double t) { return digits(u(t)); }));
+    const Motion motion = read_base_table(file.path());
+    for (std::size_t i = 0; i < 126; ++i) {
+        const double t = static_cast<double>(i) * 0.01;
+        EXPECT_NEAR(motion.displacement_m[i], u(t) - u(0), 1e-14);
+        EXPECT_NEAR(motion.acceleration_m_s2[i], 0.01 * 4 * pi * pi * std::cos(2 * pi * t), 2e-4);
+    }
+}
+
+TEST(BaseTable, OtherColumnsAreLeftAlone)
+{
+    const File file(
+        rows("time_s,top_x_m,acceleration_m_s2", 50, [](double t) { return "7," + digits(acceleration(t)); }));
+    EXPECT_DOUBLE_EQ(read_base_table(file.path()).acceleration_m_s2[30], acceleration(0.3));
+}
+
+void expect_refused(const std::string& content, const std::vector<std::string>& words)
+{
+    const File file(content);
+    try {
+        read_base_table(file.path());
+        ADD_FAILURE() << "accepted:\n" << content.substr(0, 200);
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find(file.path().string()), 0u) << message;
+        for (const std::string& word : words)
+            EXPECT_NE(message.find(word), std::string::npos) << "no '" << word << "' in:\n" << message;
+    }
+}
+
+TEST(BaseTable, SaysWhatIsWrong)
+{
+    const auto one = [](double t) { return digits(acceleration(t)); };
+    expect_refused(rows("time_s,acceleration", 50, one), {"acceleration_m_s2", "The unit is part of the name"});
+    expect_refused(rows("time_s,displacment_m", 50, one), {"Did you mean displacement_m?"});
+    expect_refused(rows("time_s,base_x_m", 50, one), {"has no motion", "base_x_m", "line of names"});
+    expect_refused(rows("t,acceleration_m_s2", 50, one), {"begins with the column \"t\", not with time_s"});
+    expect_refused(rows("# no names", 50, one), {"begins with the column \"column 1\""});
+    expect_refused(rows("time_s,acceleration_m_s2", 5, one), {"5 samples", "at least 10"});
+    expect_refused(rows("time_s,acceleration_m_s2", 50, [](double) { return "0"; }), {"nothing shakes"});
+    expect_refused(rows("time_s,displacement_m", 50, [](double) { return "0.1"; }), {"is 0.1 at all times"});
+    expect_refused(rows("time_s,acceleration_m_s2", 50, [](double t) { return digits(1000 * acceleration(t)); }),
+                   {"peak acceleration", "more than 50", "unit is wrong"});
+    expect_refused(rows("time_s,displacement_m", 50, [](double t) { return t > 0.2 ? "0.1" : "0"; }),
+                   {"too few digits"});
+    expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.51,1\n", {":52:", "a row is missing"});
+    expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.50,x\n", {":52:"});
+    expect_refused("", {"is empty"});
+}
+
+TEST(BaseTable, AFileThatIsNotThere)
+{
+    try {
+        read_base_table("no/such/table.csv");
+        ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("no such file. Give the path of a table of the base motion."),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+} // namespace
+} // namespace stylobate

@@ -1,0 +1,319 @@
+/// Mechanisms and contact forms in a study file: what is read, written and refused, and with which words.
+
+#include "ensemble/input_error.hpp"
+#include "io/study_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+/// [mechanisms] begins in line 16; six joints, seven blocks of which block 0 is fixed.
+std::string study(const std::string& mechanisms, const std::string& contact = {},
+                  const std::string& excitation = "kind = \"harmonic\"\nfrequency_hz = 2\npga_m_s2 = 3")
+{
+    std::string text = "[study]\nkind = \"single\"\n[structure]\nblocks = 7\nfixed_blocks = 1\ndrum_width_m = 0.048\n"
+                       "drum_height_m = 0.029\ndepth_m = 0.048\ndrum_mass_kg = 0.1355\n[excitation]\n" +
+                       excitation + "\n";
+    text += std::string(static_cast<std::size_t>(14 - std::count(text.begin(), text.end(), '\n')), '\n');
+    return text + "\n[mechanisms]\n" + mechanisms + "\n[contact]\nnormal_stiffness_n_m2 = 1e8\nfriction = 0.68\n" +
+           contact + "\n";
+}
+
+Study read(const std::string& mechanisms, const std::string& contact = {})
+{
+    return parse_study(study(mechanisms, contact), "temple.toml");
+}
+
+/// Expects a refusal in a line whose message has all the words.
+void expect_refused(const std::string& text, int line, const std::vector<std::string>& words)
+{
+    try {
+        parse_study(text, "temple.toml");
+        ADD_FAILURE() << "accepted; expected a refusal in line " << line << "\n" << text;
+    } catch (const InputError& error) {
+        const std::string message = error.what(), place = "temple.toml:" + std::to_string(line) + ": ";
+        EXPECT_EQ(message.substr(0, place.size()), place) << message << "\n" << text;
+        for (const std::string& word : words)
+            EXPECT_NE(message.find(word), std::string::npos) << "no '" << word << "' in:\n" << message;
+    }
+}
+
+void expect_refused(const std::string& mechanisms, const std::vector<std::string>& words)
+{
+    expect_refused(study(mechanisms), 17, words);
+}
+
+/// One of each, each with other values than the neutral ones.
+const std::string all_mechanisms = R"(stribeck = { dynamic_friction = 0.5, velocity_m_s = 0.05 }
+joint_friction = [ { joint = 2, ratio = 0.57 }, { joints = [0, 5], ratio = 1.2 } ]
+drag = { block = 6, coefficient_n_s2_m2 = 0.1 }
+corner_loss = { joint = 1, left_m = 0.002, right_m = 0.003 }
+hertz = { exponent = 1.2 }
+rate_damping = { rate_s_m = 0.3 }
+face_damping = { share = 0.4, joints = [4, 3] }
+friction_wear = { rate_per_m = 0.5 }
+corner_wear = { loss_m_rad = 1e-3 }
+table_pitch = { rotation_rad_s2_m = 1e-4 }
+vertical_motion = { ratio = 0.3 }
+harmonic_distortion = { second = 0.02, third_quadrature = -0.01 }
+time_offset = { offset_s = -0.0127 }
+sensor_gain = { gain = 0.88 }
+dowel = { joint = 0, stiffness_n_m = 1e5, yield_n = 20, gap_m = 1e-3 }
+adhesion = { force_n_m = 3 }
+eccentricity = { blocks = [1, 3], offset_m = -0.001 }
+wedge = { joint = 0, angle_rad = 0.0041 }
+drum_offset = { block = 2, offset_m = 0.0005 }
+)";
+
+const MechanismSpec& only(const Study& study, Mechanism mechanism)
+{
+    const auto at = std::find_if(study.mechanisms.begin(), study.mechanisms.end(),
+                                 [&](const MechanismSpec& spec) { return spec.mechanism == mechanism; });
+    return *at;
+}
+
+TEST(StudyMechanisms, ReadsEveryMechanism)
+{
+    const Study s = read(all_mechanisms);
+    for (const MechanismRule& rule : mechanism_rules())
+        ASSERT_TRUE(s.names(rule.mechanism)) << rule.name;
+    ASSERT_EQ(s.mechanisms.size(), 20u); // joint_friction has two
+    for (std::size_t i = 1; i < s.mechanisms.size(); ++i)
+        EXPECT_LE(s.mechanisms[i - 1].mechanism, s.mechanisms[i].mechanism);
+
+    const MechanismSpec& stribeck = only(s, Mechanism::stribeck);
+    EXPECT_EQ(stribeck.values, (std::array{0.5, 0.05, 0.0, 0.0}));
+    EXPECT_TRUE(stribeck.places.empty());
+    EXPECT_EQ(s.mechanisms[1].places, (std::vector{0, 5})); // in the order of the places
+    EXPECT_EQ(s.mechanisms[1].values[0], 1.2);
+    EXPECT_EQ(s.mechanisms[2].places, std::vector{2});
+    EXPECT_EQ(only(s, Mechanism::drag).places, std::vector{6});
+    EXPECT_EQ(only(s, Mechanism::corner_loss).values, (std::array{0.002, 0.003, 0.0, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::hertz).values, (std::array{1.2, 0.0, 0.0, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::face_damping).places, (std::vector{3, 4}));
+    EXPECT_EQ(only(s, Mechanism::harmonic_distortion).values, (std::array{0.02, 0.0, 0.0, -0.01}));
+    EXPECT_EQ(only(s, Mechanism::dowel).values, (std::array{1e5, 20.0, 1e-3, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::eccentricity).places, (std::vector{1, 3}));
+    EXPECT_FALSE(s.vertical);
+}
+
+TEST(StudyMechanisms, WritesWhatItReads)
+{
+    const std::vector<std::string> all = {
+        all_mechanisms, "vertical_motion = { file = \"up.at2\", component = \"UP\", unit = \"gal\", baseline = false }",
+        all_mechanisms + "[perturbation.mechanisms]\nstribeck.velocity_m_s = { distribution = \"lognormal\", sigma_ln "
+                         "= 0.3, per = \"structure\" }\nwedge = { angle_rad = { distribution = \"normal\", sd_rad = "
+                         "0.001 } }\njoint_friction.ratio = { distribution = \"normal\", cov = 0.05, min = 0.2 }\n"};
+    std::vector<std::string> texts;
+    for (const std::string& mechanisms : all) {
+        const Study s = read(mechanisms);
+        const Study again = parse_study(s.text, "again.toml");
+        EXPECT_EQ(again.text, s.text);
+        EXPECT_EQ(again.mechanisms, s.mechanisms);
+        EXPECT_EQ(again.mechanism_perturbations.size(), s.mechanism_perturbations.size());
+        texts.push_back(s.text);
+    }
+    EXPECT_NE(texts[0], texts[2]);
+    EXPECT_EQ(parse_study(texts[1], "again.toml").vertical->unit, "cm/s2");
+}
+
+TEST(StudyMechanisms, EqualStudiesHaveEqualTexts)
+{
+    const std::string text = read("wedge = { joints = [1, 2], angle_rad = 0.001 }").text;
+    EXPECT_EQ(read("wedge = [ { joint = 2, angle_rad = 1e-3 }, { joint = 1, angle_rad = 0.001 } ]").text, text);
+    EXPECT_EQ(read("[[mechanisms.wedge]]\njoint = 2\nangle_rad = 1e-3\n[[mechanisms.wedge]]\njoint = 1\nangle_rad = "
+                   "1e-3")
+                  .text,
+              text);
+    // everywhere, said in three ways
+    const std::string drag = read("drag = { coefficient_n_s2_m2 = 0.1 }").text;
+    EXPECT_EQ(read("drag = { coefficient_n_s2_m2 = 0.1, blocks = [1, 2, 3, 4, 5, 6] }").text, drag);
+    EXPECT_EQ(read("drag = [ { coefficient_n_s2_m2 = 0.1, blocks = [1, 2, 3] }, { coefficient_n_s2_m2 = 0.1, blocks = "
+                   "[4, 5, 6] } ]")
+                  .text,
+              drag);
+}
+
+TEST(StudyMechanisms, TextsDifferWhereverMechanismsDo)
+{
+    const Study base = read(all_mechanisms);
+    for (std::size_t i = 0; i < base.mechanisms.size(); ++i) {
+        const std::size_t count = rule_of(base.mechanisms[i].mechanism).parameters.size();
+        for (std::size_t p = 0; p < count; ++p) {
+            Study changed = base;
+            double& value = changed.mechanisms[i].values[p];
+            value = std::nextafter(value, 1e300);
+            EXPECT_NE(study_text(changed), base.text) << i << ' ' << p;
+        }
+        if (rule_of(base.mechanisms[i].mechanism).place != MechanismPlace::base) {
+            Study changed = base;
+            changed.mechanisms[i].places = {4, 5};
+            EXPECT_NE(study_text(changed), base.text) << i;
+        }
+        Study without = base;
+        without.mechanisms.erase(without.mechanisms.begin() + static_cast<std::ptrdiff_t>(i));
+        EXPECT_NE(study_text(without), base.text) << i;
+    }
+}
+
+TEST(StudyMechanisms, SettingsOfTheCommandLine)
+{
+    const std::string text = study("stribeck = { dynamic_friction = 0.68, velocity_m_s = 0.05 }");
+    const Study s = parse_study(text, "temple.toml",
+                                {"mechanisms.stribeck.dynamic_friction=0.5", "mechanisms.wedge.angle_rad=0.002"});
+    EXPECT_EQ(only(s, Mechanism::stribeck).values[0], 0.5);
+    EXPECT_EQ(only(s, Mechanism::wedge).values[0], 0.002);
+}
+
+TEST(StudyMechanisms, NeutralValuesAreAccepted)
+{
+    for (const MechanismRule& rule : mechanism_rules()) {
+        const MechanismSpec neutral = neutral_spec(rule.mechanism, 0.68);
+        std::string entry = std::string(rule.name) + " = { ";
+        for (std::size_t i = 0; i < rule.parameters.size(); ++i)
+            // the yield force of a dowel has no neutral value
+            entry += (i > 0 ? ", " : "") + rule.parameters[i].key() + " = " +
+                     (rule.parameters[i].role == ParameterRole::needed ? "1.5" : std::to_string(neutral.values[i]));
+        const Study s = read(entry + " }");
+        ASSERT_EQ(s.mechanisms.size(), 1u) << rule.name;
+        EXPECT_FALSE(acts(s.mechanisms[0], s.contact.friction)) << rule.name;
+        EXPECT_EQ(parse_study(s.text, "again.toml").text, s.text);
+    }
+}
+
+TEST(StudyMechanisms, SaysWhatIsWrong)
+{
+    expect_refused("stribek = { dynamic_friction = 0.5 }", {"mechanisms.stribek", "Did you mean stribeck?"});
+    expect_refused("stribeck = { dynamic_friction = 0.5, velocity = 0.05 }",
+                   {"mechanisms.stribeck.velocity", "Did you mean velocity_m_s?"});
+    expect_refused("stribeck = { dynamic_friction = 0.5 }", {"stribeck.velocity_m_s is missing", "In m/s"});
+    expect_refused("stribeck = { velocity_m_s = 0.5 }", {"stribeck.dynamic_friction is missing"});
+    expect_refused("stribeck = { dynamic_friction = -1, velocity_m_s = 0.05 }", {"is outside (0, 10]"});
+    expect_refused("stribeck = 0.5", {"mechanisms.stribeck = 0.5 is a number, not a table"});
+    expect_refused("stribeck = []", {"mechanisms.stribeck", "is empty"});
+    expect_refused("corner_loss = { joint = 1 }", {"mechanisms.corner_loss says nothing", "left_m, right_m"});
+    expect_refused("corner_loss = { joint = 1, left_m = 0.03, right_m = 0.02 }",
+                   {"left_m = 0.03", "nothing of joint 1", "0.048 m"});
+    expect_refused("dowel = { stiffness_n_m = 1e5 }", {"mechanisms.dowel.yield_n is missing"});
+    expect_refused("eccentricity = { offset_m = 0.024 }", {"is outside block 1", "0.048 m wide"});
+    expect_refused("time_offset = [ { offset_s = 0.01 } ]", {"is a list, and there is one base"});
+    expect_refused("time_offset = { block = 1, offset_s = 0.01 }", {"time_offset.block"});
+    expect_refused("vertical_motion = { ratio = 0.3, file = \"a\" }", {"ratio = 0.3 and file exclude each other"});
+    expect_refused("vertical_motion = { ratio = 0.3, unit = \"g\" }", {"unit", "a vertical motion without a file"});
+    expect_refused("vertical_motion = {}", {"mechanisms.vertical_motion.ratio is missing"});
+    expect_refused("vertical_motion = { file = \"a\", unit = \"feet\" }", {"unit = \"feet\"", "\"m/s2\""});
+}
+
+TEST(StudyMechanisms, SaysWhichPlacesThereAre)
+{
+    expect_refused("wedge = { joint = 6, angle_rad = 0.001 }",
+                   {"wedge.joint = 6 is outside [0, 5]", "6 joints", "0 is drum 1 of column 0 on drum 0 of column 0"});
+    expect_refused("wedge = { joints = [0, 7], angle_rad = 0.001 }", {"joints", "has 7 in it", "[0, 5]", "6 joints"});
+    expect_refused("wedge = { joints = [0, 1.5], angle_rad = 0.001 }", {"has 1.5 in it"});
+    expect_refused("wedge = { joints = [-1], angle_rad = 0.001 }", {"has -1 in it"});
+    expect_refused("wedge = { joints = [], angle_rad = 0.001 }", {"mechanisms.wedge.joints", "is empty"});
+    expect_refused("wedge = { joints = 2, angle_rad = 0.001 }", {"not a list", "joints = [NUMBER, ...]"});
+    expect_refused("wedge = { joint = 1, joints = [2], angle_rad = 0.001 }", {"and joint exclude each other"});
+    expect_refused("wedge = { block = 1, angle_rad = 0.001 }", {"wedge.block"});
+    expect_refused("drag = { block = 7, coefficient_n_s2_m2 = 0.1 }", {"drag.block = 7 is outside [0, 6]", "7 blocks"});
+    expect_refused("drag = { block = 0, coefficient_n_s2_m2 = 0.1 }", {"0 in it, which is fixed to the shaking table"});
+    expect_refused("wedge = { joints = [1, 1], angle_rad = 0.001 }", {"joint 1 comes twice"});
+    expect_refused("wedge = [ { joint = 1, angle_rad = 0.001 }, { joint = 1, angle_rad = 0.002 } ]",
+                   {"joint 1 comes twice", "Say once"});
+    expect_refused("wedge = [ { joint = 1, angle_rad = 0.001 }, { angle_rad = 0.002 } ]",
+                   {"acts everywhere", "joint 1 comes twice", "Say where"});
+}
+
+TEST(StudyMechanisms, OfTheBaseNeedAMotionThatHasThem)
+{
+    const std::string still = "kind = \"none\"\nduration_s = 2";
+    for (const std::string mechanism :
+         {"time_offset = { offset_s = 0.1 }", "sensor_gain = { gain = 0.9 }", "table_pitch = { rotation_rad_s2_m = 0 }",
+          "vertical_motion = { ratio = 0.1 }", "harmonic_distortion = { second = 0.1 }"})
+        expect_refused(study(mechanism, "", still), 17, {"is not used by excitation.kind = \"none\""});
+    for (const std::string kind : {"half_sine", "full_sine", "ricker", "pulse"}) {
+        const std::string pulse = "kind = \"" + kind + "\"\nfrequency_hz = 2\npga_m_s2 = 3";
+        expect_refused(study("harmonic_distortion = { second = 0.1 }", "", pulse), 17,
+                       {"is not used by excitation.kind = \"" + kind + "\"", "a pulse has no overtones"});
+        EXPECT_NO_THROW(parse_study(study("time_offset = { offset_s = 0.1 }", "", pulse), "temple.toml"));
+    }
+}
+
+TEST(StudyMechanisms, ContactForms)
+{
+    EXPECT_EQ(read("").contact.form, ContactForm::area);
+    EXPECT_EQ(read("").contact.damping, DampingAt::centroid);
+    for (const auto& [word, form] :
+         {std::pair{"two_corner", ContactForm::two_corner}, {"points", ContactForm::points}}) {
+        const Study s = read("", std::string("damping = \"ends\"\nform = \"") + word + "\"");
+        EXPECT_EQ(s.contact.form, form);
+        EXPECT_EQ(s.contact.damping, DampingAt::ends);
+        EXPECT_EQ(parse_study(s.text, "again.toml").text, s.text);
+        EXPECT_NE(s.text, read("").text);
+    }
+    expect_refused(study("face_damping = { share = 0.5 }", "damping = \"ends\""), 17,
+                   {"and contact.damping = \"ends\" exclude each other"});
+}
+
+TEST(StudyMechanisms, ReadsTheirPerturbations)
+{
+    const Study s = read("joint_friction = { joints = [1, 2], ratio = 0.6 }\nwedge = { angle_rad = 0.0 }\n"
+                         "[perturbation.mechanisms]\njoint_friction.ratio = { distribution = \"lognormal\", sigma_ln = "
+                         "0.2 }\nwedge.angle_rad = { distribution = \"normal\", sd_rad = 0.001, per = \"structure\" }\n"
+                         "[perturbation]\nfriction = { distribution = \"normal\", cov = 0.1, min = 0.2 }");
+    ASSERT_EQ(s.mechanism_perturbations.size(), 2u);
+    ASSERT_EQ(s.perturbations.size(), 1u);
+    const MechanismPerturbation& ratio = s.mechanism_perturbations[0];
+    EXPECT_EQ(ratio.mechanism, Mechanism::joint_friction);
+    EXPECT_EQ(ratio.distribution, DistributionKind::lognormal);
+    EXPECT_EQ(ratio.sigma_ln, 0.2);
+    EXPECT_EQ(ratio.per, Per::joint);
+    EXPECT_EQ(s.mechanism_perturbations[1].mechanism, Mechanism::wedge);
+    EXPECT_EQ(s.mechanism_perturbations[1].sd, 0.001);
+    EXPECT_EQ(s.mechanism_perturbations[1].per, Per::structure);
+}
+
+TEST(StudyMechanisms, RefusesPerturbationsThatMeanNothing)
+{
+    const auto with = [](const std::string& perturbation) {
+        return study("joint_friction = { joint = 1, ratio = 0.6 }\nvertical_motion = { ratio = 0.3 }\n"
+                     "[perturbation.mechanisms]\n" +
+                     perturbation);
+    };
+    const std::string uniform = "{ distribution = \"uniform\", from = 0.5, to = 0.7 }";
+    expect_refused(with("wedge.angle_rad = " + uniform), 20, {"mechanisms.wedge", "[mechanisms] does not name it"});
+    expect_refused(with("joint_friction.ration = " + uniform), 20, {"Did you mean ratio?"});
+    expect_refused(with("joint_friktion.ratio = " + uniform), 20, {"Did you mean joint_friction?"});
+    expect_refused(with("joint_friction.ratio = { distribution = \"normal\", sd = 0.1 }"), 20, {"min is missing"});
+    expect_refused(with("joint_friction.ratio = { distribution = \"normal\", sd_m = 0.1 }"), 20, {"sd_m"});
+    expect_refused(with("joint_friction.ratio = { distribution = \"uniform\", from = -1, to = 1 }"), 20,
+                   {"is outside (0, 10]"});
+    expect_refused(with("vertical_motion.ratio = { distribution = \"normal\", sd = 0.1, per = \"joint\" }"), 20,
+                   {"per = \"joint\"", "\"structure\""});
+    expect_refused(with("joint_friction.ratio = { distribution = \"uniform\", from = 0.5, to = 0.7, per = \"block\" }"),
+                   20, {"per = \"block\"", "\"joint\", \"structure\""});
+}
+
+TEST(StudyMechanisms, ATableIsAnExcitation)
+{
+    const auto with = [](const std::string& excitation) { return study("", "", excitation); };
+    const Study s =
+        parse_study(with("kind = \"table\"\nfile = \"base.csv\"\ntime_scale = 2\ntail_s = 1"), "temple.toml");
+    EXPECT_EQ(s.excitation.kind, ExcitationKind::table);
+    EXPECT_EQ(s.excitation.file, "base.csv");
+    EXPECT_EQ(s.excitation.time_scale, 2);
+    EXPECT_EQ(s.excitation.pga_m_s2, 0);
+    EXPECT_EQ(parse_study(s.text, "again.toml").text, s.text);
+    EXPECT_EQ(s.text.find("baseline"), std::string::npos); // there is none to correct
+    expect_refused(with("kind = \"table\""), 10, {"excitation.file is missing", "table of samples"});
+    expect_refused(with("kind = \"table\"\nfile = \"a\"\nbaseline = true"), 13,
+                   {"baseline", "is not used by excitation.kind = \"table\""});
+}
+
+} // namespace
+} // namespace stylobate
