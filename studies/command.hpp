@@ -44,6 +44,7 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 /// @param output the page; empty: beside the file, with .html
 int report_command(const CommonOptions& options, const std::string& file, std::string output);
-int info_command(const CommonOptions& options);
+/// @param file measured data, outcomes or results; empty: about the program
+int info_command(const CommonOptions& options, const std::string& file);
 
 } // namespace stylobate
