@@ -1,6 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
-#include "io/file_handle.hpp"
+#include "io/csv_fields.hpp"
 #include "io/key_reader.hpp"
 #include "io/measured_layout.hpp"
 #include "io/suggest.hpp"
@@ -24,18 +24,6 @@ constexpr const char* format_name = "stylobate-measured";
 constexpr int most = std::numeric_limits<int>::max();
 /// Any number: whether it makes sense is asked where all layouts are checked.
 const Range any = {-1e300, 1e300, false, {}, 0};
-
-std::string content_of(const fs::path& path, std::uint64_t largest)
-{
-    const FileHandle file = FileHandle::open(path, false);
-    const std::uint64_t size = file.size();
-    if (size > largest)
-        throw InputError(path.string(), 0,
-                         fmt::format("has {} bytes, more than {}.\n  Is it the right file?", size, largest));
-    std::string text(size, '\0');
-    file.read(0, std::as_writable_bytes(std::span(text)));
-    return text;
-}
 
 /// The key of the noise of a series: "noise_base_acceleration_m_s2".
 std::string noise_key(const SeriesName& name)
@@ -141,79 +129,37 @@ std::optional<Target> target_of(std::string_view name)
     return std::nullopt;
 }
 
-std::string_view trimmed(std::string_view text)
-{
-    const std::size_t first = text.find_first_not_of(" \t\r\"");
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string_view> fields(std::string_view line)
-{
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        parts.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos)
-            return parts;
-        line.remove_prefix(comma + 1);
-    }
-}
-
-/// A number; NaN of an empty field or "nan".
-double value_of(std::string_view field, const std::string& file, long line, std::string_view column)
-{
-    if (field.empty())
-        return std::numeric_limits<double>::quiet_NaN();
-    double value = 0;
-    const std::string_view digits = field.front() == '+' ? field.substr(1) : field;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size() || std::isinf(value))
-        throw InputError(file, line,
-                         fmt::format("{} = \"{}\" is no number.\n  Leave the field empty where nothing was measured.",
-                                     column, field.substr(0, 40)));
-    return value;
-}
-
 class RunTable {
 public:
     RunTable(const fs::path& path, Campaign& campaign, MeasuredRun& run)
-        : text_(content_of(path, std::uint64_t{1} << 32)), file_(path.string()), campaign_(campaign), run_(run)
+        : text_(csv_content(path, std::uint64_t{1} << 32)), file_(path.string()), campaign_(campaign), run_(run)
     {
     }
 
     void read()
     {
-        std::string_view rest = text_;
-        if (rest.starts_with("\xef\xbb\xbf"))
-            rest.remove_prefix(3); // a byte order mark
-        for (long line = 1; !rest.empty(); ++line) {
-            const std::size_t end = std::min(rest.find('\n'), rest.size());
-            const std::string_view text = rest.substr(0, end);
-            rest.remove_prefix(std::min(end + 1, rest.size()));
-            if (trimmed(text).empty() || trimmed(text).front() == '#')
-                continue;
+        for_each_csv_line(text_, [&](const CsvLine& line) {
             if (targets_.empty())
-                read_header(text, line);
+                read_header(line);
             else
-                read_row(text, line);
-        }
+                read_row(line);
+        });
         if (targets_.empty())
             throw InputError(file_, 0, "has no line of column names.\n  io/FORMAT.md has the layout.");
     }
 
 private:
-    void read_header(std::string_view text, long line)
+    void read_header(const CsvLine& line)
     {
         std::vector<std::string> known = {"time_s"};
         for (const SeriesName& series : series_names())
             known.push_back(fmt::format("{}{}{}", series.column, series.per_block ? "0" : "", series.suffix));
-        for (const std::string_view name : fields(text)) {
+        for (const std::string_view name : line.fields) {
             const auto target = target_of(name);
             if (!target) {
                 const std::string meant = meant_key(name, known);
                 throw InputError(
-                    file_, line,
+                    file_, line.number,
                     fmt::format("the column \"{}\" is not known, or its unit is not.\n  {} The unit is "
                                 "part of the name.",
                                 name.substr(0, 60),
@@ -221,7 +167,7 @@ private:
             }
             for (const Target& other : targets_)
                 if (other.series == target->series && other.block == target->block)
-                    throw InputError(file_, line, fmt::format("the column \"{}\" is there twice.", name));
+                    throw InputError(file_, line.number, fmt::format("the column \"{}\" is there twice.", name));
             if (target->factor != 1)
                 campaign_.findings.push_back({Severity::note, fmt::format("run {}, {}", run_.name, name),
                                               fmt::format("was converted from {} to SI.", target->unit)});
@@ -235,23 +181,23 @@ private:
                     blocks = std::max(blocks, target.block + 1);
         for (std::size_t c = 0; c < targets_.size(); ++c)
             if (targets_[c].series && targets_[c].series->per_block && targets_[c].block >= blocks)
-                throw InputError(file_, line,
+                throw InputError(file_, line.number,
                                  fmt::format("the column \"{}\" is of a block that is not there: they are 0 to {}.",
                                              names_[c], static_cast<long>(blocks) - 1));
         blocks_ = blocks;
     }
 
-    void read_row(std::string_view text, long line)
+    void read_row(const CsvLine& line)
     {
-        const auto parts = fields(text);
+        const auto& parts = line.fields;
         if (parts.size() != targets_.size())
-            throw InputError(file_, line,
+            throw InputError(file_, line.number,
                              fmt::format("has {} fields where there are {} columns: the file is damaged or truncated.",
                                          parts.size(), targets_.size()));
         std::vector<std::pair<Series*, std::size_t>> rows; // of the blocks, where this time begins
         for (std::size_t c = 0; c < parts.size(); ++c) {
             const Target& target = targets_[c];
-            const double value = value_of(parts[c], file_, line, names_[c]) * target.factor;
+            const double value = csv_number(file_, line, c, names_[c]) * target.factor;
             if (!target.series) {
                 run_.time_s.push_back(value);
                 continue;
@@ -434,7 +380,7 @@ Campaign read_measured_csv(const fs::path& folder)
         throw InputError(
             folder.string(), 0,
             fmt::format("is a folder without {}.\n  io/FORMAT.md has the layout of measured data.", toml_name));
-    const TomlValue root = parse_toml(content_of(file, std::uint64_t{1} << 26), file.string());
+    const TomlValue root = parse_toml(csv_content(file, std::uint64_t{1} << 26), file.string());
     const KeyReader top(&root, "", {file.string(), 0, false});
     top.allow_only({"campaign", "specimen", "run"});
     const KeyReader head = top.table("campaign");

@@ -48,6 +48,7 @@ int report_command(const CommonOptions& options, const std::string& file, std::s
 /// @param nulls campaigns with nothing hidden that are simulated to learn what chance gives
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,
                      std::string output, long long nulls, long long seed);
-int info_command(const CommonOptions& options);
+/// @param file measured data, outcomes or results; empty: about the program
+int info_command(const CommonOptions& options, const std::string& file);
 
 } // namespace stylobate

@@ -151,9 +151,11 @@ int main(int argc, char** argv)
     add_common(*report, options);
     report->callback([&] { status = report_command(options, results, page); });
 
-    auto* info = app.add_subcommand("info", "version, instruction sets, threads");
+    std::string held;
+    auto* info = app.add_subcommand("info", "version, instruction sets, threads; or what a file holds");
+    info->add_option("FILE", held, "measured data (HDF5, folder), measured outcomes (CSV) or results");
     add_common(*info, options);
-    info->callback([&] { status = info_command(options); });
+    info->callback([&] { status = info_command(options, held); });
 
     try {
         check_verb(app, argc, argv);

@@ -1,0 +1,18 @@
+#pragma once
+/// Tables of measured outcomes: one line of a CSV file for each test, columns by name. See FORMAT.md.
+
+#include "ensemble/outcome_table.hpp"
+
+#include <filesystem>
+
+namespace stylobate {
+
+/// Reads a table with a column that says whether the specimen fell (`fell`, `collapsed`, `overturned` or `toppled`: 1
+/// or 0, yes or no, true or false, fell or stood) and columns that say what shook it: `motion_file`; `amplitude_m` and
+/// `frequency_hz`; `pga_m_s2` (or `pga_g`) and `pgv_over_pga_s`, or `pgv_m_s`. `motion_id` and `repeat` are counted
+/// from equal motions where they are absent. Rows without an outcome and columns of other names are left out and told.
+///
+/// @throws InputError, naming file, line, column and value
+OutcomeTable read_outcomes(const std::filesystem::path& file);
+
+} // namespace stylobate
