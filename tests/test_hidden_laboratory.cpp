@@ -13,8 +13,7 @@
 #include <numbers>
 #include <regex>
 
-using namespace stylobate;
-using namespace stylobate::hidden;
+namespace stylobate::hidden {
 
 namespace {
 
@@ -443,3 +442,5 @@ TEST(Laboratory, SharesNoContactCodeWithTheKernel)
 }
 
 } // namespace
+
+} // namespace stylobate::hidden
