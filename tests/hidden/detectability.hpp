@@ -8,7 +8,7 @@ namespace stylobate::hidden {
 
 /// Both must be reached: README.md gives the reasons.
 inline constexpr double least_snr_noise = 15;
-inline constexpr double least_snr_scatter = 1.5;
+inline constexpr double least_snr_scatter = 1;
 
 struct Detectability {
     double snr_noise = 0;   ///< against the cameras' noise, summed over windows, blocks, coordinates and runs

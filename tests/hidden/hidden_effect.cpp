@@ -85,7 +85,7 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
     static const std::vector<std::pair<std::string, Draw1>> effects = {
         {"stribeck",
          [](Drawing& d) {
-             const double ratio = d.size("dynamic_ratio", d.draws.uniform(0.5, 0.93));
+             const double ratio = d.size("dynamic_ratio", d.draws.uniform(0.4, 0.9));
              const double over = d.speed() * d.draws.log_uniform(0.03, 0.4);
              d.all_beds([&](BedEffect& bed) {
                  bed.dynamic_ratio = ratio;
@@ -95,7 +95,7 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
         {"joint_friction",
          [](Drawing& d) {
              const bool less = d.draws.chance(0.8);
-             d.a_bed().friction_ratio = d.size("ratio", less ? d.draws.uniform(0.4, 0.92) : d.draws.uniform(1.1, 1.5));
+             d.a_bed().friction_ratio = d.size("ratio", less ? d.draws.uniform(0.4, 0.9) : d.draws.uniform(1.12, 1.6));
          }},
         {"drag",
          [](Drawing& d) { // part of the weight at the velocity of a hard shaking
@@ -131,13 +131,13 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
          }},
         {"friction_wear",
          [](Drawing& d) { // friction lost over a path of a tenth of the width
-             const double k = d.size("wear_per_m", d.draws.log_uniform(0.05, 1) / (0.1 * d.width()));
+             const double k = d.size("wear_per_m", d.draws.log_uniform(0.1, 1.5) / (0.1 * d.width()));
              d.a_bed().wear_per_m = k;
              d.made.effects.persists = d.draws.chance(0.5);
          }},
         {"corner_wear",
          [](Drawing& d) {
-             const double k = d.size("corner_wear_m_rad", d.width() * d.draws.log_uniform(0.005, 0.08));
+             const double k = d.size("corner_wear_m_rad", d.width() * d.draws.log_uniform(0.01, 0.1));
              d.a_bed().corner_wear_m_rad = k;
              d.made.effects.persists = d.draws.chance(0.5);
          }},
@@ -161,17 +161,16 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
          [](Drawing& d) {
              BaseEffect& base = d.base();
              base.distortion_order = 2 + d.draws.below(2);
-             base.distortion_ratio = d.size("ratio", d.draws.sign() * d.draws.log_uniform(0.03, 0.3));
+             base.distortion_ratio = d.size("ratio", d.draws.sign() * d.draws.log_uniform(0.04, 0.35));
          }},
         {"time_offset",
          [](Drawing& d) { // of a period of the middle frequency
              const double period = 1 / std::sqrt(d.planned.band.low_hz * d.planned.band.high_hz);
-             d.base().time_offset_s =
-                 d.size("time_offset_s", d.draws.sign() * period * d.draws.log_uniform(0.005, 0.08));
+             d.base().time_offset_s = d.size("time_offset_s", d.draws.sign() * period * d.draws.log_uniform(0.01, 0.1));
          }},
         {"sensor_gain",
          [](Drawing& d) {
-             const double off = d.draws.log_uniform(0.02, 0.2);
+             const double off = d.draws.log_uniform(0.03, 0.25);
              d.base().gain = d.size("gain", d.draws.chance(0.5) ? 1 / (1 + off) : 1 + off);
          }},
         {"dowel",
@@ -185,8 +184,7 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
         {"adhesion",
          [](Drawing& d) { // of the friction of the same bed
              BedEffect& bed = d.a_bed();
-             bed.adhesion_n_m =
-                 d.size("adhesion_n_m", d.draws.log_uniform(0.1, 1.5) * 0.65 * d.pressed(bed) / d.width());
+             bed.adhesion_n_m = d.size("adhesion_n_m", d.draws.log_uniform(0.3, 2) * 0.65 * d.pressed(bed) / d.width());
          }},
         {"eccentricity",
          [](Drawing& d) {
@@ -211,7 +209,7 @@ const std::vector<std::pair<std::string, Draw1>>& outside()
     static const std::vector<std::pair<std::string, Draw1>> effects = {
         {"heat_memory",
          [](Drawing& d) { // friction lost to the heat of sliding through a tenth of the width
-             const double k = d.size("heat_per_j", d.draws.log_uniform(0.1, 1) / (0.065 * d.weight() * d.width()));
+             const double k = d.size("heat_per_j", d.draws.log_uniform(0.2, 2) / (0.065 * d.weight() * d.width()));
              const double time = d.draws.uniform(0.1, 0.5) * d.planned.band.duration_s;
              d.all_beds([&](BedEffect& bed) {
                  bed.heat_per_j = k;
@@ -227,7 +225,7 @@ const std::vector<std::pair<std::string, Draw1>>& outside()
         {"magnet",
          [](Drawing& d) {
              BodyEffect& body = d.a_body();
-             body.magnet_n = d.size("force_n", d.weight() * d.draws.log_uniform(0.02, 0.3));
+             body.magnet_n = d.size("force_n", d.weight() * d.draws.log_uniform(0.05, 0.4));
              body.magnet_at_m = d.width() * d.draws.sign() * d.draws.uniform(0.1, 0.4);
              body.magnet_range_m = d.width() * d.draws.uniform(0.05, 0.3);
          }},
@@ -251,8 +249,8 @@ const std::vector<std::pair<std::string, Draw1>>& outside()
          [](Drawing& d) {
              BedEffect& bed = d.a_bed();
              bed.patch_drop = d.size("ratio", d.draws.uniform(0.15, 0.7));
-             bed.patch_at_m = d.width() * d.draws.sign() * d.draws.uniform(0.01, 0.05);
-             bed.patch_width_m = d.width() * d.draws.uniform(0.01, 0.03);
+             bed.patch_at_m = d.width() * d.draws.sign() * d.draws.uniform(0, 0.02);
+             bed.patch_width_m = d.width() * d.draws.uniform(0.005, 0.02);
          }},
         {"slosh",
          [](Drawing& d) {

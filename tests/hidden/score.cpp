@@ -137,7 +137,7 @@ Score score(const std::vector<Answer>& answers, const std::vector<std::optional<
     Score total;
     for (int i = 0; i < 5; ++i)
         total.reliability.push_back({0.2 * i, 0.2 * (i + 1), 0, 0, 0});
-    for (const double limit : {1.0, 1.5, 3.0, 6.0, static_cast<double>(INFINITY)})
+    for (const double limit : {0.5, 1.0, 2.0, 4.0, static_cast<double>(INFINITY)})
         total.by_strength.push_back({limit, {}});
     for (std::size_t k = 0; k < answers.size(); ++k) {
         const Answer& answer = answers[k];

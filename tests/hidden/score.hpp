@@ -76,7 +76,7 @@ struct Score {
     int causes = 0;
     std::vector<ReliabilityBin> reliability;
     std::map<std::string, std::map<std::string, int>> confusion; ///< hidden -> said -> campaigns
-    /// hits with the effect's strength over scatter: below 1, 1.5, 3, 6, above
+    /// hits with the effect's strength over scatter: below 0.5, 1, 2, 4, above
     std::vector<std::pair<double, Share>> by_strength;
     double seconds = 0; ///< of all diagnoses
 };
