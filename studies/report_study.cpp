@@ -132,9 +132,9 @@ std::vector<std::pair<std::string, Html>> study_facts(const Study& study)
         perturbed += (perturbed.empty() ? "" : ", ") + std::string(to_string(p.quantity));
     std::replace(perturbed.begin(), perturbed.end(), '_', ' ');
     std::string mechanisms;
-    for (const MechanismSpec& spec : study.mechanisms)
-        if (const std::string name = to_string(spec.mechanism); mechanisms.find(name) == std::string::npos)
-            mechanisms += fmt::format("{}{} ({})", mechanisms.empty() ? "" : ", ", name, rule_of(spec.mechanism).says);
+    for (std::size_t i = 0; i < study.mechanisms.size(); ++i)
+        if (const Mechanism one = study.mechanisms[i].mechanism; i == 0 || study.mechanisms[i - 1].mechanism != one)
+            mechanisms += fmt::format("{}{} ({})", i == 0 ? "" : ", ", to_string(one), rule_of(one).says);
     return {{"Structure", structure_text(study, layout)},
             {"Contact", contact_text(study.contact)},
             {"Excitation", excitation_text(study)},
