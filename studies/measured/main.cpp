@@ -46,6 +46,7 @@ int run(Options o)
 {
     o.place.data = fs::absolute(o.place.data);
     o.place.docs = fs::absolute(o.place.docs);
+    o.place.studies = o.place.studies.empty() ? o.place.docs : fs::absolute(o.place.studies);
     o.place.run = {o.common.isa(), o.common.thread_count()};
     o.place.quiet = o.common.quiet;
     for (const PageCase& c : chosen(o.names)) {
@@ -54,6 +55,7 @@ int run(Options o)
             continue;
         }
         fs::create_directories(o.place.images());
+        fs::create_directories(o.place.studies);
         c.write(o.place);
         fmt::print("{}: {}\n", c.name, (o.place.docs / (c.name + ".md")).string());
         std::fflush(stdout);
@@ -70,6 +72,7 @@ int main(int argc, char** argv)
     o.place.docs = "docs/measured";
     app.add_option("DATA_DIR", o.place.data, "folder of the measured data")->required();
     app.add_option("-o,--output", o.place.docs, "folder of the pages")->capture_default_str();
+    app.add_option("--studies", o.place.studies, "folder of the study files of the fitted models [that of the pages]");
     app.add_option("--case", o.names, "only these")->delimiter(',');
     app.add_option("--threads", o.common.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));

@@ -4,7 +4,7 @@ namespace stylobate::measured {
 
 std::vector<PageCase> all_page_cases()
 {
-    return {};
+    return {{"rock_shake_table", "rock_shake_table", rock_shake_table}};
 }
 
 } // namespace stylobate::measured

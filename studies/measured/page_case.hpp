@@ -12,10 +12,11 @@ namespace stylobate::measured {
 
 /// Where a case finds its data and puts its page, and how it may run.
 struct PagePlace {
-    std::filesystem::path data; ///< folder of all measured data; a case reads its own folder in it
-    std::filesystem::path docs; ///< the page is docs/NAME.md, its pictures lie in docs/images
-    RunOptions run;             ///< instruction set and threads
-    bool quiet = false;         ///< no lines on standard error about what is being done
+    std::filesystem::path data;    ///< folder of all measured data; a case reads its own folder in it
+    std::filesystem::path docs;    ///< the page is docs/NAME.md, its pictures lie in docs/images
+    std::filesystem::path studies; ///< where the study files of the fitted models go
+    RunOptions run;                ///< instruction set and threads
+    bool quiet = false;            ///< no lines on standard error about what is being done
 
     std::filesystem::path images() const { return docs / "images"; }
 };
@@ -26,6 +27,9 @@ struct PageCase {
     std::string folder;                          ///< in the data folder; a case whose folder is absent is skipped
     std::function<void(const PagePlace&)> write; ///< computes, draws, writes the page
 };
+
+/// The cases.
+void rock_shake_table(const PagePlace& place);
 
 /// All of them, in the order of their names.
 std::vector<PageCase> all_page_cases();
