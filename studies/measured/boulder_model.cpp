@@ -16,13 +16,6 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-Realization realization_of(const BoulderModel& model, const Motion* motion)
-{
-    Realization r = Sampler(boulder_study(model), motion).realization(0);
-    r.base_tilt_rad = model.tilt_rad;
-    return r;
-}
-
 } // namespace
 
 double BoulderModel::rocking_rate_rad_s() const
@@ -52,35 +45,6 @@ Study boulder_study(const BoulderModel& model, std::uint64_t realizations)
     }
     study.text = study_text(study);
     return study;
-}
-
-std::vector<char> falls_in(const Motion& motion, const std::vector<BoulderModel>& models, Isa isa)
-{
-    std::vector<char> falls(models.size());
-    if (motion.empty())
-        return falls;
-    const Study study = boulder_study(models.front());
-    LaneSet set(study, &motion, kernels(isa), realization_of(models.front(), &motion));
-    std::vector<std::size_t> in_lane(static_cast<std::size_t>(set.lanes()));
-    std::size_t next = 0;
-    const auto refill = [&](int lane) {
-        set.clear(lane);
-        if (next < models.size()) {
-            in_lane[static_cast<std::size_t>(lane)] = next;
-            set.load(lane, realization_of(models[next++], &motion));
-        }
-    };
-    for (int lane = 0; lane < set.lanes(); ++lane)
-        refill(lane);
-    while (set.active() > 0) {
-        set.advance();
-        for (int lane = 0; lane < set.lanes(); ++lane)
-            if (!set.free(lane) && set.outcome(lane)) {
-                falls[in_lane[static_cast<std::size_t>(lane)]] = set.outcome(lane)->state == State::collapsed;
-                refill(lane);
-            }
-    }
-    return falls;
 }
 
 double share_falling(const Study& study, const Motion& motion, const RunOptions& run)

@@ -17,7 +17,6 @@ struct BoulderModel {
     double height_m = 0.5;              ///< of the rectangle, twice that of its centre
     double normal_stiffness_n_m2 = 1e9; ///< K_N
     double damping_ratio = 0.1;         ///< of both dashpots
-    double tilt_rad = 0;           ///< one-sidedness: falls from alpha - tilt to one side, alpha + tilt to the other
     double slenderness_spread = 0; ///< of a study's ensemble: sigma of ln(width)
 
     /// Of the equal rigid block, p = sqrt(3 g / (4 R)) [rad/s].
@@ -31,10 +30,6 @@ inline constexpr double boulder_friction = 0.7;
 /// The study of such a block, as `stylobate run` takes it; its record is to be given.
 /// @param realizations 1 without a spread
 Study boulder_study(const BoulderModel& model, std::uint64_t realizations = 1);
-
-/// Whether each of several blocks falls in a test; without their spread.
-/// @return (models) 1 for a fall; none in an empty motion
-std::vector<char> falls_in(const Motion& motion, const std::vector<BoulderModel>& models, Isa isa);
 
 /// Share of the realizations of a study that fall in a test.
 /// @throws InputError if realizations were invalid

@@ -121,7 +121,7 @@ Predictor judged(const BoulderResults& r, const std::string& name, const Boulder
         study[s] =
             parse_study(boulder_study(fit.model[s], fit.model[s].slenderness_spread > 0 ? realizations : 1).text, name);
     Predictor p = predictor(r, name, [&](std::size_t i, std::size_t s) {
-        return fit.probability(share_falling(study[s], r.data.tests[i].motion, run));
+        return with_slip(share_falling(study[s], r.data.tests[i].motion, run), fit.slip);
     });
     p.log_likelihood = fit.log_likelihood;
     return p;
@@ -135,17 +135,17 @@ Predictor box(const BoulderResults& r, const RunOptions& run)
     model.slenderness = std::min(r.body.extent_m[0], r.body.extent_m[1]) / model.height_m;
     std::vector<bool> falls;
     for (const BoulderTest& test : r.data.tests)
-        falls.push_back(falls_in(test.motion, {model}, run.isa)[0] != 0);
+        falls.push_back(falls_in(test.motion, {boulder_study(model)}, run.isa)[0] != 0);
     std::array<Answers, boulders> value{worth(r, 0, falls), worth(r, 1, falls)};
     return predictor(r, "block of the size of the boulder's box",
                      [&](std::size_t i, std::size_t s) { return value[s].of(falls[i]); });
 }
 
 /// From the table itself, for tests that are in one half or the other.
-std::vector<Forecast> from_table(const BoulderData& data, const std::vector<FallTable>& tables, const BoulderFit& fit,
+std::vector<Forecast> from_table(const BoulderData& data, const std::vector<BoulderTable>& tables, const BoulderFit& fit,
                                  const std::vector<bool>& use)
 {
-    const auto table = std::find_if(tables.begin(), tables.end(), [&](const FallTable& t) {
+    const auto table = std::find_if(tables.begin(), tables.end(), [&](const BoulderTable& t) {
         return t.variant.height_m == fit.model[0].height_m &&
                t.variant.normal_stiffness_n_m2 == fit.model[0].normal_stiffness_n_m2 &&
                t.variant.damping_ratio == fit.model[0].damping_ratio;
@@ -153,11 +153,11 @@ std::vector<Forecast> from_table(const BoulderData& data, const std::vector<Fall
     std::vector<Forecast> forecasts;
     for (std::size_t s = 0; s < boulders; ++s) {
         const auto median = static_cast<std::size_t>(
-            std::find(table->slenderness.begin(), table->slenderness.end(), fit.model[s].slenderness) -
-            table->slenderness.begin());
+            std::find(table->falls.slenderness.begin(), table->falls.slenderness.end(), fit.model[s].slenderness) -
+            table->falls.slenderness.begin());
         for (std::size_t i = 0; i < data.tests.size(); ++i)
             if (use[i])
-                forecasts.push_back({fit.probability(table->share(i, median, fit.model[s].slenderness_spread)),
+                forecasts.push_back({with_slip(table->falls.share(i, median, fit.model[s].slenderness_spread), fit.slip),
                                      data.tests[i].fell[s], data.tests[i].ground_motion});
     }
     return forecasts;
@@ -207,7 +207,7 @@ void rock_shake_table(const PagePlace& place)
     r.fitting_motions = fitting.size();
     r.held_motions = held.size();
 
-    std::vector<FallTable> tables;
+    std::vector<BoulderTable> tables;
     for (const double ratio : damping_ratios) {
         for (const double stiffness : stiffnesses)
             for (const double height : heights) {
@@ -222,13 +222,13 @@ void rock_shake_table(const PagePlace& place)
             }
     }
     const auto with_ratio = [&](double ratio) {
-        std::vector<FallTable> some;
-        for (const FallTable& table : tables)
+        std::vector<BoulderTable> some;
+        for (const BoulderTable& table : tables)
             if (table.variant.damping_ratio == ratio)
                 some.push_back(table);
         return some;
     };
-    const std::vector<FallTable> plain = with_ratio(damping_ratios.front());
+    const std::vector<BoulderTable> plain = with_ratio(damping_ratios.front());
     r.baseline = best_fit(plain, r.data.tests, r.fits, no_spread);
     r.scattered = best_fit(plain, r.data.tests, r.fits, spreads);
     r.extended = best_fit(tables, r.data.tests, r.fits, spreads);
@@ -242,8 +242,8 @@ void rock_shake_table(const PagePlace& place)
     }
     for (const double ratio : damping_ratios)
         for (const double stiffness : stiffnesses) {
-            std::vector<FallTable> some = with_ratio(ratio);
-            std::erase_if(some, [&](const FallTable& t) { return t.variant.normal_stiffness_n_m2 != stiffness; });
+            std::vector<BoulderTable> some = with_ratio(ratio);
+            std::erase_if(some, [&](const BoulderTable& t) { return t.variant.normal_stiffness_n_m2 != stiffness; });
             Dissipation d{best_fit(some, r.data.tests, r.fits, spreads), 0, 0};
             d.restitution = restitution(d.best.model[0]);
             const double sine = std::sin(std::atan(d.best.model[0].slenderness));
