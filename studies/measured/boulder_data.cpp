@@ -35,24 +35,14 @@ std::vector<double> read_acceleration(const hdf5::Handle& file, const std::strin
 
 Motion strong_motion(const std::vector<double>& acceleration, const std::string& source)
 {
-    Motion motion;
-    motion.dt_s = spacing_s;
+    const auto [first, last] = strong_part(acceleration, spacing_s, still_below_m_s2);
+    if (first == last)
+        return {};
+    Motion motion = motion_of({acceleration.begin() + static_cast<std::ptrdiff_t>(first),
+                               acceleration.begin() + static_cast<std::ptrdiff_t>(last)},
+                              spacing_s);
     motion.source = source;
     motion.predominant_frequency_hz = 1; // nothing stretches it
-    const auto [first, last] = strong_part(acceleration, spacing_s, still_below_m_s2);
-    motion.acceleration_m_s2.assign(acceleration.begin() + static_cast<std::ptrdiff_t>(first),
-                                    acceleration.begin() + static_cast<std::ptrdiff_t>(last));
-    double v = 0, u = 0, before = 0;
-    for (const double a : motion.acceleration_m_s2) {
-        // linear between samples
-        const double d = motion.velocity_m_s.empty() ? 0 : spacing_s;
-        u += v * d + d * d * (before / 3 + a / 6);
-        v += d * (before + a) / 2;
-        motion.velocity_m_s.push_back(v);
-        motion.displacement_m.push_back(u);
-        motion.pga_m_s2 = std::max(motion.pga_m_s2, std::fabs(a));
-        before = a;
-    }
     return motion;
 }
 

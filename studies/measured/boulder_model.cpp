@@ -33,9 +33,14 @@ Study boulder_study(const BoulderModel& model, std::uint64_t realizations)
     study.contact.tangential_stiffness_n_m = model.normal_stiffness_n_m2 * width;
     study.contact.normal_damping_ratio = model.damping_ratio;
     study.contact.tangential_damping_ratio = model.damping_ratio;
+    study.contact.damping = model.ends ? DampingAt::ends : DampingAt::centroid;
     study.contact.friction = boulder_friction;
-    study.excitation.kind = ExcitationKind::record;
-    study.excitation.baseline = false;
+    study.excitation.kind = ExcitationKind::table;
+    if (model.eccentricity_m != 0) {
+        MechanismSpec eccentricity = neutral_spec(Mechanism::eccentricity, boulder_friction);
+        eccentricity.values[0] = model.eccentricity_m;
+        study.mechanisms.push_back(eccentricity);
+    }
     if (model.slenderness_spread > 0) {
         Perturbation width_spread;
         width_spread.quantity = Quantity::drum_width;

@@ -17,7 +17,9 @@ struct BoulderModel {
     double height_m = 0.5;              ///< of the rectangle, twice that of its centre
     double normal_stiffness_n_m2 = 1e9; ///< K_N
     double damping_ratio = 0.1;         ///< of both dashpots
-    double slenderness_spread = 0; ///< of a study's ensemble: sigma of ln(width)
+    bool ends = false;                  ///< whether the normal dashpot acts at the ends of the contact (face damping)
+    double eccentricity_m = 0;          ///< of the centre of mass: the block falls more easily to one side
+    double slenderness_spread = 0;      ///< of a study's ensemble: sigma of ln(width)
 
     /// Of the equal rigid block, p = sqrt(3 g / (4 R)) [rad/s].
     double rocking_rate_rad_s() const;

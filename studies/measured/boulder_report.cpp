@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -22,10 +23,29 @@ std::string signed_interval(const Estimate& e)
     return fmt::format("{:+.3f} ({:+.3f} to {:+.3f})", e.mean, e.low, e.high);
 }
 
+std::string dashpot_text(const BoulderModel& m)
+{
+    return fmt::format("{}, {:g}", m.ends ? "ends" : "centroid", m.damping_ratio);
+}
+
 /// In words, whether an interval leaves a sign.
 const char* firmness(const Estimate& e)
 {
     return e.low > 0 || e.high < 0 ? "" : ", an interval that holds 0";
+}
+
+/// Log-likelihood that one more free number has to bring: likelihoods of neighbouring heights and stiffnesses differ by
+/// as much where outcomes are chaotic.
+constexpr double asks_for_it = 3;
+
+/// What the block of a fit keeps of its speed at an impact.
+double restitution_of(const BoulderResults& r, const BoulderFit& f)
+{
+    for (const Dissipation& d : r.dissipation)
+        if (d.best.model[0].ends == f.model[0].ends && d.best.model[0].damping_ratio == f.model[0].damping_ratio &&
+            d.best.model[0].normal_stiffness_n_m2 == f.model[0].normal_stiffness_n_m2)
+            return d.restitution;
+    return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string scores_row(const Predictor& p)
@@ -39,9 +59,9 @@ std::string scores_row(const Predictor& p)
 std::string model_row(const std::string& name, const BoulderFit& f)
 {
     const BoulderModel& m = f.model[0];
-    return fmt::format("| {} | {:.3f}, {:.3f} | {:.2f} | {:.2f} | {:g} | {:g} | {:g} | {:g} |\n", name, m.slenderness,
+    return fmt::format("| {} | {:.3f}, {:.3f} | {:.2f} | {:.2f} | {:g} | {} | {:g} | {:g} |\n", name, m.slenderness,
                        f.model[1].slenderness, m.height_m, m.rocking_rate_rad_s(), m.normal_stiffness_n_m2,
-                       m.damping_ratio, m.slenderness_spread, f.slip);
+                       dashpot_text(m), m.slenderness_spread, f.slip);
 }
 
 /// Errors of two predictors in bins of a quantity of the tests.
@@ -71,10 +91,9 @@ std::string error_table(const BoulderResults& r, const std::string& heading, con
             }
             ++k;
         }
-    std::string text =
-        fmt::format("| {} | tests | fell | baseline: false falls | false stands | extended: false falls | "
-                    "false stands |\n|---|---|---|---|---|---|---|\n",
-                    heading);
+    std::string text = fmt::format("| {} | tests | fell | baseline: false falls | false stands | extended: false falls "
+                                   "| false stands |\n|---|---|---|---|---|---|---|\n",
+                                   heading);
     for (std::size_t b = 0; b < bins.size(); ++b) {
         const std::string range = b == 0              ? fmt::format("below {:g}", edges.front())
                                   : b == edges.size() ? fmt::format("from {:g}", edges.back())
@@ -103,9 +122,8 @@ std::string motion_table(const BoulderResults& r)
             ++which;
         }
     }
-    std::string text =
-        "| ground motion | tests (both boulders) | baseline: false falls | false stands | extended: false falls | "
-        "false stands |\n|---|---|---|---|---|---|\n";
+    std::string text = "| ground motion | tests (both boulders) | baseline: false falls | false stands | extended: "
+                       "false falls | false stands |\n|---|---|---|---|---|---|\n";
     std::size_t clean = 0;
     for (const auto& [name, e] : motions) {
         if (e.all(0) + e.all(1) == 0)
@@ -157,18 +175,14 @@ std::string data_section(const BoulderResults& r)
     }
     return fmt::format(
         "## The data\n\nTwo granite boulders of 354 kg, side by side on a shaking table, and whether each fell; "
-        "published "
-        "by their experimenters with the repository of a virtual shaking robot (github "
+        "published by their experimenters with the repository of a virtual shaking robot (github "
         "ZhiangChen/virtual_shake_robot_pybullet, data/Shake_Table_Response). {} tests have the measured motion of the "
         "table (boulder 1 fell in {}, boulder 2 in {}); {} more tests have outcomes but no measured motion here and "
-        "are "
-        "left out.\n\n"
+        "are left out.\n\n"
         "The rule of the split: the ground motions in the order of their names, every second one, from the first on, "
-        "is "
-        "for fitting, and the others are held out. No motion is in both. {} motions with {} tests are fitted on, {} "
+        "is for fitting, and the others are held out. No motion is in both. {} motions with {} tests are fitted on, {} "
         "motions with {} tests (twice that many outcomes) are held out: all scores below are of these. Intervals are "
-        "95 % "
-        "of a bootstrap that draws whole motions, because tests of one motion are not independent.\n\n",
+        "95 % of a bootstrap that draws whole motions, because tests of one motion are not independent.\n\n",
         r.data.tests.size(), falls[0], falls[1], r.data.without_motion, r.fitting_motions, fitted, r.held_motions,
         r.data.tests.size() - fitted);
 }
@@ -177,57 +191,52 @@ std::string model_section(const BoulderResults& r)
 {
     std::string text =
         "## The models\n\nA planar rigid rectangle on the table, moved by the measured acceleration (from half a "
-        "second "
-        "before it first exceeds 0.6 m/s2 to half a second after it last does), contacts by area with dashpots at the "
-        "centroid of the overlap, friction 0.7: the engine as it is. The boulders share all but the slenderness. "
-        "Everything is fitted by the likelihood of the outcomes of the fitting half, over a grid: 24 slendernesses "
-        "from "
-        "0.1 to 0.45, 4 heights, 3 stiffnesses, and, extended, 3 damping ratios and 6 spreads. A test ends *as it "
-        "likes* "
-        "with probability `slip`, which keeps a yes-or-no model from being infinitely wrong once.\n\n"
-        "- *baseline*: one realization, damping ratio 0.1.\n"
+        "second before it first exceeds 0.6 m/s2 to half a second after it last does), contacts by area with dashpots "
+        "at the centroid of the overlap, friction 0.7: the engine as it is. The boulders share all but the "
+        "slenderness. Everything is fitted by the likelihood of the outcomes of the fitting half, over a grid: 24 "
+        "slendernesses from 0.1 to 0.45, 3 heights, 3 stiffnesses, and, extended, 4 dashpots and 6 spreads. A test "
+        "ends *as it likes* with probability `slip`, which keeps a yes-or-no model from being infinitely wrong "
+        "once.\n\n"
+        "- *baseline*: one realization, dashpots of ratio 0.1 at the centroid.\n"
         "- *with scatter*: the width differs from test to test (lognormal): an ensemble gives the probability of "
         "falling.\n"
-        "- *extended*: and the dashpots' ratio is free: more is lost in an impact.\n\n"
-        "| model | slenderness (boulder 1, 2) | height [m] | p [rad/s] | K_N [N/m2] | damping ratio | spread | slip |\n"
+        "- *extended*: and the dashpot is free: its ratio, and whether it acts at the centroid or at the ends of the "
+        "contact, where it takes up rotation (`damping = \"ends\"`): more is lost in an impact.\n\n"
+        "| model | slenderness (boulder 1, 2) | height [m] | p [rad/s] | K_N [N/m2] | dashpot, ratio | spread | slip "
+        "|\n"
         "|---|---|---|---|---|---|---|---|\n";
     text +=
         model_row("baseline", r.baseline) + model_row("with scatter", r.scattered) + model_row("extended", r.extended);
-    return text +
-           fmt::format("\nThe two models are the study files [boulder_baseline.toml](../../studies/measured/"
-                       "boulder_baseline.toml) and [boulder_extended.toml](../../studies/measured/"
-                       "boulder_extended.toml); the held-out scores are those of these studies, with {} realizations "
-                       "in each test.\n\n",
-                       r.realizations);
+    return text + fmt::format("\nThe two models are the study files "
+                              "[boulder_baseline.toml](../../studies/measured/boulder_baseline.toml) and "
+                              "[boulder_extended.toml](../../studies/measured/boulder_extended.toml); the held-out "
+                              "scores are those of these studies, with {} realizations in each test.\n\n",
+                              r.realizations);
 }
 
 std::string judgement_section(const BoulderResults& r)
 {
-    std::string text =
-        "## What it predicts of the held-out half\n\n| predictor | log-likelihood of the fitting half | right | "
-        "false falls | false stands | Brier | log |\n|---|---|---|---|---|---|---|\n";
+    std::string text = "## What it predicts of the held-out half\n\n| predictor | log-likelihood of the fitting half | "
+                       "right | false falls | false stands | Brier | log |\n|---|---|---|---|---|---|---|\n";
     for (const Predictor* p :
          {&r.by_rate, &r.by_box, &r.by_published, &r.by_intensity, &r.by_baseline, &r.by_scattered, &r.by_extended})
         text += scores_row(*p);
-    text += fmt::format("\nA yes-or-no answer of the published models, of the baseline's block or of the box gets the "
-                        "probability that it "
-                        "deserved in the fitting half. Brier and log scores are better the smaller they "
-                        "are.\n\n![Share of the held-out "
-                        "outcomes that each predictor gets right]({}rock_shake_table_scores.png)\n\n| gain of the "
-                        "extended model over | right | Brier | log |\n|---|---|---|---|\n",
-                        "images/");
+    text += fmt::format(
+        "\nA yes-or-no answer of the published models, of the baseline's block or of the box gets the probability that "
+        "it deserved in the fitting half. Brier and log scores are better the smaller they are.\n\n![Share of the "
+        "held-out outcomes that each predictor gets right]({}rock_shake_table_scores.png)\n\n| gain of the extended "
+        "model over | right | Brier | log |\n|---|---|---|---|\n",
+        "images/");
     for (const Predictor* p : {&r.by_baseline, &r.by_scattered, &r.by_intensity, &r.by_published})
         text += fmt::format("| {} | {} | {} | {} |\n", p->name,
                             signed_interval(difference(r.by_extended.held, p->held, share_right)),
                             signed_interval(difference(r.by_extended.held, p->held, brier)),
                             signed_interval(difference(r.by_extended.held, p->held, log_loss)));
-    text +=
-        fmt::format("\nWith the halves exchanged (fitted on the held-out half, judged on the fitting half), the gain "
-                    "over the baseline is {} of right answers and {} of the Brier score.\n\n",
-                    signed_interval(r.swapped_right), signed_interval(r.swapped_brier));
-    text +=
-        "Each boulder by itself, and every published numerical model on the same held-out tests:\n\n| boulder | model "
-        "| right | false falls | false stands |\n|---|---|---|---|---|\n";
+    text += fmt::format("\nWith the halves exchanged (fitted on the held-out half, judged on the fitting half), the "
+                        "gain over the baseline is {} of right answers and {} of the Brier score.\n\n",
+                        signed_interval(r.swapped_right), signed_interval(r.swapped_brier));
+    text += "Each boulder by itself, and every published numerical model on the same held-out tests:\n\n| boulder | "
+            "model | right | false falls | false stands |\n|---|---|---|---|---|\n";
     for (std::size_t s = 0; s < boulders; ++s) {
         for (const Predictor& p : r.published[s]) {
             const Scores score_of = score(p.held);
@@ -243,58 +252,45 @@ std::string judgement_section(const BoulderResults& r)
 
 std::string cause_section(const BoulderResults& r)
 {
-    const Dissipation *first = &r.dissipation.front(), *best = first;
-    for (const Dissipation& d : r.dissipation)
-        if (d.best.log_likelihood > best->best.log_likelihood)
-            best = &d;
     std::string text = "## What it gets wrong, and where\n\n";
     text += error_table(r, "PGA [g]", {0.2, 0.4, 0.7, 1.1}, [](const BoulderTest& t) { return t.pga_g; });
     text +=
         error_table(r, "PGV/PGA [s]", {0.03, 0.05, 0.08, 0.12}, [](const BoulderTest& t) { return t.pgv_over_pga_s; });
     text += motion_table(r);
-    text += "![Held-out tests of boulder 1 over PGA and PGV/PGA, with what the baseline says of them]("
-            "images/rock_shake_table_errors.png)\n\n## Why\n\n**The box is not what stands on the table.** ";
+    text += "![Held-out tests of boulder 1 over PGA and PGV/PGA, with what the baseline says of "
+            "them](images/rock_shake_table_errors.png)\n\n## Why\n\n**The box is not what stands on the table.** ";
     double least = 1e9, most = 0;
     for (const Stance& s : r.stances) {
         least = std::min(least, s.effective_slenderness());
         most = std::max(most, s.effective_slenderness());
     }
+    text +=
+        fmt::format("The photogrammetric shape has a bounding box of {:.2f} x {:.2f} x {:.2f} m, but it stands on a "
+                    "small part of its underside, out of its middle: leaned as its convex hull over its lowest points, "
+                    "it needs to rise as much as a rectangle of slenderness {:.2f} in its weakest direction and of "
+                    "{:.2f} in its strongest one. The fitted {:.2f} and {:.2f} lie near the weakest. (Which direction "
+                    "was shaken is not known; the orientation of the mesh, z up, is read from its lowest points being "
+                    "a stance.)\n\n![Slenderness of the boulder by direction](images/rock_shake_table_stance.png)\n\n",
+                    r.body.extent_m[0], r.body.extent_m[1], r.body.extent_m[2], least, most,
+                    r.extended.model[0].slenderness, r.extended.model[1].slenderness);
     text += fmt::format(
-        "The photogrammetric shape has a bounding box of {:.2f} x {:.2f} x {:.2f} m, but it stands on a small part of "
-        "its underside, out of its middle: leaned as its convex hull over its lowest points, it needs to rise as "
-        "much as a rectangle of slenderness {:.2f} in its weakest direction and of {:.2f} in its strongest one. The "
-        "fitted "
-        "{:.2f} and {:.2f} lie near the weakest. (Which direction was shaken is not known; the orientation of the "
-        "mesh, z "
-        "up, is read from its lowest points being a stance.)\n\n![Slenderness of the boulder by direction]("
-        "images/rock_shake_table_stance.png)\n\n",
-        r.body.extent_m[0], r.body.extent_m[1], r.body.extent_m[2], least, most, r.extended.model[0].slenderness,
-        r.extended.model[1].slenderness);
-    text += fmt::format(
-        "**Too little is lost in an impact.** What the engine's block keeps of its rocking speed at an impact, "
-        "measured in "
-        "free rocking, against how likely the fitting half is, each with its best size, slenderness and spread:\n\n"
-        "| damping ratio | K_N [N/m2] | restitution e | Housner's e | log-likelihood |\n|---|---|---|---|---|\n");
+        "**Is too little lost in an impact?** A dashpot at the centroid of the contact hardly damps rocking, so the "
+        "engine's block keeps more of its rocking speed at an impact than Housner's; a boulder on facetted edges may "
+        "keep less. What it keeps, measured in free rocking, against how likely the outcomes of the fitting half are, "
+        "each dashpot with its best height, slendernesses and spread:\n\n"
+        "| dashpot, ratio | K_N [N/m2] | restitution e | Housner's e | log-likelihood |\n|---|---|---|---|---|\n");
     for (const Dissipation& d : r.dissipation)
-        text += fmt::format("| {:g} | {:g} | {:.3f} | {:.3f} | {:.1f} |\n", d.best.model[0].damping_ratio,
+        text += fmt::format("| {} | {:g} | {:.3f} | {:.3f} | {:.1f} |\n", dashpot_text(d.best.model[0]),
                             d.best.model[0].normal_stiffness_n_m2, d.restitution, d.housner, d.best.log_likelihood);
-    text += fmt::format(
-        "\nThe most likely of them keeps e = {:.3f}, the default ratio at its best {:.3f}; the difference in "
-        "log-likelihood is {:.1f}. A dashpot at the centroid of the contact hardly damps rocking unless the bed is "
-        "soft; "
-        "a boulder on rounded, facetted edges loses more than a rectangle on two sharp ones.\n\n![Log-likelihood of "
-        "the "
-        "fitting half over the restitution](images/rock_shake_table_restitution.png)\n\n",
-        best->restitution,
-        std::max_element(r.dissipation.begin(), r.dissipation.end(),
-                         [](const Dissipation& a, const Dissipation& b) {
-                             const auto value = [](const Dissipation& d) {
-                                 return d.best.model[0].damping_ratio == 0.1 ? d.best.log_likelihood : -1e300;
-                             };
-                             return value(a) < value(b);
-                         })
-            ->restitution,
-        r.extended.log_likelihood - r.scattered.log_likelihood);
+    const double gain = r.extended.log_likelihood - r.scattered.log_likelihood;
+    text += fmt::format("\nThe likeliest of all is {} with e = {:.3f}; the baseline's dashpot at its best has e = "
+                        "{:.3f} and a log-likelihood that is {:.1f} lower. {}\n\n![Log-likelihood of the fitting half "
+                        "over the restitution](images/rock_shake_table_restitution.png)\n\n",
+                        dashpot_text(r.extended.model[0]), restitution_of(r, r.extended),
+                        restitution_of(r, r.scattered), gain,
+                        gain > asks_for_it ? "The outcomes ask for more loss than the baseline has."
+                                           : "That is no more than tables of chaotic outcomes differ by for no reason: "
+                                             "falls alone do not ask for another dissipation.");
     text += "**The tests themselves scatter.** ";
     for (std::size_t s = 0; s < boulders; ++s) {
         const Repeats found = repeats(r.data, s);
@@ -305,9 +301,8 @@ std::string cause_section(const BoulderResults& r)
     }
     text += fmt::format(
         "No deterministic prediction can get these right; scatter alone changes the Brier score by {} and the log "
-        "score by "
-        "{}{}.\n\n**One-sidedness** (the block falls more easily to one side) was tried and not kept: at the best "
-        "model's values, its best tilt has a log-likelihood of {:.1f} against {:.1f}.\n\n",
+        "score by {}{}.\n\n**One-sidedness** (the block falls more easily to one side) was tried and not kept: at the "
+        "best model's values, its best tilt has a log-likelihood of {:.1f} against {:.1f}.\n\n",
         signed_interval(difference(r.by_scattered.held, r.by_baseline.held, brier)),
         signed_interval(difference(r.by_scattered.held, r.by_baseline.held, log_loss)),
         firmness(difference(r.by_scattered.held, r.by_baseline.held, brier)), r.one_sided.log_likelihood,
@@ -319,16 +314,14 @@ std::string limits()
 {
     return "## Limits\n\n"
            "- The boulder is not planar: it can wobble, twist and walk. The block is an effective one for falls under "
-           "this "
-           "table's motions, not the boulder; its slenderness, height and dissipation are not measured properties.\n"
+           "this table's motions, not the boulder; its slenderness, height and dissipation are not measured "
+           "properties.\n"
            "- The direction of shaking against the boulder is unknown, and so is which side fell; the two closed "
-           "meshes "
-           "may be of one and the same boulder.\n"
+           "meshes may be of one and the same boulder.\n"
            "- Units of the published KN and KS are not given; what they mean is not judged here, only their answers.\n"
            "- One campaign, two boulders of one mass. Nothing is said of other sizes or of columns.\n"
            "- What is named as dissipation is what a single number for it can say; rounded edges, several contact "
-           "points and "
-           "out-of-plane motion lose energy too and are not told apart by falls alone.\n";
+           "points and out-of-plane motion lose energy too and are not told apart by falls alone.\n";
 }
 
 } // namespace
@@ -338,14 +331,12 @@ std::string boulder_page(const BoulderResults& r, const std::string&)
     const Scores before = score(r.by_baseline.held), after = score(r.by_extended.held);
     return fmt::format(
                "# Boulders on a shaking table\n\nWritten by `scripts/measured.sh --case rock_shake_table` from its "
-               "runs; "
-               "not by hand. Version {}.\n\n"
+               "runs; not by hand. Version {}.\n\n"
                "Does the engine know which of two real boulders falls? On ground motions that nothing was fitted on, a "
-               "fitted planar block is right in {:.1f} % of the outcomes (Brier score {:.3f}); with scatter between "
-               "tests "
-               "and more loss at impacts in {:.1f} % ({:.3f}). The gain is {} of right answers{} and {} of the Brier "
-               "score{}. The logistic rule of two intensities is right in {:.1f} % ({:.3f}), the published numerical "
-               "model that was best on the fitting half in {:.1f} %.\n\n",
+               "fitted planar block is right in {:.1f} % of the outcomes (Brier score {:.3f}); extended by scatter "
+               "between tests and a free dashpot in {:.1f} % ({:.3f}). The gain is {} of right answers{} and {} of the "
+               "Brier score{}. The logistic rule of two intensities is right in {:.1f} % ({:.3f}), the published "
+               "numerical model that was best on the fitting half in {:.1f} %.\n\n",
                code_version(), 100 * before.right, before.brier, 100 * after.right, after.brier,
                signed_interval(difference(r.by_extended.held, r.by_baseline.held, share_right)),
                firmness(difference(r.by_extended.held, r.by_baseline.held, share_right)),
@@ -387,7 +378,7 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
     Series fits_best{"", {}, {}};
     std::vector<Series> by_ratio;
     for (const Dissipation& d : r.dissipation) {
-        const std::string title = fmt::format("damping ratio {:g}", d.best.model[0].damping_ratio);
+        const std::string title = dashpot_text(d.best.model[0]);
         if (by_ratio.empty() || by_ratio.back().title != title)
             by_ratio.push_back({title, {}, {}});
         by_ratio.back().x.push_back(d.restitution);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stylobate::measured {
 
@@ -48,25 +49,15 @@ Motion base_motion_of(const DoublePulse& test, double pulse_s)
     const auto samples_apart = std::max(2 * per_half, std::lround(apart / half * static_cast<double>(per_half)));
     const double dt = apart / static_cast<double>(samples_apart);
     const double peak = test.velocity_m_s / (static_cast<double>(per_half) * dt);
-    Motion motion;
-    motion.dt_s = dt;
-    motion.predominant_frequency_hz = 1; // nothing stretches it
-    motion.source = fmt::format("{} m/s over {} m", test.velocity_m_s, test.distance_m);
     const auto triangle = [&](long from_middle) {
         return peak * std::max(0.0, 1 - std::fabs(static_cast<double>(from_middle)) / static_cast<double>(per_half));
     };
-    double v = 0, u = 0, before = 0;
-    for (long i = 0; i <= samples_apart + 2 * per_half; ++i) {
-        const double a = triangle(i - per_half) - triangle(i - per_half - samples_apart);
-        const double d = i == 0 ? 0 : dt;
-        u += v * d + d * d * (before / 3 + a / 6); // linear between samples
-        v += d * (before + a) / 2;
-        motion.acceleration_m_s2.push_back(a);
-        motion.velocity_m_s.push_back(v);
-        motion.displacement_m.push_back(u);
-        before = a;
-    }
-    motion.pga_m_s2 = peak;
+    std::vector<double> acceleration;
+    for (long i = 0; i <= samples_apart + 2 * per_half; ++i)
+        acceleration.push_back(triangle(i - per_half) - triangle(i - per_half - samples_apart));
+    Motion motion = motion_of(std::move(acceleration), dt);
+    motion.predominant_frequency_hz = 1; // nothing stretches it
+    motion.source = fmt::format("{} m/s over {} m", test.velocity_m_s, test.distance_m);
     return motion;
 }
 
@@ -81,8 +72,8 @@ Study pulsed_study(const PulsedBlock& block)
     study.contact.normal_damping_ratio = block.damping_ratio;
     study.contact.tangential_damping_ratio = block.damping_ratio;
     study.contact.friction = block.friction;
-    study.excitation.kind = ExcitationKind::record;
-    study.excitation.baseline = false;
+    study.contact.damping = block.ends ? DampingAt::ends : DampingAt::centroid;
+    study.excitation.kind = ExcitationKind::table;
     study.text = study_text(study);
     return study;
 }

@@ -30,6 +30,7 @@ struct PulsedBlock {
     double height_m = 0.1;
     double friction = 0.7;
     double damping_ratio = 0.1;
+    bool ends = false;      ///< whether the normal dashpot acts at the ends of the contact (face damping)
     double pulse_s = 0.002; ///< of the base
 };
 Study pulsed_study(const PulsedBlock& block);

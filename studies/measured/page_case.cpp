@@ -4,7 +4,7 @@ namespace stylobate::measured {
 
 std::vector<PageCase> all_page_cases()
 {
-    return {{"rock_shake_table", "rock_shake_table", rock_shake_table}};
+    return {{"ceh2016", "published", ceh2016}, {"rock_shake_table", "rock_shake_table", rock_shake_table}};
 }
 
 } // namespace stylobate::measured

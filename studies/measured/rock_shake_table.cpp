@@ -18,9 +18,19 @@ namespace stylobate::measured {
 namespace {
 
 constexpr int realizations = 128;
-const std::vector<double> heights{0.30, 0.40, 0.52, 0.68};
+const std::vector<double> heights{0.36, 0.46, 0.6};
 const std::vector<double> stiffnesses{1e8, 3e8, 1e9};
-const std::vector<double> damping_ratios{0.1, 0.5, 1.0};
+
+/// Ways to lose energy in an impact; the first is the baseline's.
+struct Dashpot {
+    bool ends;
+    double ratio;
+};
+const std::vector<Dashpot> dashpots{{false, 0.1}, {false, 0.5}, {true, 0.1}, {true, 0.5}};
+bool has(const BoulderModel& model, const Dashpot& dashpot)
+{
+    return model.ends == dashpot.ends && model.damping_ratio == dashpot.ratio;
+}
 const std::vector<double> no_spread{0};
 const std::vector<double> spreads{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};
 
@@ -142,13 +152,13 @@ Predictor box(const BoulderResults& r, const RunOptions& run)
 }
 
 /// From the table itself, for tests that are in one half or the other.
-std::vector<Forecast> from_table(const BoulderData& data, const std::vector<BoulderTable>& tables, const BoulderFit& fit,
-                                 const std::vector<bool>& use)
+std::vector<Forecast> from_table(const BoulderData& data, const std::vector<BoulderTable>& tables,
+                                 const BoulderFit& fit, const std::vector<bool>& use)
 {
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const BoulderTable& t) {
         return t.variant.height_m == fit.model[0].height_m &&
                t.variant.normal_stiffness_n_m2 == fit.model[0].normal_stiffness_n_m2 &&
-               t.variant.damping_ratio == fit.model[0].damping_ratio;
+               has(t.variant, {fit.model[0].ends, fit.model[0].damping_ratio});
     });
     std::vector<Forecast> forecasts;
     for (std::size_t s = 0; s < boulders; ++s) {
@@ -157,8 +167,9 @@ std::vector<Forecast> from_table(const BoulderData& data, const std::vector<Boul
             table->falls.slenderness.begin());
         for (std::size_t i = 0; i < data.tests.size(); ++i)
             if (use[i])
-                forecasts.push_back({with_slip(table->falls.share(i, median, fit.model[s].slenderness_spread), fit.slip),
-                                     data.tests[i].fell[s], data.tests[i].ground_motion});
+                forecasts.push_back(
+                    {with_slip(table->falls.share(i, median, fit.model[s].slenderness_spread), fit.slip),
+                     data.tests[i].fell[s], data.tests[i].ground_motion});
     }
     return forecasts;
 }
@@ -170,19 +181,12 @@ std::string study_file(const BoulderFit& fit, const std::string& what)
     return fmt::format(
         "# {}\n"
         "# Written by `stylobate_measured` with the page docs/measured/rock_shake_table.md; not by hand.\n"
-        "# The motion of a test comes by `stylobate_measured DATA_DIR --motion TEST FILE`:\n"
+        "# The motion of the table in a test, as FILE: `stylobate_measured DATA_DIR --boulder-motion TEST --to FILE`\n"
         "#\n"
-        "#   stylobate run THIS.toml --set excitation.file=FILE --set excitation.unit=m/s2\n"
+        "#   stylobate run THIS.toml --set excitation.file=FILE\n"
         "#\n"
         "# The other boulder: --set structure.drum_width_m={:.6g}\n\n{}",
         what, fit.model[1].slenderness * fit.model[1].height_m, study.text);
-}
-
-void write_whole(const std::filesystem::path& file, const std::string& text)
-{
-    AtomicFile out(file);
-    out.write(text);
-    out.commit();
 }
 
 } // namespace
@@ -208,41 +212,43 @@ void rock_shake_table(const PagePlace& place)
     r.held_motions = held.size();
 
     std::vector<BoulderTable> tables;
-    for (const double ratio : damping_ratios) {
+    for (const Dashpot& dashpot : dashpots) {
         for (const double stiffness : stiffnesses)
             for (const double height : heights) {
                 BoulderModel variant;
                 variant.height_m = height;
                 variant.normal_stiffness_n_m2 = stiffness;
-                variant.damping_ratio = ratio;
+                variant.ends = dashpot.ends;
+                variant.damping_ratio = dashpot.ratio;
                 tables.push_back(simulate(variant, r.data.tests, place.run));
                 const BoulderFit now = fit(tables.back(), r.data.tests, r.fits, spreads);
-                say(fmt::format("damping ratio {}, K_N {:g}, height {}: log-likelihood {:.1f}", ratio, stiffness,
-                                height, now.log_likelihood));
+                say(fmt::format("{}, {}, K_N {:g}, height {}: log-likelihood {:.1f}",
+                                dashpot.ends ? "ends" : "centroid", dashpot.ratio, stiffness, height,
+                                now.log_likelihood));
             }
     }
-    const auto with_ratio = [&](double ratio) {
+    const auto with_dashpot = [&](const Dashpot& dashpot) {
         std::vector<BoulderTable> some;
         for (const BoulderTable& table : tables)
-            if (table.variant.damping_ratio == ratio)
+            if (has(table.variant, dashpot))
                 some.push_back(table);
         return some;
     };
-    const std::vector<BoulderTable> plain = with_ratio(damping_ratios.front());
+    const std::vector<BoulderTable> plain = with_dashpot(dashpots.front());
     r.baseline = best_fit(plain, r.data.tests, r.fits, no_spread);
     r.scattered = best_fit(plain, r.data.tests, r.fits, spreads);
     r.extended = best_fit(tables, r.data.tests, r.fits, spreads);
-    for (const double tilt : {-0.04, -0.02, 0.02, 0.04}) {
+    for (const double part : {-0.15, 0.15}) {
         BoulderModel variant = r.extended.model[0];
-        variant.tilt_rad = tilt;
+        variant.eccentricity_m = part * variant.slenderness * variant.height_m;
         const BoulderFit leaning =
             best_fit({simulate(variant, r.data.tests, place.run)}, r.data.tests, r.fits, spreads);
-        if (tilt == -0.04 || leaning.log_likelihood > r.one_sided.log_likelihood)
+        if (part == -0.15 || leaning.log_likelihood > r.one_sided.log_likelihood)
             r.one_sided = leaning;
     }
-    for (const double ratio : damping_ratios)
+    for (const Dashpot& dashpot : dashpots)
         for (const double stiffness : stiffnesses) {
-            std::vector<BoulderTable> some = with_ratio(ratio);
+            std::vector<BoulderTable> some = with_dashpot(dashpot);
             std::erase_if(some, [&](const BoulderTable& t) { return t.variant.normal_stiffness_n_m2 != stiffness; });
             Dissipation d{best_fit(some, r.data.tests, r.fits, spreads), 0, 0};
             d.restitution = restitution(d.best.model[0]);
