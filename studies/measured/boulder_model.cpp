@@ -36,6 +36,7 @@ Study boulder_study(const BoulderModel& model, std::uint64_t realizations)
     study.contact.damping = model.ends ? DampingAt::ends : DampingAt::centroid;
     study.contact.friction = boulder_friction;
     study.excitation.kind = ExcitationKind::table;
+    study.excitation.file = "motion.csv"; // what --set excitation.file replaces
     if (model.eccentricity_m != 0) {
         MechanismSpec eccentricity = neutral_spec(Mechanism::eccentricity, boulder_friction);
         eccentricity.values[0] = model.eccentricity_m;

@@ -74,6 +74,7 @@ Study pulsed_study(const PulsedBlock& block)
     study.contact.friction = block.friction;
     study.contact.damping = block.ends ? DampingAt::ends : DampingAt::centroid;
     study.excitation.kind = ExcitationKind::table;
+    study.excitation.file = "motion.csv"; // what --set excitation.file replaces
     study.text = study_text(study);
     return study;
 }

@@ -63,17 +63,24 @@ std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studi
     return falls;
 }
 
+double log_likelihood(const FallTable& table, std::size_t median, const std::vector<bool>& fell,
+                      const std::vector<bool>& use, double spread, double slip)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < fell.size(); ++i)
+        if (use[i])
+            sum -= log_loss({with_slip(table.share(i, median, spread), slip), fell[i], {}});
+    return sum;
+}
+
 LikelySlenderness likely_slenderness(const FallTable& table, const std::vector<bool>& fell,
                                      const std::vector<bool>& use, double spread, double slip)
 {
     LikelySlenderness best{0, -std::numeric_limits<double>::infinity()};
     for (std::size_t median = 0; median < table.slenderness.size(); ++median) {
-        double sum = 0;
-        for (std::size_t i = 0; i < fell.size(); ++i)
-            if (use[i])
-                sum -= log_loss({with_slip(table.share(i, median, spread), slip), fell[i], {}});
-        if (sum > best.log_likelihood)
-            best = {median, sum};
+        const double likely = log_likelihood(table, median, fell, use, spread, slip);
+        if (likely > best.log_likelihood)
+            best = {median, likely};
     }
     return best;
 }

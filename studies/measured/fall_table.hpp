@@ -32,11 +32,16 @@ inline double with_slip(double share, double slip)
     return slip / 2 + (1 - slip) * share;
 }
 
+/// Logarithm of the probability of the outcomes [nat].
+/// @param fell (tests)   @param use (tests) which are counted   @param median index into the table's slendernesses
+double log_likelihood(const FallTable& table, std::size_t median, const std::vector<bool>& fell,
+                      const std::vector<bool>& use, double spread, double slip);
+
 struct LikelySlenderness {
     std::size_t median = 0;    ///< index into the table's
     double log_likelihood = 0; ///< [nat]
 };
-/// @param fell (tests)   @param use (tests) which are fitted on
+/// The most likely one.
 LikelySlenderness likely_slenderness(const FallTable& table, const std::vector<bool>& fell,
                                      const std::vector<bool>& use, double spread, double slip);
 
