@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -278,6 +279,19 @@ TEST(MeasuredData, DoublePulsesAreReadAsTheyWerePublished)
         EXPECT_FALSE(test.fell && test.distance_m <= 0.0125) << "nothing fell at so short a distance";
     }
     EXPECT_EQ(falls, 30);
+}
+
+TEST(PageCases, StudiesOfTheFittedModelsAreStudies)
+{
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(STYLOBATE_SOURCE_DIR) / "studies" / "measured"))
+        if (entry.path().extension() == ".toml") {
+            ++files;
+            const Study study = read_study(entry.path(), {"excitation.file=motion.csv"});
+            EXPECT_EQ(study.excitation.kind, ExcitationKind::table) << entry.path();
+            EXPECT_EQ(study.structure.columns.size(), 1U) << entry.path();
+        }
+    EXPECT_GE(files, 4);
 }
 
 TEST(PageCases, HaveNamesOfTheirOwn)
