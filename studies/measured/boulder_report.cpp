@@ -264,15 +264,16 @@ std::string cause_section(const BoulderResults& r)
         least = std::min(least, s.effective_slenderness());
         most = std::max(most, s.effective_slenderness());
     }
-    text +=
-        fmt::format("The photogrammetric shape has a bounding box of {:.2f} x {:.2f} x {:.2f} m, but it stands on a "
-                    "small part of its underside, out of its middle: leaned as its convex hull over its lowest points, "
-                    "it needs to rise as much as a rectangle of slenderness {:.2f} in its weakest direction and of "
-                    "{:.2f} in its strongest one. The fitted {:.2f} and {:.2f} lie near the weakest. (Which direction "
-                    "was shaken is not known; the orientation of the mesh, z up, is read from its lowest points being "
-                    "a stance.)\n\n![Slenderness of the boulder by direction](images/rock_shake_table_stance.png)\n\n",
-                    r.body.extent_m[0], r.body.extent_m[1], r.body.extent_m[2], least, most,
-                    r.extended.model[0].slenderness, r.extended.model[1].slenderness);
+    text += fmt::format(
+        "The photogrammetric shape has a bounding box of {:.2f} x {:.2f} x {:.2f} m, but it stands on a small part of "
+        "its underside, out of its middle: leaned as its convex hull over its lowest points, it needs to rise as much "
+        "as a rectangle of slenderness {:.2f} in its weakest direction and of {:.2f} in its strongest one. The box "
+        "itself would have {:.2f}; the outcomes give {:.2f} and {:.2f} to the two boulders. (Which direction was "
+        "shaken is not known; the orientation of the mesh, z up, is read from its lowest points being a "
+        "stance.)\n\n![Slenderness of the boulder by direction](images/rock_shake_table_stance.png)\n\n",
+        r.body.extent_m[0], r.body.extent_m[1], r.body.extent_m[2], least, most,
+        std::min(r.body.extent_m[0], r.body.extent_m[1]) / r.body.extent_m[2], r.extended.model[0].slenderness,
+        r.extended.model[1].slenderness);
     text += fmt::format(
         "**Is too little lost in an impact?** A dashpot at the centroid of the contact hardly damps rocking, so the "
         "engine's block keeps more of its rocking speed at an impact than Housner's; a boulder on facetted edges may "
@@ -301,12 +302,15 @@ std::string cause_section(const BoulderResults& r)
     }
     text += fmt::format(
         "No deterministic prediction can get these right; scatter alone changes the Brier score by {} and the log "
-        "score by {}{}.\n\n**One-sidedness** (the block falls more easily to one side) was tried and not kept: at the "
-        "best model's values, its best tilt has a log-likelihood of {:.1f} against {:.1f}.\n\n",
+        "score by {}{}.\n\n**One-sidedness** (the centre of mass 15 % of half the width off the middle, to either "
+        "side): with the extended model's other values its log-likelihood is {:.1f} against {:.1f}, {}.\n\n",
         signed_interval(difference(r.by_scattered.held, r.by_baseline.held, brier)),
         signed_interval(difference(r.by_scattered.held, r.by_baseline.held, log_loss)),
         firmness(difference(r.by_scattered.held, r.by_baseline.held, brier)), r.one_sided.log_likelihood,
-        r.extended.log_likelihood);
+        r.extended.log_likelihood,
+        r.one_sided.log_likelihood > r.extended.log_likelihood + asks_for_it
+            ? "so that the outcomes ask for it too; it is not in the extended model here"
+            : "so that the outcomes do not ask for it");
     return text;
 }
 

@@ -240,7 +240,7 @@ void rock_shake_table(const PagePlace& place)
     r.extended = best_fit(tables, r.data.tests, r.fits, spreads);
     for (const double part : {-0.15, 0.15}) {
         BoulderModel variant = r.extended.model[0];
-        variant.eccentricity_m = part * variant.slenderness * variant.height_m;
+        variant.eccentricity_m = part * variant.slenderness * variant.height_m / 2;
         const BoulderFit leaning =
             best_fit({simulate(variant, r.data.tests, place.run)}, r.data.tests, r.fits, spreads);
         if (part == -0.15 || leaning.log_likelihood > r.one_sided.log_likelihood)
