@@ -64,4 +64,11 @@ void AtomicFile::fail(int error) const
                     file_.string(), std::generic_category().message(error)));
 }
 
+void write_whole(const std::filesystem::path& file, std::string_view content)
+{
+    AtomicFile out(file);
+    out.write(content);
+    out.commit();
+}
+
 } // namespace stylobate

@@ -33,4 +33,7 @@ private:
     int descriptor_ = -1;
 };
 
+/// One text as a file, whole or not at all. @throws InputError as above
+void write_whole(const std::filesystem::path& file, std::string_view content);
+
 } // namespace stylobate

@@ -19,11 +19,11 @@ struct PictureAxis {
 
 struct Series {
     std::string title;
-    std::vector<double> x, y;
-    bool line = false;             ///< joined, without marks; else marks alone
-    std::vector<double> low, high; ///< ends of error bars, or empty
-    int colour = -1;               ///< a number of the palette; -1: that of its place in the list
-    bool right = false;            ///< on the axis at the right
+    std::vector<double> x = {}, y = {};
+    bool line = false;                       ///< joined, without marks; else marks alone
+    std::vector<double> low = {}, high = {}; ///< ends of error bars, or empty
+    int colour = -1;                         ///< a number of the palette; -1: that of its place in the list
+    bool right = false;                      ///< on the axis at the right
 };
 
 /// Curves and marks over one another.

@@ -1,0 +1,47 @@
+#pragma once
+/// Shake-table tests of two boulders: the measured motion of the table and whether each fell (rock_shake_table).
+
+#include "ensemble/motion.hpp"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stylobate::measured {
+
+inline constexpr std::size_t boulders = 2;
+
+/// One test: both boulders stood on the table.
+struct BoulderTest {
+    int number = 0;
+    std::string ground_motion;
+    double pga_g = 0;          ///< as published
+    double pgv_over_pga_s = 0; ///< as published
+    std::array<bool, boulders> fell{};
+    /// Published numerical predictions (in the order of `BoulderData::published`).
+    std::array<std::vector<bool>, boulders> predicted;
+    Motion motion; ///< of the table, its strong part (`strong_part`); empty where it was not measured
+};
+
+struct BoulderData {
+    std::vector<BoulderTest> tests;                           ///< with a measured motion, by number
+    std::array<std::vector<std::string>, boulders> published; ///< names of the numerical models
+    int without_motion = 0;                                   ///< tests that are left out
+};
+
+/// Where a motion is worth following: from half a second before the acceleration first exceeds `level` until half a
+/// second after it last does. Empty range where it never does.
+/// @return first sample and one past the last
+std::pair<std::size_t, std::size_t> strong_part(const std::vector<double>& acceleration_m_s2, double dt_s,
+                                                double level_m_s2);
+
+/// Below this nothing moves that could fall: far under the least slenderness that is tried [m/s2].
+inline constexpr double still_below_m_s2 = 0.6;
+
+/// @param folder with tests.csv and table_motion_200Hz.h5
+/// @throws InputError naming the file, and the line or data set
+BoulderData read_boulders(const std::filesystem::path& folder);
+
+} // namespace stylobate::measured

@@ -1,0 +1,10 @@
+#include "studies/measured/page_case.hpp"
+
+namespace stylobate::measured {
+
+std::vector<PageCase> all_page_cases()
+{
+    return {{"ceh2016", "published", ceh2016}, {"rock_shake_table", "rock_shake_table", rock_shake_table}};
+}
+
+} // namespace stylobate::measured

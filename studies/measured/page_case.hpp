@@ -1,0 +1,38 @@
+#pragma once
+/// The pages of measured data: one case each.
+
+#include "ensemble/executor.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stylobate::measured {
+
+/// Where a case finds its data and puts its page, and how it may run.
+struct PagePlace {
+    std::filesystem::path data;    ///< folder of all measured data; a case reads its own folder in it
+    std::filesystem::path docs;    ///< the page is docs/NAME.md, its pictures lie in docs/images
+    std::filesystem::path studies; ///< where the study files of the fitted models go
+    RunOptions run;                ///< instruction set and threads
+    bool quiet = false;            ///< no lines on standard error about what is being done
+
+    std::filesystem::path images() const { return docs / "images"; }
+};
+
+/// One set of measured data against the engine.
+struct PageCase {
+    std::string name;                            ///< of the page
+    std::string folder;                          ///< in the data folder; a case whose folder is absent is skipped
+    std::function<void(const PagePlace&)> write; ///< computes, draws, writes the page
+};
+
+/// The cases.
+void ceh2016(const PagePlace& place);
+void rock_shake_table(const PagePlace& place);
+
+/// All of them, in the order of their names.
+std::vector<PageCase> all_page_cases();
+
+} // namespace stylobate::measured
