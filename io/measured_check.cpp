@@ -285,15 +285,15 @@ private:
         }
         const double n = static_cast<double>(t.size()), size = std::sqrt(qq / n);
         const double noise = run.base_displacement_m.noise_sd.value_or(noise_of(u));
-        // what white noise of the acceleration makes of itself in two integrations, less than this without a cubic
+        // what white noise of the acceleration becomes in two integrations; without its best cubic a fiftieth is left
         const double span = t.back() - t.front();
         const double drift = run.base_acceleration_m_s2.noise_sd.value_or(noise_of(a)) *
-                             std::sqrt(span / n * span * span * span / 3) / 5;
+                             std::sqrt(span / n * span * span * span / 3) / 50;
         if (size < 5 * (noise + drift))
             return; // too small a motion to compare
         const double ratio = pq / qq;
         const double left = std::sqrt(std::max(pp - 2 * ratio * pq + ratio * ratio * qq, 0.0) / n);
-        if (std::abs(ratio - 1) > 0.02 + 3 * drift / size || left > 0.05 * size + 3 * (noise + drift))
+        if (std::abs(ratio - 1) > 0.02 + drift / size || left > 0.05 * size + 3 * (noise + drift))
             warn(at(run, "base"),
                  fmt::format("the acceleration integrated twice is {:.3f} of the displacement, with {} left over where "
                              "{} moved: units, gains or clocks of the two sensors differ.",

@@ -110,7 +110,7 @@ TEST(MeasuredCheck, SensorsAreChecked)
         for (double& a : c.runs[0].base_acceleration_m_s2.values)
             a = std::clamp(a, -0.4, 0.4);
     });
-    expect_found(Severity::warning, acceleration, "constant offset of 0.1", [](Campaign& c) {
+    expect_found(Severity::warning, acceleration, "it has a constant offset of", [](Campaign& c) {
         for (double& a : c.runs[0].base_acceleration_m_s2.values)
             a += 0.1;
     });
