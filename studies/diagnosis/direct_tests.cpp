@@ -1,5 +1,7 @@
 #include "studies/diagnosis/direct_tests.hpp"
 
+#include "studies/diagnosis/direct_findings.hpp"
+#include "studies/diagnosis/rest_tests.hpp"
 #include "studies/diagnosis/robust_fit.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +19,6 @@ namespace {
 constexpr double rides_below = 0.6;
 // Shorter rides tell nothing.
 constexpr std::size_t shortest_ride = 30; // samples
-// In these the blocks lie as they were put down.
-constexpr std::size_t first_samples = 20;
 
 double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to)
 {
@@ -274,49 +274,6 @@ double harmonic_term(double u, double quadrature, int order, bool sine)
     return amplitude * (sine ? std::sin(order * phase) : std::cos(order * phase));
 }
 
-/// Whether a finding is beyond its threshold and its noise.
-bool beyond(double value, double sd, double threshold, double sds)
-{
-    return std::fabs(value) > threshold && std::fabs(value) > sds * sd;
-}
-
-DataTest told(std::string name, std::string place, double value, double sd, double threshold, std::string unit,
-              bool found, const std::string& sentence)
-{
-    DataTest test;
-    test.name = std::move(name);
-    test.place = std::move(place);
-    test.value = value;
-    if (std::isfinite(sd))
-        test.sd = sd;
-    test.threshold = threshold;
-    test.unit = std::move(unit);
-    test.outcome = found ? TestOutcome::failed : TestOutcome::passed;
-    test.sentence = sentence;
-    return test;
-}
-
-DataTest cannot(std::string name, const std::string& why)
-{
-    DataTest test;
-    test.name = std::move(name);
-    test.place = "base";
-    test.outcome = TestOutcome::not_judged;
-    test.sentence = why;
-    return test;
-}
-
-CauseFit cause_of(const char* mechanism, const std::string& place, const char* parameter, const char* unit,
-                  double neutral, double size, double sd, double gain)
-{
-    CauseFit fit;
-    fit.cause = {mechanism, place, parameter, unit, neutral};
-    fit.size = size;
-    fit.sd = sd;
-    fit.gain = gain;
-    return fit;
-}
-
 /// The common vertical motion of all blocks while everything rides.
 struct VerticalMotion {
     double rms_over_noise = 0; ///< beyond what noise makes
@@ -550,88 +507,6 @@ void align_bases(const Campaign& campaign, DirectResult& out)
         if (count > 0)
             for (double& x : out.base_m[r])
                 x += sum / count;
-    }
-}
-
-/// What lies askew before the shaking: means over the first samples of each run.
-void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out)
-{
-    const Specimen& s = campaign.specimen;
-    const auto n = static_cast<std::size_t>(s.blocks());
-    const auto first = static_cast<std::size_t>(std::max(20, 2 * scales.rates.half_width()));
-    std::vector<std::vector<double>> angle(n), place(n);
-    for (const MeasuredRun& run : campaign.runs) {
-        if (run.blocks.theta_rad.empty() || run.blocks.x_m.empty() || run.time_s.size() < first)
-            continue;
-        for (std::size_t b = 0; b < n; ++b) {
-            double turned = 0, moved = 0;
-            for (std::size_t i = 0; i < first; ++i) {
-                turned += run.blocks.theta_rad.values[i * n + b];
-                moved += run.blocks.x_m.values[i * n + b] - s.rest_x_m[b];
-            }
-            angle[b].push_back(turned / static_cast<double>(first));
-            place[b].push_back(moved / static_cast<double>(first));
-        }
-    }
-    if (angle.front().empty()) {
-        DataTest test = cannot("wedge", "Rotations and places of the blocks at rest were not measured.");
-        test.place = "joints";
-        out.sensor_tests.push_back(test);
-        return;
-    }
-    const auto runs = static_cast<double>(angle.front().size());
-    const auto judge = [&](const std::vector<double>& upper, const std::vector<double>* lower, double& mean,
-                           double& sd) {
-        std::vector<double> d;
-        for (std::size_t r = 0; r < upper.size(); ++r) {
-            const double difference = upper[r] - (lower ? (*lower)[r] : 0);
-            if (std::isfinite(difference))
-                d.push_back(difference);
-        }
-        mean = d.empty() ? 0 : std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size());
-        double squares = 0;
-        for (const double v : d)
-            squares += (v - mean) * (v - mean);
-        sd = d.size() < 2 ? std::numeric_limits<double>::infinity()
-                          : std::sqrt(squares / static_cast<double>(d.size() - 1) / static_cast<double>(d.size()));
-    };
-    for (std::size_t j = 0; j < s.joints.size(); ++j) {
-        const auto [lower, upper] = s.joints[j];
-        const auto u = static_cast<std::size_t>(upper);
-        const bool table = lower < 0;
-        double mean = 0, sd = 0;
-        judge(angle[u], table ? nullptr : &angle[static_cast<std::size_t>(lower)], mean, sd);
-        const double noise = scales.noise_rad * std::sqrt((table ? 1 : 2) / (static_cast<double>(first) * runs));
-        sd = std::isfinite(sd) ? std::max(sd, noise) : noise;
-        const std::string joint = fmt::format("joint {}", j);
-        // a block on two joints cannot lie on both wedges: only the one that it was measured over
-        const bool found = beyond(mean, sd, limits.wedge_rad, limits.sds);
-        out.sensor_tests.push_back(told("wedge", joint, mean, sd, limits.wedge_rad, "rad", found,
-                                        fmt::format("At rest block {} leans by {:.2e} rad against {}.", upper, mean,
-                                                    table ? "the horizontal" : fmt::format("block {}", lower))));
-        if (found) {
-            out.found.push_back(
-                cause_of("wedge", joint, "angle_rad", "rad", 0, mean, sd, 0.5 * std::pow(mean / sd, 2)));
-            out.found.back().cause.joint = static_cast<int>(j);
-        }
-        if (table)
-            continue;
-        judge(place[u], &place[static_cast<std::size_t>(lower)], mean, sd);
-        // both blocks were put down with the tolerance, each time anew
-        const double tolerance = std::sqrt(2.0) * s.placement_tolerance_m / std::sqrt(runs);
-        const double noise_m = scales.noise_m * std::sqrt(2 / (static_cast<double>(first) * runs));
-        sd = std::max({std::isfinite(sd) ? sd : 0, tolerance, noise_m});
-        const double threshold = limits.offset_in_tolerances * sd;
-        const bool off = std::fabs(mean) > threshold && std::fabs(mean) > 1.5 * s.placement_tolerance_m;
-        out.sensor_tests.push_back(
-            told("drum_offset", fmt::format("block {}", upper), mean, sd, threshold, "m", off,
-                 fmt::format("On the mean block {} lies {:.2e} m to the right of where it should on block {}.", upper,
-                             mean, lower)));
-        if (off) {
-            out.found.push_back(cause_of("drum_offset", fmt::format("block {}", upper), "offset_m", "m", 0, mean, sd,
-                                         0.5 * std::pow(mean / sd, 2)));
-            out.found.back().cause.block = upper;
-        }
     }
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+/// How direct tests tell what they found.
+
+#include "studies/diagnosis/balance_fit.hpp"
+#include "studies/diagnosis/diagnosis.hpp"
+
+#include <string>
+
+namespace stylobate {
+
+/// In these samples of a run the blocks lie as they were put down.
+inline constexpr std::size_t first_samples = 20;
+
+/// Whether a finding is beyond its threshold and its noise.
+bool beyond(double value, double sd, double threshold, double sds);
+
+/// A test that was made. @param sd infinite or NaN: not known
+DataTest told(std::string name, std::string place, double value, double sd, double threshold, std::string unit,
+              bool found, const std::string& sentence);
+
+/// A test of the base that could not be made.
+DataTest cannot(std::string name, const std::string& why);
+
+CauseFit cause_of(const char* mechanism, const std::string& place, const char* parameter, const char* unit,
+                  double neutral, double size, double sd, double gain);
+
+} // namespace stylobate
