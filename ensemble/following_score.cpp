@@ -57,7 +57,7 @@ std::vector<std::vector<SeenValue>> seen_values(const SeenRun& run, const std::v
                                                 double lag_s)
 {
     std::vector<std::vector<SeenValue>> values(windows.size());
-    const std::size_t n = run.time_s.size(), turning = static_cast<std::size_t>(Coordinate::theta);
+    const std::size_t n = run.time_s.size(), turning = static_cast<std::size_t>(BlockCoordinate::theta);
     for (std::size_t w = 0; w < windows.size(); ++w) {
         const SeenWindow& window = windows[w];
         for (std::size_t b = 0; b < run.blocks; ++b) {
@@ -84,7 +84,7 @@ std::vector<std::vector<SeenValue>> seen_values(const SeenRun& run, const std::v
                     SeenValue value;
                     value.time = j;
                     value.block = b;
-                    value.coordinate = static_cast<Coordinate>(c);
+                    value.coordinate = static_cast<BlockCoordinate>(c);
                     value.value = seen;
                     const double noise = std::isfinite(run.noise_sd[c]) ? run.noise_sd[c] : 0;
                     value.scale = std::max(noise + lag_s * std::sqrt(sum / static_cast<double>(count)), 1e-12);
@@ -102,8 +102,8 @@ std::vector<double> residuals(const std::vector<SeenValue>& seen, const Readings
     std::vector<double> z;
     for (const SeenValue& value : seen) {
         const std::size_t k = value.time * blocks + value.block;
-        const double model = value.coordinate == Coordinate::x   ? readings.x_m[k]
-                             : value.coordinate == Coordinate::y ? readings.y_m[k] - rest_y_m[value.block]
+        const double model = value.coordinate == BlockCoordinate::x   ? readings.x_m[k]
+                             : value.coordinate == BlockCoordinate::y ? readings.y_m[k] - rest_y_m[value.block]
                                                                  : readings.theta_rad[k];
         const double r = (model - value.value) / value.scale;
         z.push_back(std::isfinite(r) ? std::clamp(r, -lost, lost) : lost);

@@ -29,7 +29,7 @@ double student_scale(const std::vector<double>& z, double degrees);
 struct SeenValue {
     std::size_t time = 0;  ///< which of the window's
     std::size_t block = 0; ///< of the realization
-    Coordinate coordinate = Coordinate::x;
+    BlockCoordinate coordinate = BlockCoordinate::x;
     double value = 0;     ///< as seen
     double scale = 0;     ///< s, in the unit of the coordinate
     std::size_t kind = 0; ///< of k: (block x coordinate_count + coordinate) x 2 + rocking

@@ -122,7 +122,7 @@ SeenRun seen_run(const MeasuredRun& run, const Motion& base, const std::vector<i
             std::size_t count = 0;
             for (std::size_t k = 0; k < n; ++k) {
                 double value = series[c]->values[k * measured + b];
-                if (c == static_cast<std::size_t>(Coordinate::x))
+                if (c == static_cast<std::size_t>(BlockCoordinate::x))
                     value -= base_displacement(base, seen.time_s[k]);
                 q[k * blocks + to] = value;
                 if (std::isfinite(value) && (seen.time_s[k] < seen.quiet_s || count < fewest_samples)) {
@@ -130,12 +130,12 @@ SeenRun seen_run(const MeasuredRun& run, const Motion& base, const std::vector<i
                     ++count;
                 }
             }
-            if (count == 0 || c == static_cast<std::size_t>(Coordinate::theta))
+            if (count == 0 || c == static_cast<std::size_t>(BlockCoordinate::theta))
                 continue; // rotations are what they are
             const double stood = sum / static_cast<double>(count);
             for (std::size_t k = 0; k < n; ++k)
                 q[k * blocks + to] -= stood;
-            if (c == static_cast<std::size_t>(Coordinate::x))
+            if (c == static_cast<std::size_t>(BlockCoordinate::x))
                 seen.standing_x_m[to] = stood - plan_x_m[to];
         }
         seen.noise_sd[c] = series[c]->noise_sd.value_or(noise_of(q, blocks, n));

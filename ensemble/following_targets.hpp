@@ -12,7 +12,7 @@
 namespace stylobate {
 
 /// Coordinates of a block, in the order of all arrays here.
-enum class Coordinate { x, y, theta };
+enum class BlockCoordinate { x, y, theta };
 inline constexpr std::size_t coordinate_count = 3;
 
 /// A run as the model sees it: time from the beginning of the base motion, displacements from where the blocks stood

@@ -34,6 +34,17 @@ struct ExportOptions {
     std::vector<double> frequencies; ///< of a slice [Hz]
 };
 
+/// What `calibrate` is asked for.
+struct CalibrateOptions {
+    std::string study;              ///< to begin from; empty: by the specimen (`default_study`)
+    std::string output;             ///< results; empty: by the name of the measured file
+    std::vector<std::string> fit;   ///< "KEY" or "KEY=FROM:TO", beside the contact's or instead of them
+    std::vector<std::string> hold;  ///< keys of the contact that keep the study's value
+    std::vector<std::string> forms; ///< contact forms, or "all"; empty: the study's
+    bool outcomes = false;          ///< use who fell and who stood even where there are histories
+    bool held_out = true;           ///< predict each motion by what the others say
+};
+
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
 int replay_command(const CommonOptions& options, const std::string& results, long long realization,
@@ -50,5 +61,6 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
                      std::string output, long long nulls, long long seed);
 /// @param file measured data, outcomes or results; empty: about the program
 int info_command(const CommonOptions& options, const std::string& file);
+int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);
 
 } // namespace stylobate

@@ -1,0 +1,226 @@
+/// `stylobate calibrate`: contact parameters from measured response.
+
+#include "ensemble/input_error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/measured_file.hpp"
+#include "io/study_file.hpp"
+#include "io/study_names.hpp"
+#include "studies/command.hpp"
+#include "studies/console.hpp"
+#include "studies/diagnosis/calibration.hpp"
+#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/json.hpp"
+#include "studies/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace stylobate {
+
+namespace {
+
+const char* form_name(ContactForm form)
+{
+    return contact_form_names[static_cast<std::size_t>(form)].word;
+}
+
+/// The contact forms of "--form area,points", or all of them.
+std::vector<ContactForm> forms_of(const std::vector<std::string>& words)
+{
+    std::vector<ContactForm> forms;
+    for (const std::string& word : words)
+        for (const auto& name : contact_form_names)
+            if (word == name.word || word == "all")
+                forms.push_back(name.value);
+    return forms;
+}
+
+/// The contact's keys without those that are held, and those of --fit, which replace them where they are the same.
+std::vector<FitKey> keys_of(const Study& study, const CalibrateOptions& wanted)
+{
+    std::vector<FitKey> keys = contact_keys(study);
+    for (const std::string& hold : wanted.hold) {
+        const auto found = std::find_if(keys.begin(), keys.end(), [&](const FitKey& k) { return k.key == hold; });
+        if (found == keys.end()) {
+            std::string known;
+            for (const FitKey& key : keys)
+                known += (known.empty() ? "" : ", ") + key.key;
+            throw InputError(
+                fmt::format("--hold {}: it is not fitted, so it cannot be held; fitted are {}", hold, known));
+        }
+        keys.erase(found);
+    }
+    for (const std::string& text : wanted.fit) {
+        const FitKey key = fit_key(study, text);
+        std::erase_if(keys, [&](const FitKey& k) { return k.key == key.key; });
+        keys.push_back(key);
+    }
+    if (keys.empty())
+        throw InputError("--hold: nothing is left to be fitted; name fewer keys");
+    return keys;
+}
+
+/// What is written beside the result: the study with the calibrated values, which `stylobate run` takes.
+std::string calibrated_text(const Calibration& calibration, const std::string& measured)
+{
+    const FormCalibration& best = calibration.forms[calibration.best];
+    std::string text =
+        fmt::format("# Calibrated with {}, contact form {}, by stylobate {}.\n",
+                    std::filesystem::path(measured).filename().string(), form_name(best.form), code_version());
+    for (const FittedParameter& p : best.parameters)
+        text += fmt::format("# {} = {:.5g}, 95 % from {:.5g} to {:.5g}{}{}\n", p.key, p.value, p.low, p.high,
+                            p.note.empty() ? "" : ": ", p.note);
+    return text + "\n" + best.study.text;
+}
+
+Json parameter_json(const FittedParameter& p)
+{
+    Json json = Json::object();
+    json.member("key", p.key)
+        .member("start", p.start)
+        .member("value", p.value)
+        .member("low", p.low)
+        .member("high", p.high)
+        .member("range_low", p.from)
+        .member("range_high", p.to)
+        .member("determined", p.determined)
+        .member("bounded_below", p.bounded_below)
+        .member("bounded_above", p.bounded_above)
+        .member("note", p.note);
+    return json;
+}
+
+Json gain_json(const PairedGain& gain)
+{
+    return Json::object().member("nats", gain.total).member("low", gain.low).member("high", gain.high);
+}
+
+Json form_json(const FormCalibration& form)
+{
+    Json parameters = Json::list(), runs = Json::list();
+    for (const FittedParameter& p : form.parameters)
+        parameters.item(parameter_json(p));
+    for (const RunScore& run : form.runs)
+        runs.item(Json::object()
+                      .member("run", run.run)
+                      .member("motion_id", run.motion_id)
+                      .member("units", run.units)
+                      .member("nominal_score", run.nominal)
+                      .member("calibrated_score", run.calibrated));
+    return Json::object()
+        .member("form", form_name(form.form))
+        .member("parameters", parameters)
+        .member("score", form.score)
+        .member("nominal_score", form.nominal_score)
+        .member("held_out_gain", gain_json(form.held_out))
+        .member("runs", runs);
+}
+
+void print_json(const Calibration& c, const std::string& results, const std::string& study)
+{
+    Json forms = Json::list(), notes = Json::list();
+    for (const FormCalibration& form : c.forms)
+        forms.item(form_json(form));
+    for (const std::string& note : c.notes)
+        notes.item(note);
+    Json json = Json::object();
+    json.member("measured", c.measured)
+        .member("evidence", c.from_outcomes ? "outcomes" : "histories")
+        .member("best_form", form_name(c.forms[c.best].form))
+        .member("forms", forms)
+        .member("notes", notes)
+        .member("parameter_sets", c.parameter_sets)
+        .member("simulations", c.simulations)
+        .member("window_simulations", c.window_simulations)
+        .member("block_steps", c.block_steps)
+        .member("seconds", c.seconds)
+        .member("results", results)
+        .member("calibrated_study", study);
+    fmt::print("{}\n", json.text());
+}
+
+void print_form(const FormCalibration& form, bool from_outcomes)
+{
+    fmt::print("contact form {}\n  {:<36} {:>11} {:>11}   95 % interval\n", form_name(form.form), "", "start",
+               "calibrated");
+    for (const FittedParameter& p : form.parameters)
+        fmt::print("  {:<36} {:>11.4g} {:>11.4g}   {:.4g} to {:.4g}{}{}\n", p.key, p.start, p.value, p.low, p.high,
+                   p.note.empty() ? "" : "   ", p.note);
+    if (form.held_out.groups == 0)
+        return;
+    std::size_t units = 0;
+    for (const RunScore& run : form.runs)
+        units += run.units;
+    fmt::print(
+        "  on motions left out: score {:+.1f} nats over the start's in {} {} (95 % from {:+.1f} to {:+.1f}): {}\n",
+        form.held_out.total, units, from_outcomes ? "runs" : "windows", form.held_out.low, form.held_out.high,
+        form.held_out.low > 0    ? "it predicts better"
+        : form.held_out.high < 0 ? "it predicts worse"
+                                 : "no difference that these data show");
+}
+
+void print_text(const Calibration& c, const std::string& results, const std::string& study)
+{
+    for (const FormCalibration& form : c.forms)
+        print_form(form, c.from_outcomes);
+    if (c.forms.size() > 1)
+        fmt::print("best on motions left out: {}\n", form_name(c.forms[c.best].form));
+    for (const std::string& note : c.notes)
+        fmt::print("note: {}\n", note);
+    fmt::print("{}: {} parameter sets, {} runs and {} windows simulated in {}\n{}: the calibrated study\n", results,
+               c.parameter_sets, c.simulations, c.window_simulations, duration_text(c.seconds), study);
+}
+
+} // namespace
+
+int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted)
+{
+    const std::filesystem::path given = std::filesystem::path(measured);
+    const std::string stem = (given.has_stem() ? given : given.parent_path()).stem().string(); // of a folder too
+    const std::string results = wanted.output.empty() ? stem + "_calibration.h5" : wanted.output;
+    const std::string calibrated =
+        wanted.output.empty() ? stem + "_calibrated.toml"
+                              : std::filesystem::path(results).replace_extension().string() + "_calibrated.toml";
+    const Campaign campaign = read_campaign(measured);
+    Study start;
+    if (wanted.study.empty()) {
+        start = default_study(campaign);
+        start = parse_study(start.text, "the study that a campaign is calibrated from by default", options.set);
+    } else {
+        start = read_study(wanted.study, options.set);
+    }
+    CalibrationOptions search;
+    search.keys = keys_of(start, wanted);
+    search.forms = forms_of(wanted.forms);
+    search.outcomes = wanted.outcomes;
+    search.held_out = wanted.held_out;
+    const RunOptions run{options.isa(), options.thread_count()};
+    // before the work is done, not after it, it is known that both can be written
+    AtomicFile study_file(calibrated), results_file(results);
+    Calibration found;
+    {
+        Console console(options.quiet);
+        found = calibrate(campaign, start, search, run, console);
+    }
+    if (!found.complete) {
+        if (!options.quiet)
+            fmt::print(stderr, "Interrupted: nothing was written.\n");
+        return exit_interrupted;
+    }
+    const std::string text = calibrated_text(found, measured);
+    parse_study(text, calibrated); // what is written is a study
+    write_calibration(found, start, code_version(), results_file.temporary());
+    study_file.write(text);
+    results_file.commit();
+    study_file.commit();
+    if (options.json)
+        print_json(found, results, calibrated);
+    else if (!options.quiet)
+        print_text(found, results, calibrated);
+    return exit_done;
+}
+
+} // namespace stylobate

@@ -1,0 +1,243 @@
+#include "studies/diagnosis/calibration.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "ensemble/specimen.hpp"
+#include "io/study_file.hpp"
+#include "io/toml_document.hpp"
+#include "studies/diagnosis/calibration_evidence.hpp"
+#include "studies/diagnosis/calibration_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace stylobate {
+
+namespace {
+
+constexpr const char* name = "the study to be calibrated";
+constexpr std::size_t most_folds = 6;
+constexpr std::size_t most_keys = 12;
+
+/// Every number of a range must be one that a study file may have.
+void check(const Study& study, const FitKey& key)
+{
+    if (!(std::isfinite(key.from) && std::isfinite(key.to) && key.from < key.to))
+        throw InputError(fmt::format("--fit {}: the range from {} to {} is none; give KEY=FROM:TO with FROM below TO",
+                                     key.key, key.from, key.to));
+    with_values(study, {key.key}, {key.from});
+    with_values(study, {key.key}, {key.to});
+}
+
+/// Units whose motions are left out together: motions in the order in which they come, dealt to at most six folds.
+std::vector<std::size_t> folds_of(const Campaign& campaign, const std::vector<std::size_t>& runs, std::size_t& folds)
+{
+    std::map<int, std::size_t> motions;
+    std::vector<std::size_t> fold;
+    for (const std::size_t run : runs)
+        fold.push_back(motions.try_emplace(campaign.runs[run].motion_id, motions.size() % most_folds).first->second);
+    folds = std::min(motions.size(), most_folds);
+    return fold;
+}
+
+/// Progress of the whole calibration, from that of its parts.
+class Counting : public Observer {
+public:
+    Counting(Observer& outer, std::size_t total) : outer_(outer) { progress_.total = total; }
+    void advance(std::size_t done)
+    {
+        progress_.done = std::min(progress_.done + done, progress_.total);
+        tell();
+    }
+    void progress(const Progress&) override { tell(); }
+    bool stop_requested() override { return outer_.stop_requested(); }
+
+private:
+    void tell()
+    {
+        progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        progress_.rate = static_cast<double>(progress_.done) / std::max(progress_.seconds, 1e-9);
+        outer_.progress(progress_);
+    }
+    Observer& outer_;
+    Progress progress_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+double number_in(const Study& study, const std::string& key)
+{
+    const TomlValue root = parse_toml(study.text.empty() ? study_text(study) : study.text, name);
+    const TomlValue* value = &root;
+    for (std::size_t begin = 0; value != nullptr && begin <= key.size();) {
+        const std::size_t end = std::min(key.find('.', begin), key.size());
+        value = value->type == TomlValue::Type::table ? value->find(key.substr(begin, end - begin)) : nullptr;
+        begin = end + 1;
+    }
+    if (value == nullptr || (value->type != TomlValue::Type::number && value->type != TomlValue::Type::integer))
+        throw InputError(fmt::format("--fit {}: the study has no number of that name. Say it in the study file, or by "
+                                     "--set {}=VALUE, so that there is a value to start from.",
+                                     key, key));
+    return value->number;
+}
+
+Study with_values(const Study& study, const std::vector<std::string>& keys, const std::vector<double>& values)
+{
+    std::vector<std::string> settings;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        settings.push_back(keys[i] + "=" + toml_number(values[i]));
+    return parse_study(study.text.empty() ? study_text(study) : study.text, name, settings);
+}
+
+std::vector<FitKey> contact_keys(const Study& study)
+{
+    const ContactSpec& c = study.contact;
+    std::vector<FitKey> keys = {
+        {"contact.normal_stiffness_n_m2", c.normal_stiffness_n_m2 / 30, c.normal_stiffness_n_m2 * 10},
+        {"contact.tangential_stiffness_n_m", c.tangential_stiffness_n_m / 30, c.tangential_stiffness_n_m * 10}};
+    const auto damping = [&](const std::string& ratio, const std::string& coefficient,
+                             const std::optional<double>& given) {
+        if (!given)
+            keys.push_back({"contact." + ratio, 0.01, 0.7});
+        else if (*given > 0)
+            keys.push_back({"contact." + coefficient, *given / 10, *given * 10});
+    };
+    damping("normal_damping_ratio", "normal_damping_n_s_m", c.normal_damping_n_s_m);
+    damping("tangential_damping_ratio", "tangential_damping_n_s_m", c.tangential_damping_n_s_m);
+    keys.push_back({"contact.friction", c.friction / 3, std::min(c.friction * 1.6, 2.0)});
+    return keys;
+}
+
+FitKey fit_key(const Study& study, const std::string& text)
+{
+    FitKey key;
+    const std::size_t equals = text.find('='), colon = text.find(':', equals == std::string::npos ? 0 : equals);
+    key.key = text.substr(0, equals);
+    const double start = number_in(study, key.key);
+    if (equals == std::string::npos) {
+        if (!(start > 0))
+            throw InputError(fmt::format("--fit {}: the study has {} there, about which there is no range; give "
+                                         "--fit {}=FROM:TO",
+                                         key.key, start, key.key));
+        key.from = start / 5;
+        key.to = start * 5;
+    } else {
+        const auto number = [&](const std::string& word) {
+            std::size_t read = 0;
+            double value = 0;
+            try {
+                value = std::stod(word, &read);
+            } catch (const std::exception&) {
+                read = 0;
+            }
+            if (read == 0 || read != word.size())
+                throw InputError(fmt::format("--fit {}: '{}' is no number; give KEY=FROM:TO, such as "
+                                             "contact.friction=0.3:0.9",
+                                             text, word));
+            return value;
+        };
+        key.from = number(text.substr(equals + 1, colon == std::string::npos ? colon : colon - equals - 1));
+        key.to = colon == std::string::npos ? number("") : number(text.substr(colon + 1));
+    }
+    key.logarithmic = key.from > 0 && key.to / key.from > 3;
+    check(study, key);
+    return key;
+}
+
+Study default_study(const Campaign& campaign)
+{
+    constexpr double bed_n_m3 = 2e9;
+    Study study;
+    study.structure = structure_of(campaign.specimen);
+    double width = 0;
+    for (const double half : campaign.specimen.half_width_m)
+        width += 2 * half / static_cast<double>(campaign.specimen.blocks());
+    study.contact.normal_stiffness_n_m2 = bed_n_m3 * study.structure.depth_m;
+    study.contact.tangential_stiffness_n_m = study.contact.normal_stiffness_n_m2 * width;
+    study.contact.friction = campaign.specimen.friction_nominal.value_or(0.6);
+    study.excitation.kind = ExcitationKind::none;
+    study.excitation.duration_s = 1;
+    study.text = study_text(study);
+    return study;
+}
+
+Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
+                      const RunOptions& run, Observer& observer)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    Calibration result;
+    result.measured = campaign.source;
+    Study base = start;
+    base.structure = structure_of(campaign.specimen);
+    base.text = study_text(base);
+    const std::vector<FitKey> keys = options.keys.empty() ? contact_keys(base) : options.keys;
+    if (keys.size() > most_keys)
+        throw InputError(fmt::format("--fit: {} parameters at once are too many; at most {}", keys.size(), most_keys));
+    for (const FitKey& key : keys)
+        check(base, key);
+    const std::vector<ContactForm> forms =
+        options.forms.empty() ? std::vector<ContactForm>{base.contact.form} : options.forms;
+
+    std::unique_ptr<CalibrationEvidence> evidence;
+    if (!options.outcomes)
+        evidence = history_evidence(campaign, options.runs, options.window_s);
+    if (!evidence) {
+        evidence = outcome_evidence(campaign, options.runs, base, options.ensemble);
+        result.from_outcomes = true;
+    }
+    if (!evidence)
+        throw InputError(fmt::format("{}: no run has both a base motion and either histories of the blocks or an "
+                                     "outcome (collapsed): nothing can be calibrated. Give base/acceleration_m_s2 and "
+                                     "blocks/x_m, blocks/theta_rad, or collapsed.",
+                                     campaign.source));
+    std::size_t folds = 0;
+    const std::vector<std::size_t> fold = folds_of(campaign, evidence->runs(), folds);
+    const std::set<std::size_t> used(evidence->runs().begin(), evidence->runs().end());
+    if (used.size() < campaign.runs.size() && options.runs.empty())
+        result.notes.push_back(fmt::format("{} of {} runs are used: the others lack a base motion, or {}", used.size(),
+                                           campaign.runs.size(),
+                                           result.from_outcomes ? "an outcome" : "histories of the blocks"));
+    if (folds < 2)
+        result.notes.emplace_back("all runs are of one motion: no motion can be left out and predicted by the others");
+
+    Counting counting(observer, forms.size() * CalibrationSearch::planned(keys.size(), options, folds));
+    for (const ContactForm form : forms) {
+        Study with_form = base;
+        with_form.contact.form = form;
+        with_form.text = study_text(with_form);
+        CalibrationSearch search(with_form, keys, options, *evidence, run, counting,
+                                 [&](std::size_t done) { counting.advance(done); });
+        std::optional<FormCalibration> found = search.run(fold, folds);
+        if (!found)
+            return result;
+        for (std::size_t r = 0, u = 0; r < found->runs.size(); u += found->runs[r++].units) {
+            const MeasuredRun& measured = campaign.runs[evidence->runs()[u]];
+            found->runs[r].run = measured.name;
+            found->runs[r].motion_id = measured.motion_id;
+        }
+        result.forms.push_back(std::move(*found));
+    }
+    const auto merit = [&](const FormCalibration& f) {
+        double sum = 0; // on runs left out where there are such
+        for (const RunScore& r : f.runs)
+            sum += r.calibrated;
+        return sum;
+    };
+    for (std::size_t f = 1; f < result.forms.size(); ++f)
+        if (merit(result.forms[f]) > merit(result.forms[result.best]))
+            result.best = f;
+    result.parameter_sets = evidence->candidates();
+    result.simulations = evidence->simulations();
+    result.window_simulations = evidence->window_simulations();
+    result.block_steps = evidence->block_steps();
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.complete = true;
+    return result;
+}
+
+} // namespace stylobate

@@ -1,0 +1,125 @@
+#pragma once
+/// Contact parameters, and any other number of a study file, from measured response: how likely they make what was
+/// measured, how well they are known, and what was not determined.
+///
+/// Evidence is either histories, scored window by window (`calibration_windows.hpp`), or outcomes (fell or stood),
+/// scored by the share of falls in small ensembles. The search is a scan over the whole range (friction is a cliff:
+/// below some value all slides, above another nothing does, and between them there is no slope to follow), then points
+/// about the best ones, then a quadratic form through them (`calibration_surface.hpp`), then the profile of every
+/// parameter: the best score with that parameter held.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+#include "studies/diagnosis/calibration_windows.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// A number of the study file that is fitted, and its range.
+struct FitKey {
+    std::string key; ///< "contact.friction"
+    double from = 0;
+    double to = 0;
+    bool logarithmic = true; ///< equal steps for equal ratios; needs from > 0
+};
+
+struct CalibrationOptions {
+    std::vector<FitKey> keys;       ///< empty: `contact_keys` of the study
+    std::vector<ContactForm> forms; ///< empty: the study's
+    std::vector<std::size_t> runs;  ///< of the campaign; empty: all
+    bool outcomes = false;          ///< use outcomes even where there are histories
+    std::size_t scan = 96;          ///< points spread over the whole range
+    std::size_t refine = 40;        ///< points of each of three rounds about the best ones
+    std::size_t surface = 64;       ///< points of each of two rounds for the quadratic form
+    std::size_t profile = 9;        ///< values of each parameter in its profile; 0: none (intervals from the form)
+    bool held_out = true;           ///< predict each motion by what the others say
+    std::uint64_t ensemble = 24;    ///< outcomes: realizations of each run
+    double window_s = 0;            ///< histories: 0: by the size of the drums
+};
+
+struct ProfilePoint {
+    double value = 0;
+    double score = 0; ///< best score with the parameter held there, less the best of all [nats]
+};
+
+struct FittedParameter {
+    std::string key;
+    double start = 0; ///< of the study
+    double value = 0;
+    double low = 0; ///< 95 % interval; at an end of the range where the data do not say more
+    double high = 0;
+    double from = 0; ///< the range
+    double to = 0;
+    bool bounded_below = false; ///< the data exclude the lower end of the range
+    bool bounded_above = false;
+    bool determined = false; ///< both
+    std::string note;        ///< in words, where it is not determined
+    std::vector<ProfilePoint> profile;
+};
+
+/// Score of one run, in nats, by parameters that it did and did not help to find.
+struct RunScore {
+    std::string run;
+    int motion_id = 0;
+    std::size_t units = 0; ///< windows; of outcomes 1
+    double nominal = 0;    ///< the study as it was
+    double calibrated = 0; ///< by the parameters that its motion did not help to find; NaN: not asked for
+};
+
+/// The calibration with one contact form.
+struct FormCalibration {
+    ContactForm form = ContactForm::area;
+    std::vector<FittedParameter> parameters;
+    std::vector<double> correlation; ///< (parameters x parameters)
+    double score = 0;                ///< of the calibrated model, all runs [nats]
+    double nominal_score = 0;
+    double roughness = 0; ///< of the score from one parameter set to the next [nats]
+    std::vector<RunScore> runs;
+    PairedGain held_out; ///< calibrated less nominal, on runs left out [nats]
+    Study study;         ///< with the calibrated values
+};
+
+struct Calibration {
+    std::string measured; ///< file
+    bool from_outcomes = false;
+    std::vector<FormCalibration> forms; ///< in the order asked for
+    std::size_t best = 0;               ///< of the forms: by the score on runs left out
+    std::vector<std::string> notes;     ///< what could not be used or judged, in words
+    std::uint64_t parameter_sets = 0;
+    std::uint64_t simulations = 0;
+    std::uint64_t window_simulations = 0;
+    std::uint64_t block_steps = 0;
+    double seconds = 0;
+    bool complete = false; ///< false: the observer stopped it; nothing of the above is to be used
+};
+
+/// K_N, K_T, both dashpots and friction, with ranges about the study's values.
+std::vector<FitKey> contact_keys(const Study& study);
+
+/// A key of the study file with the range FROM:TO in the text "KEY=FROM:TO"; of "KEY" alone a fifth to five times the
+/// study's value. @throws InputError if the study has no such number, or the range is none
+FitKey fit_key(const Study& study, const std::string& text);
+
+/// The study that a campaign is calibrated from where none is given: the specimen, its nominal friction, and a bed of
+/// 2e9 N/m3 (stone joints are of the order of 1 to 10 GPa/m).
+Study default_study(const Campaign& campaign);
+
+/// The study with other values. @throws InputError for a key or value that a study file may not have
+Study with_values(const Study& study, const std::vector<std::string>& keys, const std::vector<double>& values);
+
+/// The number that a study has for a key, defaults included. @throws InputError if there is none
+double number_in(const Study& study, const std::string& key);
+
+/// Calibrates. Progress is told in parameter sets of the whole calibration.
+///
+/// @param start  contacts and mechanisms; its structure is replaced by the specimen's
+/// @throws InputError if the campaign has neither histories nor outcomes, or a key cannot be fitted
+Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
+                      const RunOptions& run, Observer& observer);
+
+} // namespace stylobate

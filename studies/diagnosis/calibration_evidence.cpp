@@ -1,0 +1,205 @@
+#include "studies/diagnosis/calibration_evidence.hpp"
+
+#include "ensemble/sampler.hpp"
+#include "ensemble/specimen.hpp"
+#include "io/measured_motion.hpp"
+#include "studies/diagnosis/calibration_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace stylobate {
+
+namespace {
+
+class HistoryEvidence : public CalibrationEvidence {
+public:
+    explicit HistoryEvidence(WindowComparison comparison) : comparison_(std::move(comparison))
+    {
+        for (const WindowPlace& place : comparison_.windows())
+            runs_.push_back(place.run);
+    }
+
+    const std::vector<std::size_t>& runs() const override { return runs_; }
+    std::size_t candidates() const override { return residuals_.size(); }
+
+    bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) override
+    {
+        std::vector<ModelVariant> variants;
+        for (const Study& study : candidates)
+            variants.push_back({{}, study, {}, {}});
+        std::vector<WindowResiduals> z = comparison_.residuals(variants, options, observer);
+        if (z.size() != candidates.size())
+            return false;
+        std::move(z.begin(), z.end(), std::back_inserter(residuals_));
+        scales_.resize(residuals_.size());
+        return true;
+    }
+
+    std::vector<double> own_scores(std::size_t candidate, const std::vector<std::size_t>& used) const override
+    {
+        return comparison_.scores(residuals_[candidate], comparison_.fit_scales(residuals_[candidate], used));
+    }
+
+    std::vector<double> scores(std::size_t candidate, std::size_t scales_of) const override
+    {
+        if (!scales_[scales_of])
+            scales_[scales_of] = comparison_.fit_scales(residuals_[scales_of]);
+        return comparison_.scores(residuals_[candidate], *scales_[scales_of]);
+    }
+
+    std::uint64_t simulations() const override { return comparison_.simulations(); }
+    std::uint64_t window_simulations() const override { return comparison_.window_simulations(); }
+    std::uint64_t block_steps() const override { return comparison_.block_steps(); }
+
+private:
+    WindowComparison comparison_;
+    std::vector<std::size_t> runs_;                             ///< (windows)
+    std::vector<WindowResiduals> residuals_;                    ///< (candidates)
+    mutable std::vector<std::optional<ResidualScales>> scales_; ///< (candidates) once they were asked for
+};
+
+/// Passes on the wish to stop, not the progress of one small ensemble.
+class Quietly : public Observer {
+public:
+    explicit Quietly(Observer& outer) : outer_(outer) {}
+    bool stop_requested() override { return outer_.stop_requested(); }
+
+private:
+    Observer& outer_;
+};
+
+class OutcomeEvidence : public CalibrationEvidence {
+public:
+    struct Run {
+        std::size_t index;
+        Motion motion;
+        bool collapsed;
+    };
+
+    OutcomeEvidence(const Campaign& campaign, std::vector<Run> tests, const Study& start, std::uint64_t ensemble)
+        : tests_(std::move(tests)), structure_(structure_of(campaign.specimen)), ensemble_(ensemble),
+          perturbations_(start.perturbations)
+    {
+        for (const Run& test : tests_)
+            runs_.push_back(test.index);
+        if (!perturbations_.empty())
+            return;
+        // what is known of how a specimen differs from its plan
+        const Specimen& s = campaign.specimen;
+        const auto add = [&](Quantity quantity, Per per, double sd, double cov) {
+            Perturbation p;
+            p.quantity = quantity;
+            p.per = per;
+            p.sd = sd;
+            p.cov = cov;
+            if (sd > 0 || cov > 0)
+                perturbations_.push_back(p);
+        };
+        add(Quantity::friction, Per::joint, 0, 0.05);
+        add(Quantity::drum_width, Per::block, 0, s.width_tolerance);
+        add(Quantity::drum_offset, Per::block, s.placement_tolerance_m, 0);
+        add(Quantity::density, Per::block, 0, s.mass_tolerance);
+    }
+
+    const std::vector<std::size_t>& runs() const override { return runs_; }
+    std::size_t candidates() const override { return scores_.size(); }
+
+    bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) override
+    {
+        std::vector<std::vector<double>> all;
+        Quietly quietly(observer);
+        for (const Study& candidate : candidates) {
+            std::vector<double> scores;
+            for (const Run& test : tests_) {
+                Study study = candidate;
+                study.kind = StudyKind::single;
+                study.surface.reset();
+                study.realizations = ensemble_;
+                study.structure = structure_;
+                study.perturbations = perturbations_;
+                study.excitation = ExcitationSpec{};
+                study.excitation.kind = ExcitationKind::record;
+                study.outcome.follow = Follow::collapse;
+                // the same draws for every candidate: what differs is the parameters' doing
+                study.seed = candidate.seed + test.index;
+                const Sampler sampler(study, &test.motion);
+                RunPlan plan;
+                plan.total = ensemble_;
+                std::uint64_t collapsed = 0, valid = 0;
+                plan.sink = [&](const Realization& r, const Outcome& o) {
+                    collapsed += o.state == State::collapsed;
+                    valid += o.state != State::invalid;
+                    for (const Block& block : r.blocks)
+                        block_steps_ += block.fixed ? 0 : o.steps;
+                };
+                const Progress p = run_ensemble(study, sampler, &test.motion, options, plan, quietly);
+                if (p.done < plan.total)
+                    return false;
+                simulations_ += plan.total;
+                // the mean of the posterior of Jeffreys' prior: a small ensemble never excludes an outcome
+                const double share = (static_cast<double>(collapsed) + 0.5) / (static_cast<double>(valid) + 1);
+                scores.push_back(std::log(test.collapsed ? share : 1 - share));
+            }
+            all.push_back(std::move(scores));
+        }
+        std::move(all.begin(), all.end(), std::back_inserter(scores_));
+        return true;
+    }
+
+    std::vector<double> own_scores(std::size_t candidate, const std::vector<std::size_t>&) const override
+    {
+        return scores_[candidate];
+    }
+    std::vector<double> scores(std::size_t candidate, std::size_t) const override { return scores_[candidate]; }
+    std::uint64_t simulations() const override { return simulations_; }
+    std::uint64_t block_steps() const override { return block_steps_; }
+
+private:
+    const std::vector<Run> tests_;
+    const StructureSpec structure_;
+    const std::uint64_t ensemble_;
+    std::vector<Perturbation> perturbations_;
+    std::vector<std::size_t> runs_;           ///< (tests)
+    std::vector<std::vector<double>> scores_; ///< (candidates x tests)
+    std::uint64_t simulations_ = 0, block_steps_ = 0;
+};
+
+bool wanted(const std::vector<std::size_t>& runs, std::size_t run)
+{
+    return runs.empty() || std::find(runs.begin(), runs.end(), run) != runs.end();
+}
+
+} // namespace
+
+std::unique_ptr<CalibrationEvidence> history_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
+                                                      double window_s)
+{
+    WindowOptions options;
+    options.window_s = window_s;
+    options.runs = runs;
+    WindowComparison comparison(campaign, options);
+    if (comparison.windows().empty())
+        return nullptr;
+    return std::make_unique<HistoryEvidence>(std::move(comparison));
+}
+
+std::unique_ptr<CalibrationEvidence> outcome_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
+                                                      const Study& start, std::uint64_t ensemble)
+{
+    std::vector<OutcomeEvidence::Run> tests;
+    for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+        const MeasuredRun& run = campaign.runs[i];
+        if (!wanted(runs, i) || !run.collapsed ||
+            (run.base_acceleration_m_s2.empty() && run.base_displacement_m.empty()))
+            continue;
+        tests.push_back({i, base_motion_of(run), *run.collapsed});
+    }
+    if (tests.empty())
+        return nullptr;
+    return std::make_unique<OutcomeEvidence>(campaign, std::move(tests), start, ensemble);
+}
+
+} // namespace stylobate

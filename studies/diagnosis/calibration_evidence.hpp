@@ -1,0 +1,49 @@
+#pragma once
+/// What parameter sets are judged by: histories in windows, or outcomes in ensembles.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace stylobate {
+
+/// Candidates are added, and kept with what they predict; their scores are asked for as often as needed.
+class CalibrationEvidence {
+public:
+    virtual ~CalibrationEvidence() = default;
+
+    /// (units) what is scored: which run of the campaign each belongs to.
+    virtual const std::vector<std::size_t>& runs() const = 0;
+
+    /// How many have been added.
+    virtual std::size_t candidates() const = 0;
+
+    /// Predicts with each study. @return false if the observer stopped it: then none was added
+    virtual bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) = 0;
+
+    /// (units) scores of a candidate by its own scales, fitted to the runs that are `used` (of the campaign; empty:
+    /// all).
+    virtual std::vector<double> own_scores(std::size_t candidate, const std::vector<std::size_t>& used) const = 0;
+    /// (units) scores of a candidate by the scales of another one.
+    virtual std::vector<double> scores(std::size_t candidate, std::size_t scales_of) const = 0;
+
+    virtual std::uint64_t simulations() const = 0;
+    virtual std::uint64_t window_simulations() const { return 0; }
+    virtual std::uint64_t block_steps() const = 0;
+};
+
+/// Null where no run has a history that a model could follow.
+std::unique_ptr<CalibrationEvidence> history_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
+                                                      double window_s);
+/// Null where no run says whether it collapsed under a base motion that is known.
+/// @param start     its perturbations are drawn; without any, the specimen's tolerances are
+/// @param ensemble  realizations of each run and candidate
+std::unique_ptr<CalibrationEvidence> outcome_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
+                                                      const Study& start, std::uint64_t ensemble);
+
+} // namespace stylobate

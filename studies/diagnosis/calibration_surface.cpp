@@ -1,0 +1,234 @@
+#include "studies/diagnosis/calibration_surface.hpp"
+
+#include "ensemble/distribution.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <map>
+
+namespace stylobate {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+Eigen::Index index(std::size_t i)
+{
+    return static_cast<Eigen::Index>(i);
+}
+
+/// 1, u_i, u_i u_j (i <= j) of the distance from the centre.
+Vector terms(const Vector& u)
+{
+    const Eigen::Index d = u.size();
+    Vector t(1 + d + d * (d + 1) / 2);
+    t(0) = 1;
+    t.segment(1, d) = u;
+    Eigen::Index k = 1 + d;
+    for (Eigen::Index i = 0; i < d; ++i)
+        for (Eigen::Index j = i; j < d; ++j)
+            t(k++) = u(i) * u(j);
+    return t;
+}
+
+/// The curvature of a form from its coefficients, with the sign of a maximum.
+Matrix curvature(const Vector& coefficients, Eigen::Index d)
+{
+    Matrix h(d, d);
+    Eigen::Index k = 1 + d;
+    for (Eigen::Index i = 0; i < d; ++i)
+        for (Eigen::Index j = i; j < d; ++j, ++k)
+            h(i, j) = h(j, i) = (i == j ? -2 : -1) * coefficients(k);
+    return h;
+}
+
+Vector to_vector(const UnitPoint& p)
+{
+    return Eigen::Map<const Vector>(p.data(), index(p.size()));
+}
+
+/// Sum over columns, those of one group first summed up, of what they differ from their mean.
+Matrix scatter(const Matrix& slopes)
+{
+    const double n = static_cast<double>(slopes.cols());
+    if (n < 2)
+        return Matrix::Zero(slopes.rows(), slopes.rows());
+    const Matrix centred = slopes.colwise() - slopes.rowwise().mean();
+    return centred * centred.transpose() * (n / (n - 1));
+}
+
+double halton(std::size_t i, std::size_t base)
+{
+    double f = 1, value = 0;
+    for (; i > 0; i /= base) {
+        f /= static_cast<double>(base);
+        value += f * static_cast<double>(i % base);
+    }
+    return value;
+}
+
+constexpr std::array<std::size_t, 12> primes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+
+} // namespace
+
+ScoreSurface fit_surface(const std::vector<ScoredPoint>& points, const std::vector<std::size_t>& group,
+                         const std::vector<bool>& use)
+{
+    ScoreSurface surface;
+    if (points.empty())
+        return surface;
+    const std::size_t dimensions = points.front().at.size();
+    const Eigen::Index d = index(dimensions), n = index(points.size());
+    const Eigen::Index coefficients = 1 + d + d * (d + 1) / 2;
+    std::vector<std::size_t> units;
+    for (std::size_t i = 0; i < group.size(); ++i)
+        if (use.empty() || use[i])
+            units.push_back(i);
+    if (n < coefficients + 2 || units.empty())
+        return surface;
+    surface.fitted = true;
+
+    Vector centre = Vector::Zero(d), total(n), least = Vector::Ones(d), most = Vector::Zero(d);
+    Matrix scores(n, index(units.size()));
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const ScoredPoint& point = points[static_cast<std::size_t>(i)];
+        centre += to_vector(point.at) / static_cast<double>(n);
+        least = least.cwiseMin(to_vector(point.at));
+        most = most.cwiseMax(to_vector(point.at));
+        for (std::size_t u = 0; u < units.size(); ++u)
+            scores(i, index(u)) = point.scores[units[u]];
+        total(i) = scores.row(i).sum();
+    }
+    // Far below the best the form does not hold, and need not. The level below which a point counts for little is where
+    // half of the points are, so that it is known from the points themselves.
+    std::vector<double> below;
+    for (Eigen::Index i = 0; i < n; ++i)
+        below.push_back(total.maxCoeff() - total(i));
+    std::vector<double> sorted = below;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
+    const double level = std::max(sorted[sorted.size() / 2], 2.0);
+    Matrix design(n, coefficients);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double far = below[static_cast<std::size_t>(i)] / (2 * level);
+        const double weight = std::sqrt(1 / (1 + far * far * far * far));
+        design.row(i) = weight * terms(to_vector(points[static_cast<std::size_t>(i)].at) - centre).transpose();
+        scores.row(i) *= weight;
+        total(i) *= weight;
+    }
+    // the smallest ridge that keeps the solution finite where points lie on a face of the cube
+    Matrix normal = design.transpose() * design;
+    normal.diagonal().array() += 1e-9 * normal.trace() / static_cast<double>(coefficients);
+    const Eigen::LDLT<Matrix> solver(normal);
+    const Matrix unit_coefficients = solver.solve(design.transpose() * scores);
+    const Vector sum = unit_coefficients.rowwise().sum();
+
+    // curvature, without directions in which the form rises to all sides, and with the prior
+    const Matrix precision = Matrix::Identity(d, d) / (prior_deviation * prior_deviation);
+    const Matrix raw = curvature(sum, d);
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(raw);
+    const Matrix h =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose() +
+        precision;
+    // the best point, one parameter after the other; beyond its points the form says nothing
+    const Vector slope = sum.segment(1, d);
+    Vector best = Vector::Zero(d); // from the centre
+    for (int sweep = 0; sweep < 500; ++sweep)
+        for (Eigen::Index i = 0; i < d; ++i) {
+            const double pull = slope(i) - h.row(i).dot(best) + h(i, i) * best(i);
+            best(i) = std::clamp(pull / h(i, i), least(i) - centre(i), most(i) - centre(i));
+        }
+    surface.largest = terms(best).dot(sum);
+
+    Matrix slopes(d, index(units.size()));
+    std::map<std::size_t, Vector> grouped;
+    for (std::size_t u = 0; u < units.size(); ++u) {
+        const Vector c = unit_coefficients.col(index(u));
+        slopes.col(index(u)) = c.segment(1, d) - curvature(c, d) * best;
+        const auto [place, fresh] = grouped.try_emplace(group[units[u]], Vector::Zero(d));
+        place->second += slopes.col(index(u));
+    }
+    Matrix by_group(d, index(grouped.size()));
+    Eigen::Index g = 0;
+    for (const auto& [key, sum_of] : grouped)
+        by_group.col(g++) = sum_of;
+    const Matrix inverse = h.inverse();
+    const auto covariance = [&](const Matrix& j) { return Matrix(inverse * (j + precision) * inverse); };
+    Matrix cov = covariance(scatter(slopes));
+    if (grouped.size() > dimensions) {
+        // no smaller than what the runs say, each parameter by its own factor
+        const Matrix of_runs = covariance(scatter(by_group));
+        const Vector factor = (of_runs.diagonal().array() / cov.diagonal().array()).max(1).sqrt();
+        cov = factor.asDiagonal() * cov * factor.asDiagonal();
+    }
+
+    double square = 0, weights = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double r = total(i) - design.row(i).dot(sum);
+        square += r * r;
+        weights += design(i, 0) * design(i, 0);
+    }
+    surface.roughness = std::sqrt(square / std::max(weights - static_cast<double>(coefficients), 1.0));
+    surface.correlation.resize(dimensions * dimensions);
+    surface.along.resize(dimensions * dimensions);
+    for (std::size_t i = 0; i < dimensions; ++i) {
+        surface.best.push_back(std::clamp(best(index(i)) + centre(index(i)), 0.0, 1.0));
+        surface.reach.push_back((most(index(i)) - least(index(i))) / 2);
+        surface.deviation.push_back(std::sqrt(cov(index(i), index(i))));
+        surface.overdispersion.push_back(cov(index(i), index(i)) / inverse(index(i), index(i)));
+        for (std::size_t j = 0; j < dimensions; ++j) {
+            surface.correlation[i * dimensions + j] =
+                cov(index(i), index(j)) / std::sqrt(cov(index(i), index(i)) * cov(index(j), index(j)));
+            surface.along[i * dimensions + j] = inverse(index(j), index(i)) / inverse(index(i), index(i));
+        }
+    }
+    return surface;
+}
+
+std::vector<UnitPoint> spread_points(std::size_t dimensions, std::size_t count, std::size_t first)
+{
+    assert(dimensions <= primes.size() && "the sequence has 12 dimensions");
+    std::vector<UnitPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        UnitPoint point;
+        for (std::size_t k = 0; k < dimensions; ++k)
+            point.push_back(halton(first + i + 1, primes[k]));
+        points.push_back(std::move(point));
+    }
+    return points;
+}
+
+std::vector<UnitPoint> points_about(const UnitPoint& centre, const std::vector<double>& deviation,
+                                    const std::vector<double>& correlation, std::size_t count, std::size_t first)
+{
+    const std::size_t d = centre.size();
+    Matrix cov(index(d), index(d));
+    for (std::size_t i = 0; i < d; ++i)
+        for (std::size_t j = 0; j < d; ++j)
+            cov(index(i), index(j)) = correlation[i * d + j] * deviation[i] * deviation[j];
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(cov);
+    const Matrix root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    Perturbation unit;
+    unit.sd = 1;
+    const Distribution normal(unit, 0);
+    std::vector<UnitPoint> points = spread_points(d, count, first);
+    for (UnitPoint& point : points) {
+        Vector z(index(d));
+        for (std::size_t i = 0; i < d; ++i)
+            z(index(i)) = normal.value(point[i]);
+        const Vector u = to_vector(centre) + root * z;
+        for (std::size_t i = 0; i < d; ++i) {
+            // reflected at the faces of the cube
+            double v = std::fabs(u(index(i)));
+            v = std::fmod(v, 2.0);
+            point[i] = v > 1 ? 2 - v : v;
+        }
+    }
+    return points;
+}
+
+} // namespace stylobate

@@ -1,0 +1,266 @@
+#include "studies/diagnosis/calibration_windows.hpp"
+
+#include "ensemble/sampler.hpp"
+#include "ensemble/specimen.hpp"
+#include "ensemble/static_state.hpp"
+#include "io/measured_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace stylobate {
+
+struct WindowComparison::Prepared {
+    struct Run {
+        std::size_t index = 0; ///< of the campaign
+        std::shared_ptr<const Motion> base;
+        SeenRun seen;
+        std::shared_ptr<const Targets> targets;
+        std::shared_ptr<const std::vector<FreeWindow>> windows;
+        std::size_t first = 0; ///< of its windows among all
+    };
+    StructureSpec structure;
+    FollowScales scales;
+    std::vector<Run> runs;
+    std::vector<std::size_t> used;
+    std::vector<WindowPlace> places;
+    std::vector<std::vector<SeenValue>> values; ///< (windows)
+    std::size_t blocks = 0;
+    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
+};
+
+namespace {
+
+/// The nominal realization of a variant: nothing drawn, nothing shaken yet.
+Realization nominal_realization(const Study& variant, const StructureSpec& structure)
+{
+    Study study = variant;
+    study.kind = StudyKind::single;
+    study.surface.reset();
+    study.realizations = 1;
+    study.perturbations.clear();
+    study.structure = structure;
+    study.excitation = ExcitationSpec{};
+    study.excitation.duration_s = 1;
+    study.initial = InitialSpec{};
+    return Sampler(study, nullptr).realization(0);
+}
+
+} // namespace
+
+WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions& options)
+    : prepared_(std::make_unique<Prepared>())
+{
+    Prepared& p = *prepared_;
+    const SpecimenStructure specimen = build_specimen(campaign.specimen);
+    p.structure = specimen.structure;
+    const Layout layout = lay_out(p.structure);
+    p.blocks = layout.blocks.size();
+    std::vector<double> plan_x;
+    double width = 0;
+    std::size_t drums = 0;
+    for (const PlacedBlock& block : layout.blocks) {
+        plan_x.push_back(block.x_m() + specimen.origin_x_m);
+        if (!block.fixed && block.role == BlockRole::drum) {
+            width += block.width_m;
+            ++drums;
+        }
+    }
+    p.scales =
+        follow_scales(width / static_cast<double>(std::max<std::size_t>(drums, 1)), campaign.specimen.gravity_m_s2);
+    if (options.window_s > 0)
+        p.scales.window_s = options.window_s;
+    if (options.pull_rad_s > 0)
+        p.scales.pull_rad_s = options.pull_rad_s;
+    for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+        if (!options.runs.empty() && std::find(options.runs.begin(), options.runs.end(), i) == options.runs.end())
+            continue;
+        const MeasuredRun& measured = campaign.runs[i];
+        if (measured.base_acceleration_m_s2.empty() && measured.base_displacement_m.empty())
+            continue;
+        Prepared::Run run;
+        run.index = i;
+        run.base = std::make_shared<Motion>(base_motion_of(measured));
+        run.seen = seen_run(measured, *run.base, specimen.block, plan_x, p.scales.smoothing_s);
+        if (run.seen.blocks == 0)
+            continue;
+        const std::vector<SeenWindow> windows = windows_of(run.seen, p.scales.window_s);
+        if (windows.empty())
+            continue;
+        run.targets = std::make_shared<Targets>(targets_of(run.seen));
+        auto list = std::make_shared<std::vector<FreeWindow>>();
+        run.first = p.places.size();
+        for (std::vector<SeenValue>& values : seen_values(run.seen, windows, p.scales.lag_s))
+            p.values.push_back(std::move(values));
+        for (const SeenWindow& window : windows) {
+            list->push_back(window.window);
+            p.places.push_back({i, window.window.start_s + measured.time_s.front(),
+                                window.window.times_s.back() + measured.time_s.front()});
+        }
+        run.windows = list;
+        p.used.push_back(i);
+        p.runs.push_back(std::move(run));
+    }
+}
+
+WindowComparison::~WindowComparison() = default;
+WindowComparison::WindowComparison(WindowComparison&&) noexcept = default;
+
+const std::vector<WindowPlace>& WindowComparison::windows() const
+{
+    return prepared_->places;
+}
+const std::vector<std::size_t>& WindowComparison::used() const
+{
+    return prepared_->used;
+}
+const FollowScales& WindowComparison::scales() const
+{
+    return prepared_->scales;
+}
+const StructureSpec& WindowComparison::structure() const
+{
+    return prepared_->structure;
+}
+const std::vector<SeenValue>& WindowComparison::seen(std::size_t window) const
+{
+    return prepared_->values[window];
+}
+std::uint64_t WindowComparison::simulations() const
+{
+    return prepared_->simulations;
+}
+std::uint64_t WindowComparison::window_simulations() const
+{
+    return prepared_->window_simulations;
+}
+std::uint64_t WindowComparison::block_steps() const
+{
+    return prepared_->block_steps;
+}
+
+std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<ModelVariant>& variants,
+                                                         const RunOptions& options, Observer& observer)
+{
+    Prepared& p = *prepared_;
+    std::vector<FollowJob> jobs;
+    std::vector<std::vector<double>> rest_y; // (jobs x blocks)
+    for (const ModelVariant& variant : variants) {
+        const Realization nominal = nominal_realization(variant.study, p.structure);
+        for (const Prepared::Run& run : p.runs) {
+            FollowJob job;
+            job.realization = nominal;
+            Realization& r = job.realization;
+            for (std::size_t i = 0; i < p.blocks; ++i)
+                if (std::isfinite(run.seen.standing_x_m[i]) && !r.blocks[i].fixed)
+                    r.blocks[i].x_m += run.seen.standing_x_m[i];
+            r.motion = variant.base ? std::make_shared<Motion>(variant.base(*run.base)) : run.base;
+            if (variant.change)
+                variant.change(r, run.index);
+            job.targets = run.targets;
+            job.pull_rad_s = p.scales.pull_rad_s;
+            job.windows = run.windows;
+            rest_y.push_back(static_state(r).y_m);
+            jobs.push_back(std::move(job));
+        }
+    }
+    const FollowReport report = follow(jobs, options, observer);
+    p.simulations += jobs.size();
+    p.window_simulations += report.windows;
+    p.block_steps += report.block_steps;
+    std::vector<WindowResiduals> all;
+    if (!report.complete)
+        return all;
+    std::size_t job = 0;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        WindowResiduals z(p.places.size());
+        for (const Prepared::Run& run : p.runs) {
+            const FollowResult& result = report.results[job];
+            for (std::size_t w = 0; w < result.windows.size(); ++w)
+                z[run.first + w] =
+                    stylobate::residuals(p.values[run.first + w], result.windows[w], p.blocks, rest_y[job]);
+            ++job;
+        }
+        all.push_back(std::move(z));
+    }
+    return all;
+}
+
+ResidualScales WindowComparison::fit_scales(const WindowResiduals& residuals,
+                                            const std::vector<std::size_t>& runs) const
+{
+    const Prepared& p = *prepared_;
+    ResidualScales scales(residual_kinds(p.blocks));
+    for (std::size_t w = 0; w < p.places.size(); ++w)
+        if (runs.empty() || std::find(runs.begin(), runs.end(), p.places[w].run) != runs.end())
+            scales.add(p.values[w], residuals[w]);
+    scales.fit();
+    return scales;
+}
+
+std::vector<double> WindowComparison::scores(const WindowResiduals& residuals, const ResidualScales& scales) const
+{
+    std::vector<double> scores;
+    for (std::size_t w = 0; w < residuals.size(); ++w)
+        scores.push_back(scales.score(prepared_->values[w], residuals[w]));
+    return scores;
+}
+
+PairedGain paired_gain(const std::vector<double>& score_a, const std::vector<double>& score_b,
+                       const std::vector<std::size_t>& group)
+{
+    std::map<std::size_t, double> sums;
+    PairedGain gain;
+    for (std::size_t w = 0; w < score_a.size(); ++w) {
+        sums[group[w]] += score_b[w] - score_a[w];
+        gain.total += score_b[w] - score_a[w];
+    }
+    std::vector<double> parts;
+    if (sums.size() >= 4)
+        for (const auto& [key, sum] : sums)
+            parts.push_back(sum);
+    else
+        for (std::size_t w = 0; w < score_a.size(); ++w)
+            parts.push_back(score_b[w] - score_a[w]);
+    gain.groups = parts.size();
+    const double n = static_cast<double>(parts.size());
+    if (parts.size() < 2) {
+        gain.low = -std::numeric_limits<double>::infinity();
+        gain.high = std::numeric_limits<double>::infinity();
+        return gain;
+    }
+    double square = 0;
+    for (const double part : parts)
+        square += (part - gain.total / n) * (part - gain.total / n);
+    const double half = student_quantile(0.975, n - 1) * std::sqrt(square * n / (n - 1));
+    gain.low = gain.total - half;
+    gain.high = gain.total + half;
+    return gain;
+}
+
+WindowScores window_scores(const Campaign& campaign, const std::vector<ModelVariant>& variants,
+                           const WindowOptions& windows, const std::vector<std::size_t>& scale_runs,
+                           const RunOptions& options, Observer& observer)
+{
+    WindowComparison comparison(campaign, windows);
+    WindowScores result;
+    result.windows = comparison.windows();
+    const std::vector<WindowResiduals> z = comparison.residuals(variants, options, observer);
+    result.complete = z.size() == variants.size();
+    if (!result.complete || z.empty())
+        return result;
+    const ResidualScales scales = comparison.fit_scales(z.front(), scale_runs);
+    for (const WindowResiduals& residuals : z) {
+        result.scores.push_back(comparison.scores(residuals, scales));
+        std::vector<double> by_run(campaign.runs.size(), 0.0);
+        for (std::size_t w = 0; w < result.windows.size(); ++w)
+            by_run[result.windows[w].run] += result.scores.back()[w];
+        result.by_run.push_back(std::move(by_run));
+    }
+    return result;
+}
+
+} // namespace stylobate

@@ -1,0 +1,109 @@
+#pragma once
+/// Models compared with measured histories, window by window (`ensemble/following.hpp`).
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/following_score.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// A model that is to predict a campaign.
+struct ModelVariant {
+    std::string name;
+    Study study; ///< its contacts and mechanisms; its structure is the specimen's, its excitation and perturbations do
+                 ///< not matter here
+    /// Changes the base motion (gain, offset in time, distortion); empty: none.
+    std::function<Motion(const Motion&)> base = {};
+    /// Changes the realization, its blocks being where they stood in the run; empty: not. The index is of the campaign.
+    std::function<void(Realization&, std::size_t run)> change = {};
+};
+
+struct WindowOptions {
+    double window_s = 0;           ///< length; 0: by the size of the drums (`follow_scales`)
+    double pull_rad_s = 0;         ///< 0: likewise
+    std::vector<std::size_t> runs; ///< of the campaign; empty: all
+};
+
+/// Where a window lies.
+struct WindowPlace {
+    std::size_t run = 0; ///< of the campaign
+    double start_s = 0;  ///< the cameras' clock
+    double end_s = 0;
+};
+
+/// What a variant is off by: residuals over their scale s (`SeenValue`) of every window.
+using WindowResiduals = std::vector<std::vector<double>>;
+
+/// A campaign made ready to be predicted: base motions, smoothed histories, windows. Made once, used for many models.
+class WindowComparison {
+public:
+    /// Runs without histories, or whose base motion is not known, are left out (`used` says which are not).
+    /// @throws InputError if the specimen cannot be built
+    WindowComparison(const Campaign& campaign, const WindowOptions& options);
+    ~WindowComparison();
+    WindowComparison(WindowComparison&&) noexcept;
+
+    const std::vector<WindowPlace>& windows() const;
+    const std::vector<std::size_t>& used() const; ///< runs of the campaign that have windows
+    const FollowScales& scales() const;
+    /// The specimen as a structure.
+    const StructureSpec& structure() const;
+
+    /// Runs every variant over all windows, in lockstep. @return (variants x windows); empty if the observer stopped it
+    /// @throws InputError if a variant cannot be built
+    std::vector<WindowResiduals> residuals(const std::vector<ModelVariant>& variants, const RunOptions& options,
+                                           Observer& observer);
+
+    /// Scales k fitted to a variant, of the runs in `runs` (of the campaign; empty: all).
+    ResidualScales fit_scales(const WindowResiduals& residuals, const std::vector<std::size_t>& runs = {}) const;
+    /// (windows) log scores
+    std::vector<double> scores(const WindowResiduals& residuals, const ResidualScales& scales) const;
+    /// What each residual of a window is of.
+    const std::vector<SeenValue>& seen(std::size_t window) const;
+
+    // so far
+    std::uint64_t simulations() const;        ///< runs by observers
+    std::uint64_t window_simulations() const; ///< free windows
+    std::uint64_t block_steps() const;
+
+private:
+    struct Prepared;
+    std::unique_ptr<Prepared> prepared_;
+};
+
+/// A paired difference with its interval.
+struct PairedGain {
+    double total = 0; ///< sum of score_b - score_a over the windows [nats]
+    double low = 0;   ///< 95 % interval of it, from how it differs between the motions (Student's t), or between the
+    double high = 0;  ///< windows where there are fewer than 4 motions
+    std::size_t groups = 0;
+};
+
+/// @param group (windows) what may be taken as independent: windows of one motion share a group
+PairedGain paired_gain(const std::vector<double>& score_a, const std::vector<double>& score_b,
+                       const std::vector<std::size_t>& group);
+
+/// Scores of several variants.
+struct WindowScores {
+    std::vector<WindowPlace> windows;
+    std::vector<std::vector<double>> scores; ///< (variants x windows) [nats]
+    std::vector<std::vector<double>> by_run; ///< (variants x runs of the campaign), 0 for runs without windows
+    bool complete = false;                   ///< false: the observer stopped it
+};
+
+/// The scores of all variants with the scales of the first one, so that they can be compared pair by pair.
+///
+/// @param scale_runs runs that the scales are fitted to: those that the variants were fitted to; empty: all
+WindowScores window_scores(const Campaign& campaign, const std::vector<ModelVariant>& variants,
+                           const WindowOptions& windows, const std::vector<std::size_t>& scale_runs,
+                           const RunOptions& options, Observer& observer);
+
+} // namespace stylobate
