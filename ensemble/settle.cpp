@@ -220,11 +220,12 @@ double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double
         f.stiffness = k_n * opening * opening.transpose() +
                       joint.tangential_stiffness_n_m * sliding * sliding.transpose() +
                       k_n * length * length / 12 * turning * turning.transpose();
+        f.force = k_n * length * length / 12 * joint.extension.wedge_rad * turning; // what would turn it by its wedge
         add(joint, f);
     }
     // a block that has lost all its contacts must not make the tangent singular
     const Eigen::VectorXd least = 1e-9 * K.diagonal();
-    poses = moved(K.ldlt().solve(weight), 1);
+    poses = moved(K.ldlt().solve(residual), 1);
 
     double lacks = evaluate(poses);
     for (int i = 0; i < most_iterations && lacks > balanced; ++i) {
