@@ -151,7 +151,6 @@ int main(int argc, char** argv)
     add_common(*report, options);
     report->callback([&] { status = report_command(options, results, page); });
 
-    std::string measured;
     CalibrateOptions calibration;
     bool keep_all = false;
     auto* calibrate = app.add_subcommand("calibrate", "contact parameters from measured response, with intervals");

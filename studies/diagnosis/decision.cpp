@@ -27,7 +27,9 @@ JudgedCause judged_cause(const CauseFit& fit, Channel channel, const ChanceGains
     j.chance = chance.probability(channel, mechanism, fit.gain);
     j.surprise = std::min(fit.gain - j.chance95, -std::log(std::max(j.chance, 1e-30)) - 3);
     const double left = fit.gain_without_best();
-    if (fit.gain - j.chance95 < rule.clear)
+    if (chance.campaigns(channel) == 0)
+        j.why_not = "what chance gives is not known";
+    else if (fit.gain - j.chance95 < rule.clear)
         j.why_not = fmt::format("gains {:.1f} nats; chance gives up to {:.1f} (95 %)", fit.gain, j.chance95);
     else if (j.chance > rule.chance)
         j.why_not = fmt::format("such a gain has a probability of {:.2g} by chance", j.chance);
@@ -81,23 +83,21 @@ std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector
                                const DecisionRule& rule)
 {
     std::vector<JudgedCause> judged;
-    if (chance.campaigns(Channel::balance) > 0)
-        for (const CauseFit& fit : balance.causes)
-            judged.push_back(judged_cause(fit, Channel::balance, chance, rule));
-    if (chance.campaigns(Channel::windows) > 0)
-        for (std::size_t i = 0; i < windows.size(); ++i) {
-            JudgedCause j = judged_cause(windows[i], Channel::windows, chance, rule);
-            if (i < windows_in_others.size())
-                j.gain_in_others = windows_in_others[i];
-            // the other contact forms must not deny what the best one says
-            for (const double gain : j.gain_in_others)
-                if (j.considered && gain < 0.5 * j.chance95) {
-                    j.considered = false;
-                    j.why_not = fmt::format(
-                        "another contact form gains {:.1f} nats by it: it depends on the contact form", gain);
-                }
-            judged.push_back(std::move(j));
-        }
+    for (const CauseFit& fit : balance.causes)
+        judged.push_back(judged_cause(fit, Channel::balance, chance, rule));
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        JudgedCause j = judged_cause(windows[i], Channel::windows, chance, rule);
+        if (i < windows_in_others.size())
+            j.gain_in_others = windows_in_others[i];
+        // the other contact forms must not deny what the best one says
+        for (const double gain : j.gain_in_others)
+            if (j.considered && gain < 0.5 * j.chance95) {
+                j.considered = false;
+                j.why_not =
+                    fmt::format("another contact form gains {:.1f} nats by it: it depends on the contact form", gain);
+            }
+        judged.push_back(std::move(j));
+    }
     // what both ways see at one place is one finding: the more surprising view of it
     sort_judged(judged);
     std::vector<JudgedCause> kept;

@@ -21,8 +21,9 @@ namespace {
 
 constexpr std::array forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
 constexpr std::array form_names = {"area", "two_corner", "points"};
-// A fallen column tells nothing more.
+// A block has fallen whose centre is below this part of its height at rest, or that leans by more.
 constexpr double fallen = 0.6;
+constexpr double most_lean = 0.8; // rad
 
 /// Numbers of one campaign, one after the other.
 class Draws {
@@ -134,9 +135,8 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
         for (std::size_t b = 0; b < columns; ++b) {
             const auto k = static_cast<std::size_t>(built.block[b]);
             const double y = r.blocks[k].y_m + readings.y_m[i * blocks + k];
-            if (!std::isfinite(y) ||
-                y - r.blocks[k].half_height_m < fallen * (r.blocks[k].y_m - r.blocks[k].half_height_m) - 1e-9 ||
-                std::fabs(readings.theta_rad[i * blocks + k]) > 0.8)
+            if (!std::isfinite(y) || y < fallen * r.blocks[k].y_m ||
+                std::fabs(readings.theta_rad[i * blocks + k]) > most_lean)
                 fell = i;
         }
     if (fell < n) {
