@@ -79,7 +79,7 @@ bool matters(const CauseFit& fit)
 }
 
 std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,
-                               const std::vector<std::vector<double>>& windows_in_others, const ChanceGains& chance,
+                               const std::vector<std::vector<double>>& windows_by_form, const ChanceGains& chance,
                                const DecisionRule& rule)
 {
     std::vector<JudgedCause> judged;
@@ -87,15 +87,8 @@ std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector
         judged.push_back(judged_cause(fit, Channel::balance, chance, rule));
     for (std::size_t i = 0; i < windows.size(); ++i) {
         JudgedCause j = judged_cause(windows[i], Channel::windows, chance, rule);
-        if (i < windows_in_others.size())
-            j.gain_in_others = windows_in_others[i];
-        // the other contact forms must not deny what the best one says
-        for (const double gain : j.gain_in_others)
-            if (j.considered && gain < 0.5 * j.chance95) {
-                j.considered = false;
-                j.why_not =
-                    fmt::format("another contact form gains {:.1f} nats by it: it depends on the contact form", gain);
-            }
+        if (i < windows_by_form.size())
+            j.gain_by_form = windows_by_form[i];
         judged.push_back(std::move(j));
     }
     // what both ways see at one place is one finding: the more surprising view of it

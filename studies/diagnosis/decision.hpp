@@ -40,12 +40,12 @@ struct JudgedCause {
     double probability = 0;
     bool considered = false; ///< rule 2
     std::string why_not;
-    std::vector<double> gain_in_others; ///< windows: under the other contact forms
+    std::vector<double> gain_by_form; ///< windows: under each of the contact forms that judge
 };
 
 /// Everything that balance and windows say, judged; the most surprising first.
 std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,
-                               const std::vector<std::vector<double>>& windows_in_others, const ChanceGains& chance,
+                               const std::vector<std::vector<double>>& windows_by_form, const ChanceGains& chance,
                                const DecisionRule& rule);
 
 struct Decided {

@@ -49,11 +49,10 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
         if (j.fit.gain_by_run[r] != 0)
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
-    if (j.channel == Channel::windows)
-        for (std::size_t k = 0; k < j.gain_in_others.size() && k + 1 < baselines.size(); ++k) {
-            const std::string form = baselines[k + 1].contacts.substr(0, baselines[k + 1].contacts.find(','));
-            (j.gain_in_others[k] > j.chance95 ? c.forms_agreed : c.forms_disagreed).push_back(form);
-        }
+    for (std::size_t k = 0; k < j.gain_by_form.size() && k < baselines.size(); ++k) {
+        const std::string form = baselines[k].contacts.substr(0, baselines[k].contacts.find(','));
+        (j.gain_by_form[k] > j.chance95 ? c.forms_agreed : c.forms_disagreed).push_back(form);
+    }
     c.decision = decision;
     c.why = !j.why_not.empty() ? j.why_not
             : j.channel == Channel::direct
@@ -260,7 +259,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     });
     WindowEvidence windows;
     if (!unmodelled)
-        windows = window_evidence(campaign, study, scales, known, true, options.run, observer);
+        windows = window_evidence(campaign, study, scales, known, options.run, observer);
     else {
         windows.complete = true;
         windows.why_not = "The table moves vertically in a way that the base motion does not tell.";
@@ -312,15 +311,15 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
             std::vector<SizedCause> with = known;
             for (const SizedCause& cause : model_causes({given}))
                 with.push_back(cause);
-            rest = window_evidence(campaign, start, scales, with, true, options.run, observer);
+            rest = window_evidence(campaign, start, scales, with, options.run, observer);
             count.simulations += rest.simulations;
             count.window_simulations += rest.window_simulations;
             count.block_steps += rest.block_steps;
         }
-        return judge(left, rest.causes, rest.gain_in_others, chance.gains, options.rule);
+        return judge(left, rest.causes, rest.gain_by_form, chance.gains, options.rule);
     };
     const Decided decided =
-        decide(direct, balance, judge(balance, windows.causes, windows.gain_in_others, chance.gains, options.rule),
+        decide(direct, balance, judge(balance, windows.causes, windows.gain_by_form, chance.gains, options.rule),
                chance.gains, options.rule, again);
     if (observer.stop_requested())
         return std::nullopt;

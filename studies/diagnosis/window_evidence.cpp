@@ -15,8 +15,12 @@ namespace stylobate {
 
 namespace {
 
+// Free windows: long enough that a slip shows, short enough that an impact that went the other way does not rule.
+constexpr double window_part = 0.5; // of the specimen's time scale
+constexpr double shortest_window_s = 0.2;
 // The smallest sizes tried beyond those of the list are between two neighbours of the best one.
-constexpr int refined = 8; ///< causes whose size is looked at more closely
+constexpr std::size_t refined = 8; ///< causes whose size is looked at more closely
+constexpr std::size_t judging_forms = 2;
 
 struct FormName {
     ContactForm form;
@@ -43,10 +47,10 @@ Study with_contacts(const Study& start, ContactForm form, double stiffness, doub
 
 class Windows {
 public:
-    Windows(const Campaign& campaign, const std::vector<SizedCause>& given, const RunOptions& options,
+    Windows(const Campaign& campaign, double length_s, const std::vector<SizedCause>& given, const RunOptions& options,
             Observer& observer)
-        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {}), given_(given), options_(options),
-          observer_(observer)
+        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, 0, {}}), given_(given),
+          options_(options), observer_(observer)
     {
     }
 
@@ -139,7 +143,7 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
     };
     const int joints = static_cast<int>(specimen.joints.size());
     for (int j = 0; j < joints; ++j)
-        tried.push_back({of_joint("joint_friction", j, "ratio", "", 1), {0.45, 0.6, 0.75, 0.87, 1.15, 1.35}});
+        tried.push_back({of_joint("joint_friction", j, "ratio", "", 1), {0.4, 0.55, 0.7, 0.85, 1.2}});
     for (const double part : {0.01, 0.04}) {
         Cause stribeck = of_joint("stribeck", -1, "dynamic_ratio", "", 1);
         stribeck.fixed = part * speed;
@@ -166,11 +170,10 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
 }
 
 WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
-                               const std::vector<SizedCause>& given, bool other_forms, const RunOptions& options,
-                               Observer& observer)
+                               const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer)
 {
     WindowEvidence out;
-    Windows windows(campaign, given, options, observer);
+    Windows windows(campaign, std::max(shortest_window_s, window_part * scales.time_s), given, options, observer);
     if (windows.empty()) {
         out.why_not = "No run has both a base motion and a history of the blocks that a simulation could follow.";
         out.complete = true;
@@ -181,153 +184,156 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
         out.window_simulations = windows.comparison().window_simulations();
         out.block_steps = windows.comparison().block_steps();
     };
-    // the baseline gets a search of its own: form, stiffness and damping first, then friction about the best
+    // The baseline gets a search of its own: form, stiffness and damping first, then each contact form's best once more
+    // about its values, friction included.
     std::vector<ModelVariant> variants;
-    std::vector<WindowBaseline> tried;
-    const auto add = [&](const FormName& form, double stiffness, double damping, double friction) {
-        WindowBaseline baseline{
-            fmt::format("{}, K_N x {:g}, damping {:g}, friction x {:g}", form.name, stiffness, damping, friction),
-            with_contacts(start, form.form, stiffness, damping, friction)};
-        variants.push_back(windows.variant(baseline.study, nullptr));
-        tried.push_back(std::move(baseline));
+    std::vector<std::vector<double>> scores;
+    struct Contacts {
+        FormName form;
+        double stiffness, damping, friction;
     };
-    for (const FormName& form : forms)
-        for (const double stiffness : {0.1, 0.3, 1.0})
-            for (const double damping : {0.05, 0.2, 0.5})
-                add(form, stiffness, damping, 1);
-    std::vector<std::vector<double>> scores = windows.scores(variants);
-    if (scores.empty())
-        return out;
-    for (std::size_t k = 0; k < tried.size(); ++k)
-        tried[k].score = sum(scores[k]);
-    for (const FormName& form : forms) {
-        const WindowBaseline* best = nullptr;
-        for (const WindowBaseline& b : tried)
-            if (b.study.contact.form == form.form && (!best || b.score > best->score))
-                best = &b;
-        out.baselines.push_back(*best);
-    }
-    variants.clear();
-    std::vector<WindowBaseline> frictions;
-    for (const WindowBaseline& b : out.baselines)
-        for (const double friction : {0.9, 0.95, 1.05, 1.1}) {
-            WindowBaseline other = b;
-            other.study.contact.friction *= friction;
-            other.contacts += fmt::format(" x {:g}", friction);
-            variants.push_back(windows.variant(other.study, nullptr));
-            frictions.push_back(std::move(other));
+    struct Tried {
+        Contacts contacts;
+        double score = -std::numeric_limits<double>::infinity();
+    };
+    const auto study_of = [&](const Contacts& c) {
+        return with_contacts(start, c.form.form, c.stiffness, c.damping, c.friction);
+    };
+    Tried best[std::size(forms)];
+    const auto search = [&](const std::vector<Contacts>& list) {
+        variants.clear();
+        for (const Contacts& c : list)
+            variants.push_back(windows.variant(study_of(c), nullptr));
+        scores = windows.scores(variants);
+        for (std::size_t k = 0; k < scores.size(); ++k) {
+            Tried& form = best[static_cast<std::size_t>(list[k].form.form)];
+            if (sum(scores[k]) > form.score)
+                form = {list[k], sum(scores[k])};
         }
-    scores = windows.scores(variants);
-    if (scores.empty())
+        return !scores.empty();
+    };
+    std::vector<Contacts> contacts;
+    for (const FormName& form : forms)
+        for (const double stiffness : {0.03, 0.1, 0.3, 1.0})
+            for (const double damping : {0.1, 0.3, 0.8})
+                contacts.push_back({form, stiffness, damping, 1});
+    if (!search(contacts))
         return out;
-    for (std::size_t k = 0; k < frictions.size(); ++k) {
-        frictions[k].score = sum(scores[k]);
-        WindowBaseline& best = out.baselines[k / 4];
-        if (frictions[k].score > best.score)
-            best = frictions[k];
+    for (const double step : {1.0, 0.5}) {
+        contacts.clear();
+        for (const Tried& t : best) {
+            const Contacts& c = t.contacts;
+            for (const double by : {std::pow(1.8, step), std::pow(1.8, -step)}) {
+                contacts.push_back({c.form, c.stiffness * by, c.damping, c.friction});
+                contacts.push_back({c.form, c.stiffness, std::min(c.damping * by, 1.0), c.friction});
+            }
+            for (const double by : {1 - 0.06 * step, 1 + 0.06 * step})
+                contacts.push_back({c.form, c.stiffness, c.damping, c.friction * by});
+        }
+        if (!search(contacts))
+            return out;
     }
+    for (const Tried& t : best)
+        out.baselines.push_back(
+            {fmt::format("{}, K_N x {:.3g}, damping {:.3g}, friction x {:.3g}", t.contacts.form.name,
+                         t.contacts.stiffness, t.contacts.damping, t.contacts.friction),
+             study_of(t.contacts), t.score});
     std::sort(out.baselines.begin(), out.baselines.end(),
               [](const WindowBaseline& a, const WindowBaseline& b) { return a.score > b.score; });
 
-    // every cause, beside the best baseline
+    // Every cause, beside the two best contact forms: what it gains is what both of them grant it.
     const double friction = campaign.specimen.friction_nominal.value_or(0.7);
     const std::vector<TriedCause> causes = window_causes(campaign.specimen, scales, friction);
-    const Study& best = out.baselines.front().study;
-    const auto try_all = [&](const Study& study, const std::vector<SizedCause>& list) {
+    const std::size_t judges = std::min<std::size_t>(judging_forms, out.baselines.size());
+    const auto try_all = [&](const std::vector<SizedCause>& list) {
         variants.clear();
-        variants.push_back(windows.variant(study, nullptr));
-        for (const SizedCause& cause : list)
-            variants.push_back(windows.variant(study, &cause));
-        return windows.scores(variants);
+        for (std::size_t f = 0; f < judges; ++f) {
+            variants.push_back(windows.variant(out.baselines[f].study, nullptr));
+            for (const SizedCause& cause : list)
+                variants.push_back(windows.variant(out.baselines[f].study, &cause));
+        }
+        scores = windows.scores(variants);
+        return !scores.empty();
     };
     std::vector<SizedCause> list;
     for (const TriedCause& t : causes)
         for (const double size : t.sizes)
             list.push_back({t.cause, size});
-    scores = try_all(best, list);
-    if (scores.empty())
+    if (!try_all(list))
         return out;
-    const std::vector<double> base = scores.front();
-    const double base_sum = sum(base);
     const std::vector<WindowPlace>& places = windows.comparison().windows();
     struct Found {
         CauseFit fit;
-        std::map<double, double> score;
+        std::map<double, double> gain;
+        std::vector<double> by_form; ///< (judges) at the best size
     };
     std::vector<Found> found;
-    std::size_t k = 1;
-    const auto take = [&](Found& f, double size, const std::vector<double>& by_window) {
-        f.score[size] = sum(by_window);
-        if (f.score[size] - base_sum <= f.fit.gain)
+    /// What the k-th of the list gains, by the form that grants it least.
+    const auto take = [&](Found& f, double size, std::size_t k, std::size_t listed) {
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t hardest = 0;
+        std::vector<double> by_form;
+        for (std::size_t j = 0; j < judges; ++j) {
+            const std::size_t at = j * (listed + 1);
+            by_form.push_back(sum(scores[at + 1 + k]) - sum(scores[at]));
+            if (by_form.back() < least) {
+                least = by_form.back();
+                hardest = at;
+            }
+        }
+        f.gain[size] = least;
+        if (least <= f.fit.gain)
             return;
-        f.fit.gain = f.score[size] - base_sum;
+        f.fit.gain = least;
+        f.by_form = by_form;
         f.fit.gain_by_run.assign(campaign.runs.size(), 0);
         for (std::size_t w = 0; w < places.size(); ++w)
-            f.fit.gain_by_run[places[w].run] += by_window[w] - base[w];
+            f.fit.gain_by_run[places[w].run] += scores[hardest + 1 + k][w] - scores[hardest][w];
     };
+    std::size_t next = 0;
     for (const TriedCause& t : causes) {
         Found f;
         f.fit.cause = t.cause;
         f.fit.size = t.cause.neutral;
         f.fit.gain_by_run.assign(campaign.runs.size(), 0);
-        f.score[t.cause.neutral] = base_sum;
+        f.by_form.assign(judges, 0);
+        f.gain[t.cause.neutral] = 0;
         for (const double size : t.sizes)
-            take(f, size, scores[k++]);
+            take(f, size, next++, list.size());
         found.push_back(std::move(f));
     }
     std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.fit.gain > b.fit.gain; });
     list.clear();
     std::vector<std::size_t> of;
     for (std::size_t f = 0; f < found.size() && f < refined && found[f].fit.gain > 0; ++f) {
-        const std::map<double, double>& score = found[f].score;
-        auto top = std::max_element(score.begin(), score.end(),
-                                    [](const auto& a, const auto& b) { return a.second < b.second; });
-        if (top != score.begin()) {
-            list.push_back({found[f].fit.cause, (top->first + std::prev(top)->first) / 2});
-            of.push_back(f);
-        }
-        if (std::next(top) != score.end()) {
-            list.push_back({found[f].fit.cause, (top->first + std::next(top)->first) / 2});
-            of.push_back(f);
-        }
+        const std::map<double, double>& gain = found[f].gain;
+        const auto top = std::max_element(gain.begin(), gain.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+        for (const auto other : {top == gain.begin() ? top : std::prev(top), std::next(top)})
+            if (other != gain.end() && other != top) {
+                list.push_back({found[f].fit.cause, (top->first + other->first) / 2});
+                of.push_back(f);
+            }
     }
     if (!list.empty()) {
-        scores = try_all(best, list);
-        if (scores.empty())
+        if (!try_all(list))
             return out;
         for (std::size_t i = 0; i < list.size(); ++i)
-            take(found[of[i]], list[i].size, scores[i + 1]);
+            take(found[of[i]], list[i].size, i, list.size());
     }
-    std::vector<CauseFit> fits;
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Found& a, const Found& b) { return a.fit.gain > b.fit.gain; });
     for (Found& f : found) {
         if (f.fit.gain > 0)
-            size_of(f.score, f.fit);
-        fits.push_back(f.fit);
-    }
-    out.causes = fits;
-    std::stable_sort(out.causes.begin(), out.causes.end(),
-                     [](const CauseFit& a, const CauseFit& b) { return a.gain > b.gain; });
-    // one for each mechanism and place
-    std::vector<CauseFit> kept;
-    for (CauseFit& fit : out.causes)
-        if (std::none_of(kept.begin(), kept.end(), [&](const CauseFit& other) {
-                return other.cause.mechanism == fit.cause.mechanism && other.cause.place == fit.cause.place;
+            size_of(f.gain, f.fit);
+        // one for each mechanism and place
+        if (std::any_of(out.causes.begin(), out.causes.end(), [&](const CauseFit& other) {
+                return other.cause.mechanism == f.fit.cause.mechanism && other.cause.place == f.fit.cause.place;
             }))
-            kept.push_back(std::move(fit));
-    out.causes = std::move(kept);
-
-    out.gain_in_others.assign(out.causes.size(), {});
-    if (other_forms)
-        for (std::size_t b = 1; b < out.baselines.size(); ++b) {
-            list.clear();
-            for (std::size_t c = 0; c < out.causes.size() && c < refined; ++c)
-                list.push_back({out.causes[c].cause, out.causes[c].size});
-            scores = try_all(out.baselines[b].study, list);
-            if (scores.empty())
-                return out;
-            for (std::size_t c = 0; c < list.size(); ++c)
-                out.gain_in_others[c].push_back(sum(scores[c + 1]) - sum(scores.front()));
-        }
+            continue;
+        out.causes.push_back(f.fit);
+        out.gain_by_form.push_back(f.by_form);
+    }
     count();
     out.complete = true;
     return out;

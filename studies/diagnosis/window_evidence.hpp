@@ -28,9 +28,9 @@ struct WindowBaseline {
 
 struct WindowEvidence {
     std::vector<WindowBaseline> baselines; ///< the best of each contact form, best first
-    std::vector<CauseFit> causes;          ///< one for each mechanism and place, by the best baseline, best first
-    /// (causes) gain under the other forms, in the order of `baselines` from the second on
-    std::vector<std::vector<double>> gain_in_others;
+    /// One for each mechanism and place, best first: what the two best contact forms both grant it.
+    std::vector<CauseFit> causes;
+    std::vector<std::vector<double>> gain_by_form; ///< (causes x 2) by each of these forms, in the order of `baselines`
     std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
     std::string why_not; ///< where there are no windows
     bool complete = false;
@@ -45,9 +45,7 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
 
 /// @param start contacts to begin with
 /// @param given causes that are in the model already
-/// @param other_forms whether the best other forms judge too (what chance gives is needed of the best alone)
 WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
-                               const std::vector<SizedCause>& given, bool other_forms, const RunOptions& options,
-                               Observer& observer);
+                               const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer);
 
 } // namespace stylobate
