@@ -1,5 +1,7 @@
 #include "studies/diagnosis/window_evidence.hpp"
 
+#include "studies/diagnosis/slip_score.hpp"
+
 #include "ensemble/input_error.hpp"
 #include "ensemble/specimen.hpp"
 
@@ -47,10 +49,10 @@ Study with_contacts(const Study& start, ContactForm form, double stiffness, doub
 
 class Windows {
 public:
-    Windows(const Campaign& campaign, double length_s, const std::vector<SizedCause>& given, const RunOptions& options,
-            Observer& observer)
-        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, 0, {}}), given_(given),
-          options_(options), observer_(observer)
+    Windows(const Campaign& campaign, const TrackScales& scales, double length_s, const std::vector<SizedCause>& given,
+            const RunOptions& options, Observer& observer)
+        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, 0, {}}),
+          slip_(campaign, built_, comparison_, scales), given_(given), options_(options), observer_(observer)
     {
     }
 
@@ -71,19 +73,20 @@ public:
         return v;
     }
 
-    /// (variants x windows) log scores, each by its own scales; empty if stopped.
-    std::vector<std::vector<double>> scores(const std::vector<ModelVariant>& variants)
+    /// (variants x windows) log scores of all coordinates, or of slip alone, each by its own scales; empty if stopped.
+    std::vector<std::vector<double>> scores(const std::vector<ModelVariant>& variants, bool slip)
     {
         std::vector<std::vector<double>> out;
         const std::vector<WindowResiduals> residuals = comparison_.residuals(variants, options_, observer_);
         for (const WindowResiduals& z : residuals)
-            out.push_back(comparison_.scores(z, comparison_.fit_scales(z)));
+            out.push_back(slip ? slip_(z) : comparison_.scores(z, comparison_.fit_scales(z)));
         return out;
     }
 
 private:
     SpecimenStructure built_;
     WindowComparison comparison_;
+    SlipScore slip_;
     const std::vector<SizedCause>& given_;
     const RunOptions& options_;
     Observer& observer_;
@@ -156,15 +159,6 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
         Cause dowel = of_joint("dowel", j, "stiffness_n_m", "N/m", 0);
         dowel.fixed = 0.0025 * height;
         tried.push_back({dowel, {30 * weight / height, 300 * weight / height}});
-        tried.push_back({of_joint("corner_loss", j, "loss_m", "m", 0), {0.04 * width, 0.1 * width, 0.2 * width}});
-    }
-    Cause drag{"drag", "all blocks", "coefficient_n_s2_m2", "N s2/m2", 0};
-    const double unit = specimen.mass_kg.front() / height; // a force of g at a speed of sqrt(g height)
-    tried.push_back({drag, {0.3 * unit, unit, 3 * unit}});
-    for (int b = 0; b < specimen.blocks(); ++b) {
-        Cause centre{"eccentricity", fmt::format("block {}", b), "offset_m", "m", 0};
-        centre.block = b;
-        tried.push_back({centre, {-0.1 * width, -0.04 * width, 0.04 * width, 0.1 * width}});
     }
     return tried;
 }
@@ -173,7 +167,8 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
                                const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer)
 {
     WindowEvidence out;
-    Windows windows(campaign, std::max(shortest_window_s, window_part * scales.time_s), given, options, observer);
+    Windows windows(campaign, scales, std::max(shortest_window_s, window_part * scales.time_s), given, options,
+                    observer);
     if (windows.empty()) {
         out.why_not = "No run has both a base motion and a history of the blocks that a simulation could follow.";
         out.complete = true;
@@ -204,7 +199,7 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
         variants.clear();
         for (const Contacts& c : list)
             variants.push_back(windows.variant(study_of(c), nullptr));
-        scores = windows.scores(variants);
+        scores = windows.scores(variants, false);
         for (std::size_t k = 0; k < scores.size(); ++k) {
             Tried& form = best[static_cast<std::size_t>(list[k].form.form)];
             if (sum(scores[k]) > form.score)
@@ -252,7 +247,7 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
             for (const SizedCause& cause : list)
                 variants.push_back(windows.variant(out.baselines[f].study, &cause));
         }
-        scores = windows.scores(variants);
+        scores = windows.scores(variants, true);
         return !scores.empty();
     };
     std::vector<SizedCause> list;
