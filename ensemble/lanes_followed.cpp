@@ -34,7 +34,7 @@ void LaneSet::load_followed(int lane, Realization realization, int phase, const 
     const Realization& r = place.realization;
     place.motion = BaseMotion(study_.excitation, r, record_);
     if (r.vertical != nullptr)
-        place.vertical = BaseMotion::along(r.vertical, r.step_s);
+        place.vertical = BaseMotion::along(r.vertical, r.step_s, r.change.offset_s);
     for (std::size_t i = 0; i < state.size(); ++i)
         memory_[i * lanes_ + static_cast<std::size_t>(lane)] = state[i];
     if (topology_.model.extended())
@@ -46,7 +46,7 @@ void LaneSet::load_followed(int lane, Realization realization, int phase, const 
 /// The rows of the tables of the base's motion that are still to come in this chunk.
 void LaneSet::begin_followed(int lane, int phase, std::uint64_t step)
 {
-    assert(BaseMotion::on_host(study_.excitation.kind) && "formulas fill the table of all lanes at once");
+    assert(BaseMotion::on_host(study_) && "formulas fill the table of all lanes at once");
     first_step_[lane] = static_cast<double>(step) - phase;
     motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);
     if (topology_.model.extended())

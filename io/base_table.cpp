@@ -1,6 +1,9 @@
 #include "io/base_table.hpp"
 
+#include "ensemble/input_error.hpp"
 #include "io/ground_motion.hpp"
+#include "io/measured_file.hpp"
+#include "io/measured_motion.hpp"
 #include "io/record_parser.hpp"
 #include "io/suggest.hpp"
 
@@ -45,31 +48,60 @@ void check_names(const RecordText& text, const ColumnTable& table)
         text.refuse(fmt::format("has no motion: its columns are {}. {}", fmt::join(table.names, ", "), todo));
 }
 
-} // namespace
+Motion of_campaign(const std::filesystem::path& file, const std::string& run)
+{
+    const Campaign campaign = read_campaign(file);
+    std::vector<std::string> names;
+    for (const MeasuredRun& measured : campaign.runs) {
+        if (measured.name == run)
+            return base_motion_of(measured);
+        names.push_back(measured.name);
+    }
+    throw InputError(file.string(), 0, fmt::format("has no run \"{}\". It has: {}.", run, fmt::join(names, ", ")));
+}
 
-Motion read_base_table(const std::filesystem::path& file)
+Motion of_columns(const std::filesystem::path& file)
 {
     const std::string content = content_of(file, "a table of the base motion");
     const RecordText text = lines_of(file.string(), content);
     const ColumnTable table = read_columns(text);
     check_names(text, table);
     const std::vector<double>* acceleration = column(table, acceleration_name);
-    const std::vector<double>& driving = acceleration ? *acceleration : *column(table, displacement_name);
-    const char* name = acceleration ? acceleration_name : displacement_name;
-    if (driving.size() < fewest_samples)
-        text.refuse(
-            fmt::format("has {} samples; it takes at least {} to shake a structure.", driving.size(), fewest_samples));
-    const auto [least, most] = std::minmax_element(driving.begin(), driving.end());
-    if (acceleration ? *least == 0 && *most == 0 : *least == *most)
-        text.refuse(fmt::format("its {} is {} at all times: nothing shakes.", name, *least));
+    const std::vector<double>* displacement = column(table, displacement_name);
+    for (const auto& [values, name] : {std::pair{acceleration, acceleration_name}, {displacement, displacement_name}}) {
+        if (values == nullptr)
+            continue;
+        if (values->size() < fewest_samples)
+            text.refuse(fmt::format("has {} samples; it takes at least {} to shake a structure.", values->size(),
+                                    fewest_samples));
+        const auto [least, most] = std::minmax_element(values->begin(), values->end());
+        if (*least == *most && (values == displacement || *least == 0))
+            text.refuse(fmt::format("its {} is {} at all times: nothing shakes.", name, *least));
+    }
+    if (acceleration && displacement) {
+        MeasuredRun run;
+        run.name = file.string();
+        run.time_s = table.columns.front();
+        run.base_acceleration_m_s2.values = *acceleration;
+        run.base_displacement_m.values = *displacement;
+        return base_motion_of(run);
+    }
+    return motion_of(acceleration ? *acceleration : acceleration_through(*displacement, table.dt_s), table.dt_s);
+}
 
-    Motion motion = motion_of(acceleration ? driving : acceleration_through(driving, table.dt_s), table.dt_s);
-    motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);
-    motion.source = fmt::format("{}, {}", file.string(), name);
+} // namespace
+
+Motion read_base_table(const std::filesystem::path& file, const std::string& run)
+{
+    Motion motion = run.empty() ? of_columns(file) : of_campaign(file, run);
+    if (!(motion.predominant_frequency_hz > 0))
+        motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);
+    motion.source = run.empty() ? file.string() : fmt::format("{}, run {}", file.string(), run);
     if (motion.pga_m_s2 > largest_pga_m_s2)
-        text.refuse(fmt::format(
-            "its {} has a peak acceleration of {:.4g} m/s2, more than {}: {}.", name, motion.pga_m_s2, largest_pga_m_s2,
-            acceleration ? "its unit is wrong" : "its unit is wrong, or its samples have too few digits"));
+        throw InputError(file.string(), 0,
+                         fmt::format("the motion has a peak acceleration of {:.4g} m/s2, more than {}: a unit is "
+                                     "wrong, or displacements have too few digits.",
+                                     motion.pga_m_s2, largest_pga_m_s2));
     return motion;
 }
 

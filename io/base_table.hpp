@@ -4,6 +4,7 @@
 #include "ensemble/motion.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace stylobate {
 
@@ -12,11 +13,12 @@ namespace stylobate {
 /// uniform.
 ///
 /// The motion begins at rest with the first sample. An acceleration is linear between its samples; where there is none,
-/// it is that of the cubic spline through the displacements, counted from the first one. Where there are both, the
-/// acceleration drives: displacements are too coarse to be differentiated twice.
+/// it is that of the cubic spline through the displacements, counted from the first one. Where there are both, or where
+/// a run of a measured campaign is named, it is the motion that goes best with all (`measured_motion.hpp`).
 ///
-/// @throws InputError if it cannot be read, lacks the columns, has times that are not uniform, too few samples, or does
-///         not move
-Motion read_base_table(const std::filesystem::path& file);
+/// @param run of a measured campaign (an HDF5 file, a folder, its TOML file); empty: the file is one of columns
+/// @throws InputError if it cannot be read, lacks the columns or the run, has times that are not uniform, too few
+///         samples, or does not move
+Motion read_base_table(const std::filesystem::path& file, const std::string& run = {});
 
 } // namespace stylobate

@@ -36,7 +36,7 @@ LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move
         motion_ = make_motion(read_record(excitation.file, excitation.component, excitation.unit), excitation.baseline,
                               excitation.band_pass);
     } else if (excitation.kind == ExcitationKind::table) {
-        motion_ = read_base_table(excitation.file);
+        motion_ = read_base_table(excitation.file, excitation.run);
     }
     if (motion_)
         text_ += fingerprint(*motion_, "record");

@@ -2,6 +2,8 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/base_table.hpp"
+#include "io/measured_file.hpp"
+#include "io/measured_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -127,12 +129,42 @@ TEST(BaseTable, SaysWhatIsWrong)
     expect_refused(rows("time_s,acceleration_m_s2", 50, [](double) { return "0"; }), {"nothing shakes"});
     expect_refused(rows("time_s,displacement_m", 50, [](double) { return "0.1"; }), {"is 0.1 at all times"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, [](double t) { return digits(1000 * acceleration(t)); }),
-                   {"peak acceleration", "more than 50", "unit is wrong"});
+                   {"peak acceleration", "more than 50", "a unit is wrong"});
     expect_refused(rows("time_s,displacement_m", 50, [](double t) { return t > 0.2 ? "0.1" : "0"; }),
                    {"too few digits"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.51,1\n", {":52:", "a row is missing"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.50,x\n", {":52:"});
     expect_refused("", {"is empty"});
+}
+
+TEST(BaseTable, AccelerationAndDisplacementTogetherDoNotDrift)
+{
+    // the accelerometer has a bias, which alone would drift by 0.1 m in 10 s
+    const double w = 2 * pi * 2;
+    const auto u = [&](double t) { return 0.01 * (1 - std::cos(w * t)); };
+    const auto a = [&](double t) { return 0.01 * w * w * std::cos(w * t) + 0.002 * std::sin(1e3 * t * t); };
+    const auto both = [&](double t) {
+        return digits(a(t) + 0.002) + "," + digits(u(t) + 1e-6 * std::sin(7e3 * t * t));
+    };
+    const File file(rows("time_s,acceleration_m_s2,displacement_m", 1000, both));
+    const Motion motion = read_base_table(file.path());
+    const double change = motion.displacement_m.back() - motion.displacement_m.front();
+    EXPECT_NEAR(change, u(9.99) - u(0), 1e-4);
+    EXPECT_NEAR(motion.acceleration_m_s2[500], 0.01 * w * w * std::cos(w * 5), 0.01);
+}
+
+TEST(BaseTable, ARunOfAMeasuredCampaign)
+{
+    const std::filesystem::path campaign = STYLOBATE_DATA_DIR "/practice_campaigns/campaign_03.h5";
+    if (!std::filesystem::exists(campaign))
+        GTEST_SKIP() << "no measured campaigns beside the checkout";
+    const Campaign all = read_campaign(campaign);
+    const std::string run = all.runs.front().name;
+    const Motion motion = read_base_table(campaign, run), same = base_motion_of(all.runs.front());
+    EXPECT_EQ(motion.acceleration_m_s2, same.acceleration_m_s2);
+    EXPECT_GT(motion.predominant_frequency_hz, 0);
+    EXPECT_NE(motion.source.find("run " + run), std::string::npos);
+    EXPECT_THROW(read_base_table(campaign, "no such run"), InputError);
 }
 
 TEST(BaseTable, AFileThatIsNotThere)
