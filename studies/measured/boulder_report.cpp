@@ -422,9 +422,8 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
         bars.push_back({p->name, {at}, {e.mean}, false, {e.low}, {e.high}});
         at += 1;
     }
-    picture("scores", "unset xtics\n" + verification::curves({"", false, 0.5, 5.5},
-                                                             {"share right, held out, 95 % interval", false, 0.7, 1.02},
-                                                             bars, "bottom right"));
+    picture("scores", verification::curves({"predictor, in the order of the legend", false, 0.5, 5.5},
+                                           {"share right, held out", false, 0.75, 1}, bars, "outside below"));
 }
 
 } // namespace stylobate::measured

@@ -73,7 +73,6 @@ void published_models(BoulderResults& r)
         double most = -1;
         for (std::size_t m = 0; m < r.data.published[s].size(); ++m) {
             const std::vector<bool> answers = column(r.data, s, m);
-            const Answers value = worth(r, s, answers);
             Predictor p{r.data.published[s][m], {}, 0};
             double right = 0;
             for (std::size_t i = 0; i < r.data.tests.size(); ++i) {
@@ -81,7 +80,7 @@ void published_models(BoulderResults& r)
                 if (r.fits[i])
                     right += answers[i] == test.fell[s];
                 else
-                    p.held.push_back({value.of(answers[i]), test.fell[s], test.ground_motion});
+                    p.held.push_back({answers[i] ? 1.0 : 0.0, test.fell[s], test.ground_motion}); // as it stands
             }
             if (right > most) {
                 most = right;
