@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace stylobate::measured {
 
@@ -411,7 +412,11 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
 
     std::vector<Series> bars;
     double at = 1;
-    for (const Predictor* p : {&r.by_published, &r.by_intensity, &r.by_baseline, &r.by_scattered, &r.by_extended}) {
+    for (const auto& [name, p] : {std::pair{"published model", &r.by_published},
+                                  {"logistic rule", &r.by_intensity},
+                                  {"baseline", &r.by_baseline},
+                                  {"with scatter", &r.by_scattered},
+                                  {"extended", &r.by_extended}}) {
         std::vector<double> values;
         std::vector<std::string> groups;
         for (const Forecast& f : p->held) {
@@ -419,7 +424,7 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
             groups.push_back(f.group);
         }
         const Estimate e = grouped_mean(values, groups);
-        bars.push_back({p->name, {at}, {e.mean}, false, {e.low}, {e.high}});
+        bars.push_back({name, {at}, {e.mean}, false, {e.low}, {e.high}});
         at += 1;
     }
     picture("scores", verification::curves({"predictor, in the order of the legend", false, 0.5, 5.5},
