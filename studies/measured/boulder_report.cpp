@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace stylobate::measured {
 
@@ -194,7 +195,7 @@ std::string model_section(const BoulderResults& r)
         "second before it first exceeds 0.6 m/s2 to half a second after it last does), contacts by area with dashpots "
         "at the centroid of the overlap, friction 0.7: the engine as it is. The boulders share all but the "
         "slenderness. Everything is fitted by the likelihood of the outcomes of the fitting half, over a grid: 24 "
-        "slendernesses from 0.1 to 0.45, 3 heights, 3 stiffnesses, and, extended, 4 dashpots and 6 spreads. A test "
+        "slendernesses from 0.1 to 0.45, 2 heights, 2 stiffnesses, and, extended, 4 dashpots and 6 spreads. A test "
         "ends *as it likes* with probability `slip`, which keeps a yes-or-no model from being infinitely wrong "
         "once.\n\n"
         "- *baseline*: one realization, dashpots of ratio 0.1 at the centroid.\n"
@@ -411,7 +412,11 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
 
     std::vector<Series> bars;
     double at = 1;
-    for (const Predictor* p : {&r.by_published, &r.by_intensity, &r.by_baseline, &r.by_scattered, &r.by_extended}) {
+    for (const auto& [name, p] : {std::pair{"published model", &r.by_published},
+                                  {"logistic rule", &r.by_intensity},
+                                  {"baseline", &r.by_baseline},
+                                  {"with scatter", &r.by_scattered},
+                                  {"extended", &r.by_extended}}) {
         std::vector<double> values;
         std::vector<std::string> groups;
         for (const Forecast& f : p->held) {
@@ -419,12 +424,11 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
             groups.push_back(f.group);
         }
         const Estimate e = grouped_mean(values, groups);
-        bars.push_back({p->name, {at}, {e.mean}, false, {e.low}, {e.high}});
+        bars.push_back({name, {at}, {e.mean}, false, {e.low}, {e.high}});
         at += 1;
     }
-    picture("scores", "unset xtics\n" + verification::curves({"", false, 0.5, 5.5},
-                                                             {"share right, held out, 95 % interval", false, 0.7, 1.02},
-                                                             bars, "bottom right"));
+    picture("scores", verification::curves({"predictor, in the order of the legend", false, 0.5, 5.5},
+                                           {"share right, held out", false, 0.75, 1}, bars, "outside below"));
 }
 
 } // namespace stylobate::measured
