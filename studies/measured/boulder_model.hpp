@@ -33,8 +33,8 @@ inline constexpr double boulder_friction = 0.7;
 /// @param realizations 1 without a spread
 Study boulder_study(const BoulderModel& model, std::uint64_t realizations = 1);
 
-/// Share of the realizations of a study that fall in a test.
-/// @throws InputError if realizations were invalid
+/// Share of the realizations of a study that fall in a test; invalid ones are left out.
+/// @throws InputError if all are invalid
 double share_falling(const Study& study, const Motion& motion, const RunOptions& run);
 
 /// What the block keeps of its rocking speed at an impact: from free rocking, released at half of alpha, by the energy

@@ -194,7 +194,7 @@ std::string model_section(const BoulderResults& r)
         "second before it first exceeds 0.6 m/s2 to half a second after it last does), contacts by area with dashpots "
         "at the centroid of the overlap, friction 0.7: the engine as it is. The boulders share all but the "
         "slenderness. Everything is fitted by the likelihood of the outcomes of the fitting half, over a grid: 24 "
-        "slendernesses from 0.1 to 0.45, 3 heights, 3 stiffnesses, and, extended, 4 dashpots and 6 spreads. A test "
+        "slendernesses from 0.1 to 0.45, 2 heights, 2 stiffnesses, and, extended, 4 dashpots and 6 spreads. A test "
         "ends *as it likes* with probability `slip`, which keeps a yes-or-no model from being infinitely wrong "
         "once.\n\n"
         "- *baseline*: one realization, dashpots of ratio 0.1 at the centroid.\n"

@@ -75,6 +75,8 @@ Study pulsed_study(const PulsedBlock& block)
     study.contact.damping = block.ends ? DampingAt::ends : DampingAt::centroid;
     study.excitation.kind = ExcitationKind::table;
     study.excitation.file = "motion.csv"; // what --set excitation.file replaces
+    // beyond balance, but well before its side hits the ground
+    study.outcome.collapse_height_fraction = 0.85;
     study.text = study_text(study);
     return study;
 }

@@ -34,6 +34,13 @@ std::vector<double> equal_ratios(double from, double to, int count)
     return values;
 }
 
+bool has_fallen(const Outcome& outcome)
+{
+    constexpr double on_its_side = 1; // rad; no block here balances beyond half of it
+    return outcome.state == State::collapsed ||
+           (outcome.state == State::invalid && outcome.max_relative_rotation_rad > on_its_side);
+}
+
 std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studies, Isa isa)
 {
     std::vector<char> falls(studies.size());
@@ -56,7 +63,7 @@ std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studi
         set.advance();
         for (int lane = 0; lane < set.lanes(); ++lane)
             if (!set.free(lane) && set.outcome(lane)) {
-                falls[in_lane[static_cast<std::size_t>(lane)]] = set.outcome(lane)->state == State::collapsed;
+                falls[in_lane[static_cast<std::size_t>(lane)]] = has_fallen(*set.outcome(lane));
                 refill(lane);
             }
     }

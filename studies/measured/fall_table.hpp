@@ -3,6 +3,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/motion.hpp"
+#include "ensemble/outcome.hpp"
 #include "ensemble/study.hpp"
 
 #include <vector>
@@ -21,6 +22,10 @@ struct FallTable {
 
 /// `count` values from `from` to `to` in equal ratios.
 std::vector<double> equal_ratios(double from, double to, int count);
+
+/// Whether a block has fallen. One that was set aside because its energy balance broke when its side hit the ground (a
+/// long face, stiffer than the bed that the step is chosen for) lay on its side already.
+bool has_fallen(const Outcome& outcome);
 
 /// Whether each of several structures falls under one motion; the first realization of each study.
 /// @param studies alike but for their values: the same blocks   @return (studies) 1 for a fall; none in an empty motion
