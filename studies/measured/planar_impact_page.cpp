@@ -115,12 +115,11 @@ std::string added_terms(const ImpactStudy& s)
                 return fmt::format("{} | {}", percent(a.training_gain), interval(a.gain));
         return std::string(" | ");
     };
-    std::string text = "| term | to the engine's law: fit | other half | to the extended law: fit | other half |
-                       "
-                       "|---|---|---|---|---|
-                       ";
-        for (const AddedTerm& a : s.to_constant) text +=
-        fmt::format("| {} | {} | {} |\n", to_string(a.term), row(s.to_constant, a.term), row(s.to_extended, a.term));
+    std::string text = "| term | to the engine's law: fit | other half | to the extended law: fit | other half |\n"
+                       "|---|---|---|---|---|\n";
+    for (const AddedTerm& a : s.to_constant)
+        text += fmt::format("| {} | {} | {} |\n", to_string(a.term), row(s.to_constant, a.term),
+                            row(s.to_extended, a.term));
     return text;
 }
 
@@ -158,6 +157,24 @@ std::string way_of_loss(const ImpactStudy& s)
         verdict(s.rate_place_against_recoil_p));
 }
 
+/// Whether the place along the surface is named: it explains restitution beyond chance, alone and besides each other
+/// candidate, and helps on the other half.
+bool place_is_named(const ImpactStudy& s)
+{
+    bool named = s.lines.front().restitution.p < 0.01 && s.true_place > quantile(s.shuffled_place, 1);
+    for (std::size_t k = 1; k < s.lines.size(); ++k)
+        named = named && s.lines[k].place_given_it.p < 0.01;
+    for (const AddedTerm& a : s.to_constant)
+        named = named && (a.term != Term::place || a.gain.low > 0);
+    return named;
+}
+
+/// Where a number lies against a floor.
+const char* against(double value, double floor)
+{
+    return value < 0.95 * floor ? "below" : value > 1.05 * floor ? "above" : "within 5 % of";
+}
+
 /// Terms whose gain on the other half is above 0 with its whole interval.
 std::string helpful(const std::vector<AddedTerm>& all)
 {
@@ -181,14 +198,18 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "# Planar impacts of an ellipse\n\nWritten by `scripts/measured.sh --case planar_impact` from its run; not by "
         "hand. {}\n\n"
         "**What is wrong:** any constant (mu, e) misses the velocity after an impact by {} (median; 90 %: {}), the "
-        "engine's contact law with constant numbers by {} ({}). **The cause that the data separate:** the restitution "
-        "depends on *where along the surface* the body falls. With rate damping that depends on the place and an "
+        "engine's contact law with constant numbers by {} ({}). **The cause:** {} With rate damping that depends on "
+        "the place and an "
         "orientation corrected by {:.1f} degrees the error is {} ({}), on impacts that were not fitted: {} less than "
         "the "
         "constant pair, {} less than the engine's law (95 % intervals).\n\n",
         made_by, median(ImpactStudy::newton), high(ImpactStudy::newton), median(ImpactStudy::constant),
-        high(ImpactStudy::constant), s.orientation * 180 / M_PI, median(ImpactStudy::extended),
-        high(ImpactStudy::extended), interval(over_pair), interval(over_engine));
+        high(ImpactStudy::constant),
+        place_is_named(s) ? "the restitution depends on *where along the surface* the body falls; of all candidates "
+                            "this one is separated from the others."
+                          : "the data do not separate one from the others.",
+        s.orientation * 180 / M_PI, median(ImpactStudy::extended), high(ImpactStudy::extended), interval(over_pair),
+        interval(over_engine));
     text += fmt::format(
         "## Data and question\n\nMCube Lab, MIT (Fazeli, Donlon, Drumwright, Rodriguez): a rigid ellipse (semi-axes 35 "
         "and 25 mm, 36.4 g, radius of gyration 19.2 mm) falls on a flat surface; state before and after each impact, "
@@ -237,7 +258,7 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         regressions(s), percent(s.true_place), s.shuffled_place.size(), percent(quantile(s.shuffled_place, 1)),
         added_terms(s), helpful(s.to_constant), helpful(s.to_extended));
     text += fmt::format(
-        "**Named:** the place along the surface. **Not separated further:** what makes the surface differ from place "
+        "**Named:** {}. **Not separated further:** what makes the surface differ from place "
         "to "
         "place. Ways in which it could take the energy, fitted alike:\n\n{}\nWhether the surface loses energy in its "
         "material, at its supports or in its own vibration cannot be told from velocities of the body alone.\n\n"
@@ -251,8 +272,8 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "impact, the other half. Friction at every instant (sliding that ends, sticks or reverses during the impact) "
         "is "
         "what a cone on the whole impulse cannot have.*\n\n",
-        way_of_loss(s), s.orientation, s.orientation_interval.value, s.orientation_interval.low,
-        s.orientation_interval.high);
+        place_is_named(s) ? "the place along the surface" : "none", way_of_loss(s), s.orientation,
+        s.orientation_interval.value, s.orientation_interval.low, s.orientation_interval.high);
     text += fmt::format(
         "## How good can a law be\n\n| | median | 90 % |\n|---|---|---|\n"
         "| extended law | {} | {} |\n"
@@ -267,14 +288,15 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "The residual moment mixes errors of the measured velocities (250 Hz), of the orientation at the contact and "
         "forces outside the point, and the scaling assumes equal errors in the norm's three directions: the last line "
         "is "
-        "an estimate of the measurement's floor, not a bound. The extended law's median lies {} it; its 90 % lies {}. "
-        "Neighbouring residuals of the restitution correlate by {:+.3f}: there is no drift left in time.\n\n",
+        "an estimate of the measurement's floor, not a bound. The extended law's median lies {} it; its 90 % lies {} "
+        "its own. "
+        "Neighbouring residuals of the restitution correlate by {:+.3f} (standard error {:.3f}).\n\n",
         median(ImpactStudy::extended), high(ImpactStudy::extended), percent(quantile(s.smooth, 0.5)),
         percent(quantile(s.smooth, 0.9)), percent(quantile(s.point_floor, 0.5)), percent(quantile(s.point_floor, 0.9)),
         percent(s.isotropic_floor[0]), percent(s.isotropic_floor[1]),
-        quantile(laws[ImpactStudy::extended].error, 0.5) < s.isotropic_floor[0] * 1.05 ? "within 5 % of" : "above",
-        quantile(laws[ImpactStudy::extended].error, 0.9) < s.isotropic_floor[1] * 1.05 ? "within 5 % of its own"
-                                                                                       : "above its own");
+        against(quantile(laws[ImpactStudy::extended].error, 0.5), s.isotropic_floor[0]),
+        against(quantile(laws[ImpactStudy::extended].error, 0.9), s.isotropic_floor[1]), s.residual_neighbours,
+        1 / std::sqrt(static_cast<double>(s.training.size())));
     text += "## Robustness\n\n| K_N [N/m2], others fitted anew | duration | median | 90 % |\n|---|---|---|---|\n";
     for (const auto& line : s.stiffness)
         text += fmt::format("| {:.0e} | {:.2f} ms | {} | {} |\n", line.K_N, 1000 * line.duration_s,
