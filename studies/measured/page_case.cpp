@@ -1,7 +1,5 @@
 #include "studies/measured/page_case.hpp"
 
-#include "studies/measured/planar_impact.hpp"
-
 namespace stylobate::measured {
 
 std::vector<PageCase> all_page_cases()

@@ -31,6 +31,7 @@ struct PageCase {
 
 /// The cases.
 void ceh2016(const PagePlace& place);
+void planar_impact(const PagePlace& place);
 void rock_shake_table(const PagePlace& place);
 
 /// All of them, in the order of their names.

@@ -1,7 +1,7 @@
-#include "studies/measured/planar_impact.hpp"
+/// Page `planar_impact`: one impact of a rigid ellipse on a surface, the contact law against 1110 measured ones.
 
 #include "io/atomic_file.hpp"
-#include "kernels/isa.hpp"
+#include "studies/measured/page_case.hpp"
 #include "studies/measured/planar_impact_page.hpp"
 #include "studies/version.hpp"
 
@@ -44,9 +44,7 @@ void planar_impact(const PagePlace& place)
     draw(study, place.images());
     if (!place.predict.empty())
         predict_table(study, place.predict, place.docs / "planar_impact_predictions.csv");
-    AtomicFile page(place.docs / "planar_impact.md");
-    page.write(page_text(study, fmt::format("Version {}.", code_version())));
-    page.commit();
+    write_whole(place.docs / "planar_impact.md", page_text(study, fmt::format("Version {}.", code_version())));
 }
 
 } // namespace stylobate::measured
