@@ -1,5 +1,6 @@
 #include "studies/measured/planar_impact_page.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -169,6 +170,27 @@ bool place_is_named(const ImpactStudy& s)
     return named;
 }
 
+const CandidateLine& first_harmonic(const ImpactStudy& s)
+{
+    return *std::find_if(s.lines.begin(), s.lines.end(),
+                         [](const CandidateLine& l) { return l.name.find("first harmonic") != std::string::npos; });
+}
+
+/// What the extended law's residuals still depend on.
+std::string unexplained(const ImpactStudy& s)
+{
+    std::string text;
+    const auto add = [&](const char* residual, const CandidateLine& l, const Dependence& d) {
+        if (d.p < 0.01)
+            text += fmt::format("{}{} on {} ({})", text.empty() ? "" : ", ", residual, l.name, percent(d.share));
+    };
+    for (const CandidateLine& l : s.lines)
+        add("restitution", l, l.restitution_extended);
+    for (const CandidateLine& l : s.lines)
+        add("friction", l, l.friction);
+    return text.empty() ? "nothing that was tried" : text;
+}
+
 /// Where a number lies against a floor.
 const char* against(double value, double floor)
 {
@@ -252,7 +274,7 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "half, in 14 bins of equally many impacts.*\n\n"
         "Each term that the law can have, added alone and fitted anew: gain of the misfit on the fitted half, and of "
         "the "
-        "median error on the other, with its interval. The terms besides `orientation` and those below it act on the "
+        "median error on the other, with its interval. The terms above the orientation's act on the "
         "loss.\n\n{}\nBeyond chance on the other half: added to the engine's law {}; to "
         "the extended law {}.\n\n",
         regressions(s), percent(s.true_place), s.shuffled_place.size(), percent(quantile(s.shuffled_place, 1)),
@@ -264,16 +286,16 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "material, at its supports or in its own vibration cannot be told from velocities of the body alone.\n\n"
         "**Orientation.** The laws prefer an orientation {:+.4f} rad beyond the table's. The moment balance, in which "
         "no "
-        "law enters, has its least residual at {:+.4f} rad [{:+.4f}, {:+.4f}]. A reading of the orientation that is "
-        "off "
-        "by that, or a centre of mass a little off the ellipse's centre, would both do so: this term mends the "
-        "observation, it is no property of the contact.\n\n"
+        "law enters, has its least residual at {:+.4f} rad [{:+.4f}, {:+.4f}]. A centre of mass off the ellipse's "
+        "centre would show as the first harmonic of the orientation in the line of action, of which it explains {} (p "
+        "= {:.2g}). The term mends the observation; it is no property of the contact.\n\n"
         "![Sliding after the impact](images/planar_impact_sliding.png)\n\n*Sliding of the contact point after the "
         "impact, the other half. Friction at every instant (sliding that ends, sticks or reverses during the impact) "
         "is "
         "what a cone on the whole impulse cannot have.*\n\n",
         place_is_named(s) ? "the place along the surface" : "none", way_of_loss(s), s.orientation,
-        s.orientation_interval.value, s.orientation_interval.low, s.orientation_interval.high);
+        s.orientation_interval.value, s.orientation_interval.low, s.orientation_interval.high,
+        percent(first_harmonic(s).lever.share), first_harmonic(s).lever.p);
     text += fmt::format(
         "## How good can a law be\n\n| | median | 90 % |\n|---|---|---|\n"
         "| extended law | {} | {} |\n"
@@ -290,7 +312,10 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "is "
         "an estimate of the measurement's floor, not a bound. The extended law's median lies {} it; its 90 % lies {} "
         "its own. "
-        "Neighbouring residuals of the restitution correlate by {:+.3f} (standard error {:.3f}).\n\n",
+        "Neighbouring residuals of the restitution correlate by {:+.3f} (standard error {:.3f}).\n\n**Left "
+        "unexplained.** On the fitted half the extended law's residuals still depend, beyond chance, on: {}. No term "
+        "that was tried takes this, and the smooth regression shows that it can be predicted in part: the law is not "
+        "complete.\n\n",
         median(ImpactStudy::extended), high(ImpactStudy::extended), percent(quantile(s.smooth, 0.5)),
         percent(quantile(s.smooth, 0.9)), percent(quantile(s.point_floor, 0.5)), percent(quantile(s.point_floor, 0.9)),
         percent(s.isotropic_floor[0]), percent(s.isotropic_floor[1]),
@@ -309,9 +334,8 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         "## What this does not show\n\nOne body, one surface, closing speeds of 2.2 to 2.9 m/s, sliding almost always "
         "to "
         "one side: nothing about rest, about faces that lie on each other, or about other materials. The place is a "
-        "property of this surface; what carries over is that a constant restitution hides it, and that the error left "
-        "is "
-        "near what the measurement lets one see.\n",
+        "property of this surface; what carries over is that a constant restitution hides it, and that its shape has "
+        "to be fitted before friction and damping are judged.\n",
         interval(s.swapped), percent(s.step_error, 2), parameters(s));
     return text;
 }
