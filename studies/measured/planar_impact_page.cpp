@@ -321,7 +321,7 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
         percent(s.isotropic_floor[0]), percent(s.isotropic_floor[1]),
         against(quantile(laws[ImpactStudy::extended].error, 0.5), s.isotropic_floor[0]),
         against(quantile(laws[ImpactStudy::extended].error, 0.9), s.isotropic_floor[1]), s.residual_neighbours,
-        1 / std::sqrt(static_cast<double>(s.training.size())));
+        1 / std::sqrt(static_cast<double>(s.training.size())), unexplained(s));
     text += "## Robustness\n\n| K_N [N/m2], others fitted anew | duration | median | 90 % |\n|---|---|---|---|\n";
     for (const auto& line : s.stiffness)
         text += fmt::format("| {:.0e} | {:.2f} ms | {} | {} |\n", line.K_N, 1000 * line.duration_s,
