@@ -90,6 +90,8 @@ int run(Options o)
     o.place.docs = fs::absolute(o.place.docs);
     o.place.studies = o.place.studies.empty() ? o.place.docs : fs::absolute(o.place.studies);
     o.place.run = {o.common.isa(), o.common.thread_count()};
+    if (!o.place.predict.empty())
+        o.place.predict = fs::absolute(o.place.predict);
     o.place.quiet = o.common.quiet;
     for (const PageCase& c : chosen(o.names)) {
         if (!fs::is_directory(o.place.data / c.folder)) {
@@ -120,6 +122,8 @@ int main(int argc, char** argv)
     app.add_option("--double-pulse", o.pulse, "writes the base motion over this distance [m] at this velocity [m/s]")
         ->expected(2);
     app.add_option("--to", o.to, "the file for that motion");
+    app.add_option("--predict", o.place.predict,
+                   "a table of planar impacts: what the fitted laws say of them, beside the page planar_impact");
     app.add_option("--threads", o.common.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));
     app.add_flag("--quiet", o.common.quiet, "no progress: only errors");

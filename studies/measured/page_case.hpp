@@ -16,6 +16,7 @@ struct PagePlace {
     std::filesystem::path docs;    ///< the page is docs/NAME.md, its pictures lie in docs/images
     std::filesystem::path studies; ///< where the study files of the fitted models go
     RunOptions run;                ///< instruction set and threads
+    std::filesystem::path predict; ///< a table of planar impacts to predict, or empty
     bool quiet = false;            ///< no lines on standard error about what is being done
 
     std::filesystem::path images() const { return docs / "images"; }
@@ -30,6 +31,7 @@ struct PageCase {
 
 /// The cases.
 void ceh2016(const PagePlace& place);
+void planar_impact(const PagePlace& place);
 void rock_shake_table(const PagePlace& place);
 
 /// All of them, in the order of their names.
