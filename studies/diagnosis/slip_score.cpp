@@ -42,7 +42,7 @@ SlipScore::SlipScore(const Campaign& campaign, const SpecimenStructure& built, c
                 Slip slip{w, j, {}, 0};
                 double value = 0;
                 bool there = true;
-                const auto part = [&](int block, Coordinate coordinate, double by) {
+                const auto part = [&](int block, BlockCoordinate coordinate, double by) {
                     const auto found =
                         at.find({t, static_cast<std::size_t>(built.block[static_cast<std::size_t>(block)]),
                                  static_cast<int>(coordinate)});
@@ -53,11 +53,11 @@ SlipScore::SlipScore(const Campaign& campaign, const SpecimenStructure& built, c
                     slip.parts.push_back({found->second, by * seen[found->second].scale});
                     value += by * seen[found->second].value;
                 };
-                part(upper, Coordinate::x, 1);
-                part(upper, Coordinate::theta, s.half_height_m[static_cast<std::size_t>(upper)]);
+                part(upper, BlockCoordinate::x, 1);
+                part(upper, BlockCoordinate::theta, s.half_height_m[static_cast<std::size_t>(upper)]);
                 if (lower >= 0) {
-                    part(lower, Coordinate::x, -1);
-                    part(lower, Coordinate::theta, s.half_height_m[static_cast<std::size_t>(lower)]);
+                    part(lower, BlockCoordinate::x, -1);
+                    part(lower, BlockCoordinate::theta, s.half_height_m[static_cast<std::size_t>(lower)]);
                 }
                 if (!there)
                     continue;
