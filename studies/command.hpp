@@ -55,10 +55,12 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 /// @param output the page; empty: beside the file, with .html
 int report_command(const CommonOptions& options, const std::string& file, std::string output);
-/// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with _diagnosis.h5
+/// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with
+/// _diagnosis.h5
 /// @param nulls campaigns with nothing hidden that are simulated to learn what chance gives
+/// @param windows whether free windows of the simulation judge causes too
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,
-                     std::string output, long long nulls, long long seed);
+                     std::string output, long long nulls, long long seed, bool windows);
 /// @param file measured data, outcomes or results; empty: about the program
 int info_command(const CommonOptions& options, const std::string& file);
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);

@@ -50,7 +50,7 @@ std::string fingerprint(const std::filesystem::path& path)
 } // namespace
 
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study_file,
-                     std::string output, long long nulls, long long seed)
+                     std::string output, long long nulls, long long seed, bool windows)
 {
     const Campaign campaign = read_campaign(measured);
     const Study study = study_file.empty() ? default_study(campaign) : read_study(study_file, options.set);
@@ -65,6 +65,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     DiagnosisOptions how;
     how.seed = static_cast<std::uint64_t>(seed);
     how.nulls = static_cast<std::uint64_t>(nulls);
+    how.windows = windows;
     how.cache = beside / (stem + "_chance.txt");
     how.extension = beside / (stem + "_extended.toml");
     how.run = {options.isa(), options.thread_count()};
@@ -87,8 +88,9 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         return exit_interrupted;
     }
     diagnosis->measured_fingerprint = fingerprint(measured);
-    diagnosis->command = fmt::format("stylobate diagnose {}{} -o {} --nulls {} --seed {}", measured,
-                                     study_file.empty() ? "" : " --study " + study_file, output, nulls, seed);
+    diagnosis->command = fmt::format("stylobate diagnose {}{} -o {} --nulls {} --seed {}{}", measured,
+                                     study_file.empty() ? "" : " --study " + study_file, output, nulls, seed,
+                                     windows ? " --windows" : "");
     if (!diagnosis->extended_study.empty()) {
         AtomicFile file(how.extension);
         file.write(diagnosis->extended_study);

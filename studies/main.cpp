@@ -104,7 +104,8 @@ int main(int argc, char** argv)
     record->callback([&] { status = record_command(options, files, unit, component, block); });
 
     std::string measured;
-    long long nulls = 24, seed = 1;
+    long long nulls = 32, seed = 1;
+    bool windows = false;
     auto* diagnosing = app.add_subcommand("diagnose", "what the simulation gets wrong of measured data, the cause, the "
                                                       "extended model, the gain");
     diagnosing->add_option("MEASURED", measured, "measured campaign (HDF5, or a folder of CSV files)")->required();
@@ -118,8 +119,11 @@ int main(int argc, char** argv)
     diagnosing->add_option("--seed", seed, "of what is drawn in them")
         ->check(CLI::Range(0LL, 999999999999LL))
         ->capture_default_str();
+    diagnosing->add_flag("--windows", windows,
+                         "let free windows of the simulation judge causes too: slow, and less sure than the balance of "
+                         "forces");
     add_common(*diagnosing, options);
-    diagnosing->callback([&] { status = diagnose_command(options, measured, study, results, nulls, seed); });
+    diagnosing->callback([&] { status = diagnose_command(options, measured, study, results, nulls, seed, windows); });
 
     ExportOptions wanted;
     auto* exporting = app.add_subcommand("export", "write a result in other formats");

@@ -141,7 +141,7 @@ Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptio
             found.balance = std::move(balance.causes);
             found.structures = std::move(balance.structures);
             if (options.windows) {
-                const WindowEvidence windows = window_evidence(one, study, scales, {}, options.run, observer);
+                const WindowEvidence windows = window_evidence(one, study, scales, {}, true, options.run, observer);
                 out.simulations += windows.simulations;
                 out.window_simulations += windows.window_simulations;
                 out.block_steps += windows.block_steps;

@@ -17,10 +17,10 @@
 namespace stylobate {
 
 struct ChanceOptions {
-    std::uint64_t campaigns = 24;
+    std::uint64_t campaigns = 32;
     std::uint64_t seed = 1;
     std::filesystem::path cache; ///< empty: none
-    bool windows = true;         ///< whether windows are judged too
+    bool windows = false;        ///< whether windows judge causes too
     RunOptions run;
 };
 

@@ -259,7 +259,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     });
     WindowEvidence windows;
     if (!unmodelled)
-        windows = window_evidence(campaign, study, scales, known, options.run, observer);
+        windows = window_evidence(campaign, study, scales, known, options.windows, options.run, observer);
     else {
         windows.complete = true;
         windows.why_not = "The table moves vertically in a way that the base motion does not tell.";
@@ -285,7 +285,8 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     // what chance gives
     Chance chance;
     if (options.nulls > 0) {
-        ChanceOptions how{options.nulls, options.seed, options.cache, windows.why_not.empty(), options.run};
+        ChanceOptions how{options.nulls, options.seed, options.cache, options.windows && windows.why_not.empty(),
+                          options.run};
         chance = chance_of(
             measured, start, how,
             [&](std::uint64_t n) { tell(fmt::format("  campaigns with nothing hidden: {} of {}", n, options.nulls)); },
@@ -306,17 +307,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     // the verdict
     const auto again = [&](const JudgedCause& given) {
         const BalanceEvidence left = balance_evidence(measured, scales, direct.base_m, {given.fit.cause});
-        WindowEvidence rest;
-        if (!windows.baselines.empty()) {
-            std::vector<SizedCause> with = known;
-            for (const SizedCause& cause : model_causes({given}))
-                with.push_back(cause);
-            rest = window_evidence(campaign, start, scales, with, options.run, observer);
-            count.simulations += rest.simulations;
-            count.window_simulations += rest.window_simulations;
-            count.block_steps += rest.block_steps;
-        }
-        return judge(left, rest.causes, rest.gain_by_form, chance.gains, options.rule);
+        return judge(left, {}, {}, chance.gains, options.rule);
     };
     const Decided decided =
         decide(direct, balance, judge(balance, windows.causes, windows.gain_by_form, chance.gains, options.rule),

@@ -17,8 +17,9 @@ namespace stylobate {
 
 struct DiagnosisOptions {
     std::uint64_t seed = 1;
-    std::uint64_t nulls = 24;        ///< campaigns with nothing hidden
-    std::filesystem::path cache;     ///< of what chance gives; empty: none is kept
+    std::uint64_t nulls = 32;    ///< campaigns with nothing hidden
+    bool windows = false;        ///< whether free windows judge causes too: slow, and they depend on the contact form
+    std::filesystem::path cache; ///< of what chance gives; empty: none is kept
     std::filesystem::path extension; ///< where the extended study goes; empty: nowhere
     DecisionRule rule;
     RunOptions run;

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace stylobate {
 
@@ -23,6 +24,7 @@ constexpr double shortest_window_s = 0.2;
 // The smallest sizes tried beyond those of the list are between two neighbours of the best one.
 constexpr std::size_t refined = 8; ///< causes whose size is looked at more closely
 constexpr std::size_t judging_forms = 2;
+constexpr std::size_t search_runs = 4;
 
 struct FormName {
     ContactForm form;
@@ -91,6 +93,18 @@ private:
     const RunOptions& options_;
     Observer& observer_;
 };
+
+/// The first repeats of a few motions: enough to choose contacts by.
+Campaign of_first_repeats(const Campaign& campaign)
+{
+    Campaign few = campaign;
+    few.runs.clear();
+    std::set<int> motions;
+    for (const MeasuredRun& run : campaign.runs)
+        if (few.runs.size() < search_runs && motions.insert(run.motion_id).second)
+            few.runs.push_back(run);
+    return few;
+}
 
 double sum(const std::vector<double>& v)
 {
@@ -164,20 +178,24 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
 }
 
 WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
-                               const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer)
+                               const std::vector<SizedCause>& given, bool judge_causes, const RunOptions& options,
+                               Observer& observer)
 {
     WindowEvidence out;
-    Windows windows(campaign, scales, std::max(shortest_window_s, window_part * scales.time_s), given, options,
-                    observer);
+    const double length = std::max(shortest_window_s, window_part * scales.time_s);
+    Windows windows(campaign, scales, length, given, options, observer);
     if (windows.empty()) {
         out.why_not = "No run has both a base motion and a history of the blocks that a simulation could follow.";
         out.complete = true;
         return out;
     }
+    Windows few(of_first_repeats(campaign), scales, length, given, options, observer);
     const auto count = [&] {
-        out.simulations = windows.comparison().simulations();
-        out.window_simulations = windows.comparison().window_simulations();
-        out.block_steps = windows.comparison().block_steps();
+        for (const Windows* w : {&few, &windows}) {
+            out.simulations += w->comparison().simulations();
+            out.window_simulations += w->comparison().window_simulations();
+            out.block_steps += w->comparison().block_steps();
+        }
     };
     // The baseline gets a search of its own: form, stiffness and damping first, then each contact form's best once more
     // about its values, friction included.
@@ -198,8 +216,8 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
     const auto search = [&](const std::vector<Contacts>& list) {
         variants.clear();
         for (const Contacts& c : list)
-            variants.push_back(windows.variant(study_of(c), nullptr));
-        scores = windows.scores(variants, false);
+            variants.push_back(few.variant(study_of(c), nullptr));
+        scores = few.scores(variants, false);
         for (std::size_t k = 0; k < scores.size(); ++k) {
             Tried& form = best[static_cast<std::size_t>(list[k].form.form)];
             if (sum(scores[k]) > form.score)
@@ -209,8 +227,8 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
     };
     std::vector<Contacts> contacts;
     for (const FormName& form : forms)
-        for (const double stiffness : {0.03, 0.1, 0.3, 1.0})
-            for (const double damping : {0.1, 0.3, 0.8})
+        for (const double stiffness : {0.1, 0.3, 1.0})
+            for (const double damping : {0.1, 0.4})
                 contacts.push_back({form, stiffness, damping, 1});
     if (!search(contacts))
         return out;
@@ -235,6 +253,12 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
              study_of(t.contacts), t.score});
     std::sort(out.baselines.begin(), out.baselines.end(),
               [](const WindowBaseline& a, const WindowBaseline& b) { return a.score > b.score; });
+
+    if (!judge_causes) {
+        count();
+        out.complete = true;
+        return out;
+    }
 
     // Every cause, beside the two best contact forms: what it gains is what both of them grant it.
     const double friction = campaign.specimen.friction_nominal.value_or(0.7);

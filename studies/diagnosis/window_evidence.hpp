@@ -45,7 +45,9 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
 
 /// @param start contacts to begin with
 /// @param given causes that are in the model already
+/// @param judge_causes false: only the contacts of the baseline are looked for
 WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
-                               const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer);
+                               const std::vector<SizedCause>& given, bool judge_causes, const RunOptions& options,
+                               Observer& observer);
 
 } // namespace stylobate
