@@ -20,8 +20,9 @@ constexpr std::array fine_steps = {1.0, 2.0, 3.0}; // deviations from the best v
 constexpr double near_value = 0.05;      // of the range: points that may lend their other parameters to a profile
 constexpr double likelihood_drop = 1.92; // half the 95 % quantile of chi2 with one degree of freedom
 constexpr double interval_deviations = 1.96;
-constexpr double nearly_all = 0.8; // of the range: an interval wider than this determines nothing
-constexpr double tied = 0.95;      // correlation from which two parameters are known together only
+constexpr double nearly_all = 0.8;   // of the range: an interval wider than this determines nothing
+constexpr double wide_part = 1. / 3; // of the range: tied parameters with wider intervals are not known
+constexpr double tied = 0.95;        // correlation from which two parameters are known together only
 
 double sum(const std::vector<double>& values)
 {
@@ -366,12 +367,17 @@ std::optional<FormCalibration> CalibrationSearch::run(const std::vector<std::siz
         judge(result.parameters[i], i);
     }
     for (std::size_t i = 0; i < d; ++i)
-        for (std::size_t j = 0; j < d; ++j)
-            if (i != j && std::fabs(result.correlation[i * d + j]) > tied && result.parameters[i].determined) {
-                result.parameters[i].determined = false;
-                result.parameters[i].note = fmt::format("not determined by these data by itself: only together with {}",
-                                                        result.parameters[j].key);
-            }
+        for (std::size_t j = 0; j < d; ++j) {
+            FittedParameter& p = result.parameters[i];
+            // (an interval that is narrow all the same has the other one's freedom in it)
+            const bool wide = keys_[i].logarithmic ? std::log(p.high / p.low) > wide_part * std::log(p.to / p.from)
+                                                   : p.high - p.low > wide_part * (p.to - p.from);
+            if (i == j || !p.determined || !wide || std::fabs(result.correlation[i * d + j]) < tied)
+                continue;
+            p.determined = false;
+            p.note =
+                fmt::format("not determined by these data by itself: only together with {}", result.parameters[j].key);
+        }
     if (!try_points({surface_.best}))
         return std::nullopt;
     result.study = study_at(surface_.best);
