@@ -244,7 +244,12 @@ bool CalibrationSearch::profiles(FormCalibration& result)
 /// has not yet fallen.
 void CalibrationSearch::judge(FittedParameter& p, std::size_t i) const
 {
-    const double best = surface_.best[i], half = interval_deviations * surface_.deviation[i];
+    const FitKey& key = keys_[i];
+    const double best = surface_.best[i];
+    // of the range: one part of the value more
+    const double method = key.method_deviation * (key.logarithmic ? 1 / std::log(key.to / key.from)
+                                                                  : std::fabs(value(i, best)) / (key.to - key.from));
+    const double half = interval_deviations * std::hypot(surface_.deviation[i], method);
     const double drop =
         likelihood_drop * std::max(surface_.overdispersion[i], 1.0) + interval_deviations * surface_.roughness;
     const std::vector<double>& at = held_[i];
