@@ -38,6 +38,29 @@ std::vector<ContactForm> forms_of(const std::vector<std::string>& words)
     return forms;
 }
 
+/// Progress in parameter sets; a wish to stop is the console's to notice.
+class CalibrationConsole : public Observer {
+public:
+    explicit CalibrationConsole(bool quiet) : console_(quiet), quiet_(quiet) {}
+
+    void progress(const Progress& p) override
+    {
+        if (quiet_ || p.done == 0 || (p.seconds < next_s_ && p.done < p.total))
+            return;
+        next_s_ = p.seconds + between_lines_s;
+        fmt::print(stderr, "{} of at most {} parameter sets, at most {} left\n", p.done, p.total,
+                   duration_text(static_cast<double>(p.total - p.done) / p.rate));
+    }
+    void warn(const std::string& text) override { console_.warn(text); }
+    bool stop_requested() override { return console_.stop_requested(); }
+
+private:
+    static constexpr double between_lines_s = 10;
+    Console console_;
+    const bool quiet_;
+    double next_s_ = between_lines_s;
+};
+
 /// The contact's keys without those that are held, and those of --fit, which replace them where they are the same.
 std::vector<FitKey> keys_of(const Study& study, const CalibrateOptions& wanted)
 {
@@ -55,8 +78,11 @@ std::vector<FitKey> keys_of(const Study& study, const CalibrateOptions& wanted)
     }
     for (const std::string& text : wanted.fit) {
         const FitKey key = fit_key(study, text);
-        std::erase_if(keys, [&](const FitKey& k) { return k.key == key.key; });
-        keys.push_back(key);
+        const auto same = std::find_if(keys.begin(), keys.end(), [&](const FitKey& k) { return k.key == key.key; });
+        if (same == keys.end())
+            keys.push_back(key);
+        else
+            *same = key;
     }
     if (keys.empty())
         throw InputError("--hold: nothing is left to be fitted; name fewer keys");
@@ -202,7 +228,7 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     AtomicFile study_file(calibrated), results_file(results);
     Calibration found;
     {
-        Console console(options.quiet);
+        CalibrationConsole console(options.quiet);
         found = calibrate(campaign, start, search, run, console);
     }
     if (!found.complete) {

@@ -19,6 +19,8 @@ namespace stylobate {
 
 namespace {
 
+constexpr double friction_method_deviation = 0.01;
+
 constexpr const char* name = "the study to be calibrated";
 constexpr std::size_t most_folds = 6;
 constexpr std::size_t most_keys = 12;
@@ -109,7 +111,8 @@ std::vector<FitKey> contact_keys(const Study& study)
     };
     damping("normal_damping_ratio", "normal_damping_n_s_m", c.normal_damping_n_s_m);
     damping("tangential_damping_ratio", "tangential_damping_n_s_m", c.tangential_damping_n_s_m);
-    keys.push_back({"contact.friction", c.friction / 3, std::min(c.friction * 1.6, 2.0)});
+    keys.push_back(
+        {"contact.friction", c.friction / 3, std::min(c.friction * 1.6, 2.0), true, friction_method_deviation});
     return keys;
 }
 
@@ -145,6 +148,8 @@ FitKey fit_key(const Study& study, const std::string& text)
         key.to = colon == std::string::npos ? number("") : number(text.substr(colon + 1));
     }
     key.logarithmic = key.from > 0 && key.to / key.from > 3;
+    if (key.key == "contact.friction")
+        key.method_deviation = friction_method_deviation;
     check(study, key);
     return key;
 }

@@ -26,6 +26,10 @@ struct FitKey {
     double from = 0;
     double to = 0;
     bool logarithmic = true; ///< equal steps for equal ratios; needs from > 0
+    /// What following itself adds to the error (the pull, the smoothing, starts from noisy states), as a part of the
+    /// value, 1 sigma; of friction .01. Measured on 20 simulated campaigns of known parameters: friction came out .6 %
+    /// too low in the median, K_N 5 %, in one of ten 20 %.
+    double method_deviation = 0.1;
 };
 
 struct CalibrationOptions {

@@ -20,8 +20,9 @@ constexpr std::array fine_steps = {1.0, 2.0, 3.0}; // deviations from the best v
 constexpr double near_value = 0.05;      // of the range: points that may lend their other parameters to a profile
 constexpr double likelihood_drop = 1.92; // half the 95 % quantile of chi2 with one degree of freedom
 constexpr double interval_deviations = 1.96;
-constexpr double nearly_all = 0.8; // of the range: an interval wider than this determines nothing
-constexpr double tied = 0.95;      // correlation from which two parameters are known together only
+constexpr double nearly_all = 0.8;   // of the range: an interval wider than this determines nothing
+constexpr double wide_part = 1. / 3; // of the range: tied parameters with wider intervals are not known
+constexpr double tied = 0.95;        // correlation from which two parameters are known together only
 
 double sum(const std::vector<double>& values)
 {
@@ -243,7 +244,12 @@ bool CalibrationSearch::profiles(FormCalibration& result)
 /// has not yet fallen.
 void CalibrationSearch::judge(FittedParameter& p, std::size_t i) const
 {
-    const double best = surface_.best[i], half = interval_deviations * surface_.deviation[i];
+    const FitKey& key = keys_[i];
+    const double best = surface_.best[i];
+    // of the range: one part of the value more
+    const double method = key.method_deviation * (key.logarithmic ? 1 / std::log(key.to / key.from)
+                                                                  : std::fabs(value(i, best)) / (key.to - key.from));
+    const double half = interval_deviations * std::hypot(surface_.deviation[i], method);
     const double drop =
         likelihood_drop * std::max(surface_.overdispersion[i], 1.0) + interval_deviations * surface_.roughness;
     const std::vector<double>& at = held_[i];
@@ -366,12 +372,17 @@ std::optional<FormCalibration> CalibrationSearch::run(const std::vector<std::siz
         judge(result.parameters[i], i);
     }
     for (std::size_t i = 0; i < d; ++i)
-        for (std::size_t j = 0; j < d; ++j)
-            if (i != j && std::fabs(result.correlation[i * d + j]) > tied && result.parameters[i].determined) {
-                result.parameters[i].determined = false;
-                result.parameters[i].note = fmt::format("not determined by these data by itself: only together with {}",
-                                                        result.parameters[j].key);
-            }
+        for (std::size_t j = 0; j < d; ++j) {
+            FittedParameter& p = result.parameters[i];
+            // (an interval that is narrow all the same has the other one's freedom in it)
+            const bool wide = keys_[i].logarithmic ? std::log(p.high / p.low) > wide_part * std::log(p.to / p.from)
+                                                   : p.high - p.low > wide_part * (p.to - p.from);
+            if (i == j || !p.determined || !wide || std::fabs(result.correlation[i * d + j]) < tied)
+                continue;
+            p.determined = false;
+            p.note =
+                fmt::format("not determined by these data by itself: only together with {}", result.parameters[j].key);
+        }
     if (!try_points({surface_.best}))
         return std::nullopt;
     result.study = study_at(surface_.best);

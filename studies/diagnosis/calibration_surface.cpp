@@ -157,7 +157,17 @@ ScoreSurface fit_surface(const std::vector<ScoredPoint>& points, const std::vect
     for (const auto& [key, sum_of] : grouped)
         by_group.col(g++) = sum_of;
     const Matrix inverse = h.inverse();
-    const auto covariance = [&](const Matrix& j) { return Matrix(inverse * (j + precision) * inverse); };
+    // A direction in which the slopes are too uncertain for its curvature is not known better than before.
+    const auto covariance = [&](const Matrix& j) {
+        Vector held = eigen.eigenvalues().cwiseMax(0).array() + 1 / (prior_deviation * prior_deviation);
+        for (Eigen::Index k = 0; k < d; ++k) {
+            const Vector e = eigen.eigenvectors().col(k);
+            held(k) = std::max(held(k), std::sqrt(e.dot((j + precision) * e)) / prior_deviation);
+        }
+        const Matrix least_inverse =
+            eigen.eigenvectors() * held.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+        return Matrix(least_inverse * (j + precision) * least_inverse);
+    };
     Matrix cov = covariance(scatter(slopes));
     if (grouped.size() > dimensions) {
         // no smaller than what the runs say, each parameter by its own factor
