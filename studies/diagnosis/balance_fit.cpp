@@ -329,11 +329,11 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
         causes.push_back(friction);
     }
     for (const double part : {0.005, 0.01, 0.02, 0.04, 0.08, 0.16}) {
-        Cause stribeck{"stribeck", "all joints", "dynamic_ratio", "", 1};
+        Cause stribeck{"stribeck", "all", "dynamic_ratio", "", 1};
         stribeck.fixed = part * speed;
         causes.push_back(stribeck);
     }
-    causes.push_back({"friction_wear", "all joints", "wear_per_m", "1/m", 0});
+    causes.push_back({"friction_wear", "all", "wear_per_m", "1/m", 0});
     for (int j = 0; j < joints; ++j) {
         for (const char* side : {"", "left", "right"}) {
             Cause chip{"corner_loss", fmt::format("joint {}", j), "loss_m", "m", 0};
@@ -341,6 +341,9 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
             chip.side = side;
             causes.push_back(chip);
         }
+        Cause worn{"friction_wear", fmt::format("joint {}", j), "wear_per_m", "1/m", 0};
+        worn.joint = j;
+        causes.push_back(worn);
         Cause wear{"corner_wear", fmt::format("joint {}", j), "wear_m_rad", "m/rad", 0};
         wear.joint = j;
         causes.push_back(wear);
@@ -351,7 +354,7 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
             causes.push_back(dowel);
         }
     }
-    causes.push_back({"drag", "all blocks", "coefficient_n_s2_m2", "N s2/m2", 0});
+    causes.push_back({"drag", "all", "coefficient_n_s2_m2", "N s2/m2", 0});
     for (int b = 0; b < specimen.blocks(); ++b) {
         Cause drag{"drag", fmt::format("block {}", b), "coefficient_n_s2_m2", "N s2/m2", 0};
         drag.block = b;

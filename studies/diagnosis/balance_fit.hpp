@@ -18,7 +18,7 @@ namespace stylobate {
 /// A cause, where it acts, and its one unknown. Names are those of study files.
 struct Cause {
     std::string mechanism;
-    std::string place; ///< "joint 0", "block 2", "base", "all joints", "all blocks"
+    std::string place; ///< "joint 0", "block 2", "base", "all" (joints or blocks)
     std::string parameter;
     std::string unit;
     double neutral = 0;

@@ -20,7 +20,7 @@ namespace stylobate {
 struct DirectThresholds {
     double distortion = 0.02;        ///< of a harmonic, over the fundamental, in displacement
     double pitch_rad_s2_m = 4e-4;    ///< soft contacts lean by a tenth of it
-    double vertical = 0.8;           ///< rms of the common vertical motion over the cameras' noise
+    double vertical = 0.4;           ///< rms of the common vertical motion over the cameras' noise
     double offset_s = 8e-4;          ///< without a view of the table; a tenth of it with one
     double gain = 0.02;              ///< likewise
     double with_table = 0.1;         ///< factor of the two above where the cameras see the table

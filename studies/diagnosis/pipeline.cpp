@@ -29,8 +29,10 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     Candidate c;
     const Cause& cause = j.fit.cause;
     c.mechanism = cause.mechanism;
-    c.place = cause.place + (cause.side.empty() ? "" : ", " + cause.side);
+    c.place = cause.place;
     c.parameter = cause.parameter;
+    if (!cause.side.empty())
+        c.why = fmt::format("at the {} end", cause.side);
     c.unit = cause.unit;
     c.neutral = cause.neutral;
     if (j.fit.gain > 0) {
@@ -54,12 +56,13 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         (j.gain_by_form[k] > j.chance95 ? c.forms_agreed : c.forms_disagreed).push_back(form);
     }
     c.decision = decision;
-    c.why = !j.why_not.empty() ? j.why_not
-            : j.channel == Channel::direct
-                ? "found by a direct test"
-                : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
-                              j.channel == Channel::balance ? "by the balance of forces" : "by free windows",
-                              j.fit.gain, j.chance95);
+    const std::string where = c.why.empty() ? "" : c.why + "; ";
+    c.why = where + (!j.why_not.empty() ? j.why_not
+                     : j.channel == Channel::direct
+                         ? "found by a direct test"
+                         : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
+                                       j.channel == Channel::balance ? "by the balance of forces" : "by free windows",
+                                       j.fit.gain, j.chance95));
     return c;
 }
 

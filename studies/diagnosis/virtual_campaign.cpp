@@ -1,12 +1,12 @@
 #include "studies/diagnosis/virtual_campaign.hpp"
 
+#include "ensemble/distribution.hpp"
 #include "ensemble/following.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/measured_motion.hpp"
 
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,16 +28,25 @@ constexpr double most_lean = 0.8; // rad
 /// Numbers of one campaign, one after the other.
 class Draws {
 public:
-    Draws(std::uint64_t seed, std::uint64_t campaign, Stream stream) : seed_(seed), campaign_(campaign), stream_(stream)
+    Draws(std::uint64_t seed, std::uint64_t campaign, Stream stream)
+        : seed_(seed), campaign_(campaign), stream_(stream), standard_(deviation_of_one(), "normal", 0)
     {
     }
     double uniform() { return uniform01(seed_, campaign_, stream_, next_++); }
-    double normal() { return boost::math::quantile(boost::math::normal_distribution<>(), uniform()); }
+    double normal() { return standard_.value(uniform()); }
 
 private:
     std::uint64_t seed_, campaign_;
     Stream stream_;
     std::uint64_t next_ = 0;
+    Distribution standard_;
+
+    static Spread deviation_of_one()
+    {
+        Spread spread;
+        spread.sd = 1;
+        return spread;
+    }
 };
 
 /// One campaign's specimen: all but where its blocks are put.

@@ -154,7 +154,7 @@ std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScale
     std::vector<TriedCause> tried;
     const auto of_joint = [](const char* mechanism, int joint, const char* parameter, const char* unit,
                              double neutral) {
-        Cause cause{mechanism, joint < 0 ? "all joints" : fmt::format("joint {}", joint), parameter, unit, neutral};
+        Cause cause{mechanism, joint < 0 ? "all" : fmt::format("joint {}", joint), parameter, unit, neutral};
         cause.joint = joint;
         return cause;
     };

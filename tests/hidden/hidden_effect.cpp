@@ -100,13 +100,13 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
         {"drag",
          [](Drawing& d) { // part of the weight at the velocity of a hard shaking
              const double c =
-                 d.size("drag_n_s2_m2", d.draws.log_uniform(0.02, 0.5) * d.weight() / (d.speed() * d.speed()));
+                 d.size("coefficient_n_s2_m2", d.draws.log_uniform(0.02, 0.5) * d.weight() / (d.speed() * d.speed()));
              d.all_bodies([&](BodyEffect& body, int) { body.drag_kg_m = c; });
          }},
         {"corner_loss",
          [](Drawing& d) {
              BedEffect& bed = d.a_bed();
-             const double chip = d.size("chip_m", d.width() * d.draws.log_uniform(0.015, 0.15));
+             const double chip = d.size("loss_m", d.width() * d.draws.log_uniform(0.015, 0.15));
              (d.draws.chance(0.5) ? bed.chip_left_m : bed.chip_right_m) = chip;
          }},
         {"hertz",
@@ -144,7 +144,7 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
         {"table_pitch",
          [](Drawing& d) { // rotation at the acceleration at which the specimen begins to rock
              d.base().pitch_rad_s2_m =
-                 d.size("pitch_rad_s2_m", d.draws.sign() * d.draws.log_uniform(5e-4, 2e-2) / d.planned.rocking_m_s2);
+                 d.size("rotation_rad_s2_m", d.draws.sign() * d.draws.log_uniform(5e-4, 2e-2) / d.planned.rocking_m_s2);
          }},
         {"vertical_motion",
          [](Drawing& d) {
@@ -166,7 +166,7 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
         {"time_offset",
          [](Drawing& d) { // of a period of the middle frequency
              const double period = 1 / std::sqrt(d.planned.band.low_hz * d.planned.band.high_hz);
-             d.base().time_offset_s = d.size("time_offset_s", d.draws.sign() * period * d.draws.log_uniform(0.01, 0.1));
+             d.base().time_offset_s = d.size("offset_s", d.draws.sign() * period * d.draws.log_uniform(0.01, 0.1));
          }},
         {"sensor_gain",
          [](Drawing& d) {
@@ -189,11 +189,11 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
         {"eccentricity",
          [](Drawing& d) {
              d.a_body().eccentricity_m =
-                 d.size("eccentricity_m", d.draws.sign() * d.width() * d.draws.log_uniform(0.008, 0.08));
+                 d.size("offset_m", d.draws.sign() * d.width() * d.draws.log_uniform(0.008, 0.08));
          }},
         {"wedge",
          [](Drawing& d) {
-             d.a_bed().wedge_rad = d.size("wedge_rad", d.draws.sign() * d.draws.log_uniform(3e-4, 8e-3));
+             d.a_bed().wedge_rad = d.size("angle_rad", d.draws.sign() * d.draws.log_uniform(3e-4, 8e-3));
          }},
         {"drum_offset",
          [](Drawing& d) {
