@@ -104,6 +104,35 @@ int main(int argc, char** argv)
     record->callback([&] { status = record_command(options, files, unit, component, block); });
 
     std::string measured;
+    CalibrateOptions calibration;
+    bool keep_all = false;
+    auto* calibrate = app.add_subcommand("calibrate", "contact parameters from measured response, with intervals");
+    calibrate->add_option("MEASURED", measured, "measured campaign (HDF5, or a folder of CSV files)")->required();
+    calibrate->add_option("--study", calibration.study,
+                          "study file to begin from (default: the specimen, nominal friction, a bed of 2e9 N/m3)");
+    calibrate->add_option("-o,--output", calibration.output, "results (HDF5); the calibrated study lies beside it");
+    calibrate
+        ->add_option("--fit", calibration.fit,
+                     "KEY or KEY=FROM:TO: a number of the study file to fit too; several times")
+        ->type_name("KEY")
+        ->take_all()
+        ->allow_extra_args(false);
+    calibrate->add_option("--hold", calibration.hold, "KEY: a contact parameter that keeps its value; several times")
+        ->type_name("KEY")
+        ->take_all()
+        ->allow_extra_args(false);
+    calibrate->add_option("--form", calibration.forms, "contact forms: area, two_corner, points, or all")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"area", "two_corner", "points", "all"}));
+    calibrate->add_flag("--outcomes", calibration.outcomes,
+                        "use who fell and who stood even where there are histories");
+    calibrate->add_flag("--no-held-out", keep_all, "do not predict each motion by what the others say");
+    add_common(*calibrate, options);
+    calibrate->callback([&] {
+        calibration.held_out = !keep_all;
+        status = calibrate_command(options, measured, calibration);
+    });
+
     long long nulls = 32, seed = 1;
     bool windows = false;
     auto* diagnosing = app.add_subcommand("diagnose", "what the simulation gets wrong of measured data, the cause, the "
@@ -154,35 +183,6 @@ int main(int argc, char** argv)
     report->add_option("-o,--output", page, "the page (default: the file's name with .html)");
     add_common(*report, options);
     report->callback([&] { status = report_command(options, results, page); });
-
-    CalibrateOptions calibration;
-    bool keep_all = false;
-    auto* calibrate = app.add_subcommand("calibrate", "contact parameters from measured response, with intervals");
-    calibrate->add_option("MEASURED", measured, "measured campaign (HDF5, or a folder of CSV files)")->required();
-    calibrate->add_option("--study", calibration.study,
-                          "study file to begin from (default: the specimen, nominal friction, a bed of 2e9 N/m3)");
-    calibrate->add_option("-o,--output", calibration.output, "results (HDF5); the calibrated study lies beside it");
-    calibrate
-        ->add_option("--fit", calibration.fit,
-                     "KEY or KEY=FROM:TO: a number of the study file to fit too; several times")
-        ->type_name("KEY")
-        ->take_all()
-        ->allow_extra_args(false);
-    calibrate->add_option("--hold", calibration.hold, "KEY: a contact parameter that keeps its value; several times")
-        ->type_name("KEY")
-        ->take_all()
-        ->allow_extra_args(false);
-    calibrate->add_option("--form", calibration.forms, "contact forms: area, two_corner, points, or all")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"area", "two_corner", "points", "all"}));
-    calibrate->add_flag("--outcomes", calibration.outcomes,
-                        "use who fell and who stood even where there are histories");
-    calibrate->add_flag("--no-held-out", keep_all, "do not predict each motion by what the others say");
-    add_common(*calibrate, options);
-    calibrate->callback([&] {
-        calibration.held_out = !keep_all;
-        status = calibrate_command(options, measured, calibration);
-    });
 
     std::string held;
     auto* info = app.add_subcommand("info", "version, instruction sets, threads; or what a file holds");

@@ -115,7 +115,7 @@ TEST_F(Faults, StudiesThatAreNone)
 TEST_F(Faults, WrongCommandLines)
 {
     write_results({"-o", "out.h5"});
-    expect_refused(Words{}, {"verb", "run, replay, record, export, report, info"});
+    expect_refused(Words{}, {"verb", "run, replay, record, calibrate, diagnose, export, report, info"});
     expect_refused({"rum", column_study}, {"'rum'", "Did you mean run"});
     expect_refused({"calibrate"}, {"'calibrate'"});
     expect_refused({"run"}, {"STUDY", "stylobate run --help"});
