@@ -117,7 +117,7 @@ TEST_F(Faults, WrongCommandLines)
     write_results({"-o", "out.h5"});
     expect_refused(Words{}, {"verb", "run, replay, record, calibrate, diagnose, export, report, info"});
     expect_refused({"rum", column_study}, {"'rum'", "Did you mean run"});
-    expect_refused({"calibrate"}, {"'calibrate'"});
+    expect_refused({"simulate"}, {"'simulate'"});
     expect_refused({"run"}, {"STUDY", "stylobate run --help"});
     expect_refused({"run", column_study, "--outptu", "x.h5"}, {"--outptu", "stylobate run --help"});
     expect_refused({"run", column_study, "another.toml"}, {"another.toml"});

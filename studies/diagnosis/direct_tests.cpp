@@ -17,6 +17,8 @@ namespace {
 
 // A block rides on the table while what accelerates it is below this part of what makes it slip or rock.
 constexpr double rides_below = 0.6;
+// More than so many standard deviations of noise is leaning.
+constexpr double most_leans = 2.5;
 // Shorter rides tell nothing.
 constexpr std::size_t shortest_ride = 30; // samples
 
@@ -47,6 +49,15 @@ struct Ride {
     double noise_x = 0, noise_y = 0, noise_theta = 0;
     std::vector<std::pair<std::size_t, std::size_t>> parts; ///< in which it rides
     bool harmonic = false;
+    double middle = 0, peak = 0; ///< of the base: its mean, and how far from that it gets [m]
+
+    void find_peak()
+    {
+        middle = mean_of(base, 0, base.size());
+        peak = 0;
+        for (const double u : base)
+            peak = std::max(peak, std::fabs(u - middle));
+    }
 
     /// Takes the base motion at a later time.
     void shift(double by_s, const TrackScales& scales)
@@ -142,6 +153,7 @@ Prepared prepare(const Campaign& campaign, const TrackScales& scales)
         ride.noise_theta = seen.theta_rad.noise_sd.value_or(scales.noise_rad);
         ride.height_m = out.table ? 0 : s.rest_y_m[b];
         ride.harmonic = run.kind == "harmonic";
+        ride.find_peak();
         std::vector<char> good(n, 0);
         const auto margin = static_cast<std::size_t>(wide.half_width());
         std::vector<double> shaken = ride.x, leaned = ride.theta;
@@ -274,6 +286,49 @@ double harmonic_term(double u, double quadrature, int order, bool sine)
     return amplitude * (sine ? std::sin(order * phase) : std::cos(order * phase));
 }
 
+int distortion_terms(bool polynomial)
+{
+    return polynomial ? 2 : 4;
+}
+
+/// The k-th regressor of a distortion [m]. A polynomial's are U z2 and U (z3 - 3 z / 4), z = u / U with U the run's
+/// peak: of a sine those are its harmonics and nothing else but a constant.
+double distortion_term(bool polynomial, const Ride& r, double omega, std::size_t i, int k)
+{
+    if (polynomial) {
+        const double z = r.peak > 0 ? (r.base[i] - r.middle) / r.peak : 0;
+        return r.peak * (k == 0 ? z * z : z * (z * z - 0.75));
+    }
+    return r.harmonic && omega > 0 ? harmonic_term(r.base[i] - r.middle, r.rate[i] / omega, 2 + k / 2, k % 2 == 0) : 0;
+}
+
+/// From the fit of gain, offset and the terms.
+TableDistortion distortion_of(bool polynomial, const RideFit& fit)
+{
+    TableDistortion d;
+    d.polynomial = polynomial;
+    d.size.assign(fit.size.begin() + 2, fit.size.end());
+    for (int order = 2; order < 4; ++order) {
+        const std::size_t first =
+            polynomial ? static_cast<std::size_t>(order) : 2 * static_cast<std::size_t>(order) - 2;
+        const std::size_t last = polynomial ? first : first + 1;
+        // acceleration over displacement of a harmonic, and its part of the polynomial's term
+        const double per = order * order * (polynomial ? (order == 2 ? 0.5 : 0.25) : 1) / fit.size[0];
+        double size = 0, sd = 0;
+        for (std::size_t k = first; k <= last; ++k) {
+            size = std::hypot(size, fit.size[k]);
+            sd = std::max(sd, fit.sd[k]);
+            d.gain += std::isfinite(fit.sd[k]) ? fit.gain[k] : 0;
+        }
+        if (std::isfinite(sd) && per * size > d.ratio) {
+            d.order = order;
+            d.ratio = per * size;
+            d.sd = per * sd;
+        }
+    }
+    return d;
+}
+
 /// The common vertical motion of all blocks while everything rides.
 struct VerticalMotion {
     double rms_over_noise = 0; ///< beyond what noise makes
@@ -293,9 +348,22 @@ VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scal
         for (double& v : y)
             v = std::isfinite(v) ? v : 0;
         const std::vector<double> smooth = scales.rates.apply(0, y), rise = scales.widths.back().apply(2, y);
+        std::vector<double> turned = ride.theta;
+        for (double& v : turned)
+            v = std::isfinite(v) ? v : 0;
+        const std::vector<double> angle = scales.rates.apply(0, turned);
         for (const auto& [from, to] : ride.parts) {
-            const double mean = mean_of(smooth, from, to);
-            for (std::size_t i = from; i < to; ++i) {
+            // a block that leans is lifted by it
+            std::vector<std::size_t> upright;
+            const double straight = ride.theta.empty() ? 0 : mean_of(angle, from, to);
+            for (std::size_t i = from; i < to; ++i)
+                if (ride.theta.empty() ||
+                    std::fabs(angle[i] - straight) < most_leans * ride.noise_theta * scales.rates.noise(0))
+                    upright.push_back(i);
+            double mean = 0;
+            for (const std::size_t i : upright)
+                mean += smooth[i] / static_cast<double>(upright.size());
+            for (const std::size_t i : upright) {
                 square += std::pow(smooth[i] - mean, 2);
                 noise += std::pow(ride.noise_y * scales.rates.noise(0), 2);
                 out.peak_m_s2 = std::max(out.peak_m_s2, std::fabs(rise[i]));
@@ -349,17 +417,6 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
     const auto lean = [&](const Ride& r, std::size_t i) {
         return pitches ? -r.height_m * slope * r.acceleration[i] : 0;
     };
-    std::vector<double> omegas;
-    for (const Ride& ride : prepared.rides)
-        omegas.push_back(omega_of(ride));
-    const auto harmonic = [&](const Ride& r, std::size_t i, int k) {
-        if (!r.harmonic)
-            return 0.0;
-        const double omega = omegas[static_cast<std::size_t>(&r - prepared.rides.data())];
-        return omega > 0 ? harmonic_term(r.base[i], r.rate[i] / omega, 2 + k / 2, k % 2 == 0) : 0;
-    };
-    const bool any_harmonic =
-        std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return r.harmonic; });
     const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.x[i] - lean(r, i), r.noise_x}; };
     // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
     // that the linear term is all there is to it.
@@ -373,37 +430,32 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
             ride.shift(more, scales);
         offset += more;
     }
-    const RideFit fit =
-        fit_rides(prepared.rides, any_harmonic ? 6 : 2, value, [&](const Ride& r, std::size_t i, int k) {
-            return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : harmonic(r, i, k - 2);
-        });
+    // TableDistortion in either form; that which the data like better
+    RideFit fit;
+    TableDistortion distortion;
+    for (const bool polynomial : {true, false}) {
+        const RideFit tried = fit_rides(
+            prepared.rides, 2 + distortion_terms(polynomial), value, [&](const Ride& r, std::size_t i, int k) {
+                return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, omega_of(r), i, k - 2);
+            });
+        const TableDistortion found = distortion_of(polynomial, tried);
+        if (polynomial || found.gain > distortion.gain) {
+            distortion = found;
+            fit = tried;
+        }
+    }
     const double gain = fit.size[0], offset_sd = fit.sd[1] / gain;
     offset += fit.size[1] / gain;
     const double narrower = prepared.table ? limits.with_table : 1;
-
-    double distortion = 0, distortion_sd = 0, distortion_gain = 0;
-    if (any_harmonic) {
-        for (int order = 0; order < 2; ++order) {
-            const auto s = static_cast<std::size_t>(2 + 2 * order), c = s + 1;
-            const double size = std::hypot(fit.size[s], fit.size[c]);
-            if (size > distortion) {
-                distortion = size;
-                distortion_sd = std::max(fit.sd[s], fit.sd[c]);
-                distortion_gain = fit.gain[s] + fit.gain[c];
-            }
-        }
-        distortion /= gain;
-        distortion_sd /= gain;
-        const bool found = beyond(distortion, distortion_sd, limits.distortion, limits.sds);
-        out.base_tests.push_back(
-            told("harmonic_distortion", place, distortion, distortion_sd, limits.distortion, "", found,
-                 fmt::format("Second and third harmonic of the table in harmonic runs: {:.4f} of the fundamental.",
-                             distortion)));
-        if (found)
-            out.found.push_back(
-                cause_of("harmonic_distortion", place, "ratio", "", 0, distortion, distortion_sd, distortion_gain));
-    } else {
-        out.base_tests.push_back(cannot("harmonic_distortion", "No run has a harmonic motion."));
+    const bool distorted = beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
+    out.base_tests.push_back(told("harmonic_distortion", place, distortion.ratio, distortion.sd, limits.distortion, "",
+                                  distorted,
+                                  fmt::format("Harmonic {} of the table's acceleration is {:.4f} of the fundamental.",
+                                              distortion.order, distortion.ratio)));
+    if (distorted) {
+        out.found.push_back(
+            cause_of("harmonic_distortion", place, "ratio", "", 0, distortion.ratio, distortion.sd, distortion.gain));
+        out.distortion = distortion;
     }
     if (turns) {
         out.base_tests.push_back(
@@ -455,29 +507,28 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
         out.gain = gain;
     if (late)
         out.offset_s = offset;
-    if (any_harmonic && beyond(distortion, distortion_sd, limits.distortion, limits.sds))
-        for (std::size_t k = 0; k < 4; ++k)
-            out.harmonics[k] = fit.size[2 + k];
 }
 
 void correct_bases(const Campaign& campaign, const TrackScales& scales, DirectResult& out)
 {
-    const bool distorted =
-        std::any_of(std::begin(out.harmonics), std::end(out.harmonics), [](double size) { return size != 0; });
+    const bool distorted = out.distortion.ratio != 0;
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const MeasuredRun& run = campaign.runs[r];
         if (out.corrected_m[r].empty() || !(out.gain != 1 || out.offset_s != 0 || distorted))
             continue;
         Ride whole;
         whole.base = out.corrected_m[r];
+        whole.harmonic = run.kind == "harmonic";
         whole.shift(out.offset_s, scales);
+        whole.find_peak();
         const std::vector<double>& u = whole.base;
         const double omega = omega_of(whole);
         for (std::size_t i = 0; i < u.size(); ++i) {
             double x = out.gain * u[i];
-            if (distorted && run.kind == "harmonic" && omega > 0)
-                for (int k = 0; k < 4; ++k)
-                    x += out.harmonics[k] * harmonic_term(u[i], whole.rate[i] / omega, 2 + k / 2, k % 2 == 0);
+            if (distorted)
+                for (int k = 0; k < distortion_terms(out.distortion.polynomial); ++k)
+                    x += out.distortion.size[static_cast<std::size_t>(k)] *
+                         distortion_term(out.distortion.polynomial, whole, omega, i, k);
             out.corrected_m[r][i] = x;
         }
     }
@@ -540,7 +591,7 @@ DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scal
     out.found = shown.found;
     out.gain = shown.gain;
     out.offset_s = shown.offset_s;
-    std::copy(std::begin(shown.harmonics), std::end(shown.harmonics), std::begin(out.harmonics));
+    out.distortion = shown.distortion;
     correct_bases(campaign, scales, out);
     align_bases(campaign, out);
     return out;

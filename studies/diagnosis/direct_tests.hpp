@@ -20,13 +20,24 @@ namespace stylobate {
 struct DirectThresholds {
     double distortion = 0.02;        ///< of a harmonic, over the fundamental, in displacement
     double pitch_rad_s2_m = 4e-4;    ///< soft contacts lean by a tenth of it
-    double vertical = 0.4;           ///< rms of the common vertical motion over the cameras' noise
-    double offset_s = 8e-4;          ///< without a view of the table; a tenth of it with one
+    double vertical = 0.6;           ///< rms of the common vertical motion over the cameras' noise
+    double offset_s = 8e-4;          ///< without a view of the table; a fifth of it with one
     double gain = 0.02;              ///< likewise
-    double with_table = 0.1;         ///< factor of the two above where the cameras see the table
+    double with_table = 0.2;         ///< factor of the two above where the cameras see the table
     double wedge_rad = 6e-4;         ///< between two blocks at rest
     double offset_in_tolerances = 3; ///< mean offset of a block over the placement tolerance of that mean
     double sds = 5;                  ///< and every one of them must be so many of its own standard deviations
+};
+
+/// Harmonics that the table adds to its motion: as a polynomial of the displacement (all motions), or as second and
+/// third harmonics of nearly harmonic motions, in phase and in quadrature.
+struct TableDistortion {
+    bool polynomial = true;
+    std::vector<double> size; ///< of its terms, in displacement
+    int order = 2;            ///< of the larger harmonic
+    double ratio = 0;         ///< its acceleration over the fundamental's; 0: none found
+    double sd = 0;
+    double gain = 0; ///< nats
 };
 
 /// What was found and how to correct for it.
@@ -39,7 +50,7 @@ struct DirectResult {
     // what the correction is made of
     double gain = 1;
     double offset_s = 0;
-    double harmonics[4] = {}; ///< second and third, in phase and in quadrature, in harmonic runs
+    TableDistortion distortion;
 };
 
 /// What other runs of the specimen showed, applied to these.
