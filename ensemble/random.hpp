@@ -30,6 +30,7 @@ enum class Stream : std::uint64_t {
     virtual_specimen = 66,    ///< contacts and scatter of a campaign with nothing hidden; index = campaign
     virtual_placement = 67,   ///< where its blocks are put; index = campaign
     camera_noise = 68,        ///< of its cameras; index = campaign x runs + run
+    bootstrap = 69,           ///< which runs are drawn again for an interval; index = resample, element = draw
     /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
     /// or block, 0 of the base and of what is drawn once.
     mechanisms = 128

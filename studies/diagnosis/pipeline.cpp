@@ -370,6 +370,10 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                 left_out.push_back("vertical_motion (its record is not known)");
                 continue;
             }
+            if (j.fit.cause.mechanism == "harmonic_distortion") {
+                left_out.push_back("harmonic_distortion (give the corrected motion as a table instead)");
+                continue;
+            }
             add_mechanism({j.fit.cause, j.fit.size}, built, extended);
         }
         extended.excitation = ExcitationSpec{};

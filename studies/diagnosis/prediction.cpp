@@ -1,5 +1,6 @@
 #include "studies/diagnosis/prediction.hpp"
 
+#include "ensemble/random.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/virtual_campaign.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -19,7 +21,7 @@ namespace {
 // A residual counts at most so many of its scales: an impact that went the other way is one error, not a hundred.
 constexpr double most_residual = 5;
 // Times that the intervals are drawn anew.
-constexpr int resamples = 2000;
+constexpr std::uint64_t resamples = 2000;
 // Realizations of a run whose end is predicted.
 constexpr std::uint64_t collapse_ensemble = 24;
 
@@ -99,16 +101,6 @@ MaybeReal repeat_floor(const Campaign& campaign, const std::vector<std::size_t>&
             }
         }
     return n > 0 ? MaybeReal(std::sqrt(square / n)) : std::nullopt;
-}
-
-/// A small generator of its own for bootstrap draws: the outcome is a function of the seed.
-std::uint64_t next_draw(std::uint64_t& state)
-{
-    state += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
 }
 
 } // namespace
@@ -273,11 +265,11 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
     gain.error_after = after->rms() / before->rms();
     // drawn anew: runs
     std::vector<double> ratios;
-    std::uint64_t state = seed;
-    for (int k = 0; k < resamples; ++k) {
+    for (std::uint64_t k = 0; k < resamples; ++k) {
         double sb = 0, nb = 0, sa = 0, na = 0;
         for (std::size_t i = 0; i < left.size(); ++i) {
-            const std::size_t r = next_draw(state) % left.size();
+            const auto r =
+                static_cast<std::size_t>(uniform01(seed, k, Stream::bootstrap, i) * static_cast<double>(left.size()));
             sb += before->squares[r];
             nb += before->counts[r];
             sa += after->squares[r];
@@ -401,7 +393,7 @@ std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& s
         MeasuredRun run;
         run.name = fmt::format("{:03}", k);
         run.motion_id = static_cast<int>(k);
-        const double omega = 2 * M_PI * m.frequency_hz, length = m.cycles / m.frequency_hz;
+        const double omega = 2 * std::numbers::pi * m.frequency_hz, length = m.cycles / m.frequency_hz;
         const auto n = static_cast<std::size_t>((length + 2 * scales.time_s) / scales.spacing_s);
         for (std::size_t i = 0; i < n; ++i) {
             const double t = scales.spacing_s * static_cast<double>(i);
