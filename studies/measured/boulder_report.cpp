@@ -235,7 +235,7 @@ std::string judgement_section(const BoulderResults& r)
                             signed_interval(difference(r.by_extended.held, p->held, brier)),
                             signed_interval(difference(r.by_extended.held, p->held, log_loss)));
     text += fmt::format("\nWith the halves exchanged (fitted on the held-out half, judged on the fitting half), the "
-                        "gain over the baseline is {} of right answers{} and {} of the Brier score{}.\n\n",
+                        "gain over the baseline is {} of right answers{}, and {} of the Brier score{}.\n\n",
                         signed_interval(r.swapped_right), firmness(r.swapped_right), signed_interval(r.swapped_brier),
                         firmness(r.swapped_brier));
     text += "Each boulder by itself, and every published numerical model on the same held-out tests:\n\n| boulder | "
@@ -295,7 +295,7 @@ std::string cause_section(const BoulderResults& r)
                         gain > asks_for_it ? "The outcomes ask for more loss than the baseline has."
                                            : "That is no more than tables of chaotic outcomes differ by for no reason: "
                                              "falls alone do not ask for another dissipation.");
-    text += "**The tests themselves scatter.** ";
+    text += "**Do the tests themselves scatter?** Little of it is seen. ";
     for (std::size_t s = 0; s < boulders; ++s) {
         const Repeats found = repeats(r.data, s);
         text +=
