@@ -117,6 +117,14 @@ void expect_refused(const std::string& content, const std::vector<std::string>& 
     }
 }
 
+TEST(BaseTable, ABaseThatIsHitIsFasterThanAnyGround)
+{
+    const auto hit = [](double t) { return digits(300 * acceleration(t)); };
+    const Motion motion = read_base_table(File(rows("time_s,acceleration_m_s2", 50, hit)).path());
+    EXPECT_GT(motion.pga_m_s2, 200);
+    EXPECT_LT(motion.pga_m_s2, 1000);
+}
+
 TEST(BaseTable, SaysWhatIsWrong)
 {
     const auto one = [](double t) { return digits(acceleration(t)); };
