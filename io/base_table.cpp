@@ -20,6 +20,10 @@ namespace stylobate {
 
 namespace {
 
+/// A column of accelerations says its unit in its name, and a base that is hit is faster than any ground: such a table
+/// may reach this [m/s2].
+constexpr double largest_of_a_hit_m_s2 = 1000;
+
 constexpr const char* time_name = "time_s";
 constexpr const char* acceleration_name = "acceleration_m_s2";
 constexpr const char* displacement_name = "displacement_m";
@@ -46,6 +50,16 @@ void check_names(const RecordText& text, const ColumnTable& table)
         text.refuse(fmt::format("begins with the column \"{}\", not with time_s. {}", table.names.front(), todo));
     if (column(table, acceleration_name) == nullptr && column(table, displacement_name) == nullptr)
         text.refuse(fmt::format("has no motion: its columns are {}. {}", fmt::join(table.names, ", "), todo));
+}
+
+/// @param largest that is believed [m/s2]
+void check_peak(const Motion& motion, const std::filesystem::path& file, double largest)
+{
+    if (motion.pga_m_s2 > largest)
+        throw InputError(file.string(), 0,
+                         fmt::format("the motion has a peak acceleration of {:.4g} m/s2, more than {}: a unit is "
+                                     "wrong, or displacements have too few digits.",
+                                     motion.pga_m_s2, largest));
 }
 
 Motion of_campaign(const std::filesystem::path& file, const std::string& run)
@@ -84,9 +98,14 @@ Motion of_columns(const std::filesystem::path& file)
         run.time_s = table.columns.front();
         run.base_acceleration_m_s2.values = *acceleration;
         run.base_displacement_m.values = *displacement;
-        return base_motion_of(run);
+        Motion motion = base_motion_of(run);
+        check_peak(motion, file, largest_pga_m_s2);
+        return motion;
     }
-    return motion_of(acceleration ? *acceleration : acceleration_through(*displacement, table.dt_s), table.dt_s);
+    Motion motion =
+        motion_of(acceleration ? *acceleration : acceleration_through(*displacement, table.dt_s), table.dt_s);
+    check_peak(motion, file, acceleration ? largest_of_a_hit_m_s2 : largest_pga_m_s2);
+    return motion;
 }
 
 } // namespace
@@ -94,14 +113,11 @@ Motion of_columns(const std::filesystem::path& file)
 Motion read_base_table(const std::filesystem::path& file, const std::string& run)
 {
     Motion motion = run.empty() ? of_columns(file) : of_campaign(file, run);
+    if (!run.empty())
+        check_peak(motion, file, largest_pga_m_s2);
     if (!(motion.predominant_frequency_hz > 0))
         motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);
     motion.source = run.empty() ? file.string() : fmt::format("{}, run {}", file.string(), run);
-    if (motion.pga_m_s2 > largest_pga_m_s2)
-        throw InputError(file.string(), 0,
-                         fmt::format("the motion has a peak acceleration of {:.4g} m/s2, more than {}: a unit is "
-                                     "wrong, or displacements have too few digits.",
-                                     motion.pga_m_s2, largest_pga_m_s2));
     return motion;
 }
 

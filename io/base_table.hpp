@@ -16,9 +16,11 @@ namespace stylobate {
 /// it is that of the cubic spline through the displacements, counted from the first one. Where there are both, or where
 /// a run of a measured campaign is named, it is the motion that goes best with all (`measured_motion.hpp`).
 ///
+/// Accelerations up to 1000 m/s2 are taken from a column of them (a base that is hit), up to 50 m/s2 from the others.
+///
 /// @param run of a measured campaign (an HDF5 file, a folder, its TOML file); empty: the file is one of columns
 /// @throws InputError if it cannot be read, lacks the columns or the run, has times that are not uniform, too few
-///         samples, or does not move
+///         samples, does not move, or is faster than that
 Motion read_base_table(const std::filesystem::path& file, const std::string& run = {});
 
 } // namespace stylobate

@@ -117,6 +117,14 @@ void expect_refused(const std::string& content, const std::vector<std::string>& 
     }
 }
 
+TEST(BaseTable, ABaseThatIsHitIsFasterThanAnyGround)
+{
+    const auto hit = [](double t) { return digits(300 * acceleration(t)); };
+    const Motion motion = read_base_table(File(rows("time_s,acceleration_m_s2", 50, hit)).path());
+    EXPECT_GT(motion.pga_m_s2, 200);
+    EXPECT_LT(motion.pga_m_s2, 1000);
+}
+
 TEST(BaseTable, SaysWhatIsWrong)
 {
     const auto one = [](double t) { return digits(acceleration(t)); };
@@ -128,7 +136,9 @@ TEST(BaseTable, SaysWhatIsWrong)
     expect_refused(rows("time_s,acceleration_m_s2", 5, one), {"5 samples", "at least 10"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, [](double) { return "0"; }), {"nothing shakes"});
     expect_refused(rows("time_s,displacement_m", 50, [](double) { return "0.1"; }), {"is 0.1 at all times"});
-    expect_refused(rows("time_s,acceleration_m_s2", 50, [](double t) { return digits(1000 * acceleration(t)); }),
+    expect_refused(rows("time_s,acceleration_m_s2", 50, [](double t) { return digits(1e4 * acceleration(t)); }),
+                   {"peak acceleration", "more than 1000", "a unit is wrong"});
+    expect_refused(rows("time_s,displacement_m", 50, [](double t) { return digits(1000 * acceleration(t)); }),
                    {"peak acceleration", "more than 50", "a unit is wrong"});
     expect_refused(rows("time_s,displacement_m", 50, [](double t) { return t > 0.2 ? "0.1" : "0"; }),
                    {"too few digits"});

@@ -239,6 +239,26 @@ TEST(Boulder, DashpotsAtTheEndsTakeMoreOutOfAnImpact)
     EXPECT_GT(ends, 0.5);
 }
 
+TEST(FallTable, AnInvalidRealizationHasFallenIfItLayOnItsSide)
+{
+    const auto ended = [](State state, double turned_rad) {
+        Outcome outcome;
+        outcome.state = state;
+        outcome.max_relative_rotation_rad = turned_rad;
+        return outcome;
+    };
+    Ends ends, more;
+    ends.add(ended(State::collapsed, 0.6));
+    ends.add(ended(State::invalid, 1.2));
+    ends.add(ended(State::invalid, 0.4));
+    more.add(ended(State::rocked, 0.1));
+    ends.add(more);
+    EXPECT_EQ(ends.total, 4U);
+    EXPECT_EQ(ends.fallen, 2U);
+    EXPECT_EQ(ends.on_its_side, 1U);
+    EXPECT_EQ(ends.set_aside, 1U);
+}
+
 TEST(Boulder, TheStrongPartHasItsMargins)
 {
     std::vector<double> a(1000, 0.1);

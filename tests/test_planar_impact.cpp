@@ -3,6 +3,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "studies/measured/planar_impact_cause.hpp"
+#include "studies/measured/planar_impact_study.hpp"
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,15 @@ ImpactLaw stiff(double mu)
     law.K_T = 3e10; // sliding begins and ends at once
     law.mu = mu;
     return law;
+}
+
+TEST(ImpactStudy, LengthsOfNormalVectors)
+{
+    // squares: the tabled quantiles of chi2 with 1 and 3 degrees of freedom
+    EXPECT_NEAR(std::pow(length_quantile(1, 0.5), 2), 0.454936, 1e-6);
+    EXPECT_NEAR(std::pow(length_quantile(1, 0.9), 2), 2.705543, 1e-6);
+    EXPECT_NEAR(std::pow(length_quantile(3, 0.5), 2), 2.365974, 1e-6);
+    EXPECT_NEAR(std::pow(length_quantile(3, 0.9), 2), 6.251389, 1e-6);
 }
 
 } // namespace

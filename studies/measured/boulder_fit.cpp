@@ -21,7 +21,9 @@ std::vector<bool> fell(const std::vector<BoulderTest>& tests, std::size_t boulde
 
 BoulderTable simulate(const BoulderModel& variant, const std::vector<BoulderTest>& tests, const RunOptions& run)
 {
-    BoulderTable table{variant, {equal_ratios(0.1, 0.45, 24), std::vector<std::vector<char>>(tests.size())}};
+    BoulderTable table{
+        variant,
+        {equal_ratios(0.1, 0.45, 24), std::vector<std::vector<char>>(tests.size()), std::vector<Ends>(tests.size())}};
     std::vector<Study> studies;
     for (const double slenderness : table.falls.slenderness) {
         BoulderModel model = variant;
@@ -30,8 +32,9 @@ BoulderTable simulate(const BoulderModel& variant, const std::vector<BoulderTest
     }
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(run.threads));
-    tbb::parallel_for(std::size_t(0), tests.size(),
-                      [&](std::size_t i) { table.falls.falls[i] = falls_in(tests[i].motion, studies, run.isa); });
+    tbb::parallel_for(std::size_t(0), tests.size(), [&](std::size_t i) {
+        table.falls.falls[i] = falls_in(tests[i].motion, studies, run.isa, &table.falls.ends[i]);
+    });
     return table;
 }
 

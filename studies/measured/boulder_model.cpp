@@ -4,7 +4,6 @@
 #include "ensemble/lanes.hpp"
 #include "ensemble/sampler.hpp"
 #include "io/study_file.hpp"
-#include "studies/measured/fall_table.hpp"
 
 #include <fmt/format.h>
 
@@ -56,23 +55,20 @@ Study boulder_study(const BoulderModel& model, std::uint64_t realizations)
     return study;
 }
 
-double share_falling(const Study& study, const Motion& motion, const RunOptions& run)
+Ends ensemble_ends(const Study& study, const Motion& motion, const RunOptions& run)
 {
+    Ends ends;
     if (motion.empty())
-        return 0;
+        return ends;
     const Sampler sampler(study, &motion);
     RunPlan plan;
     plan.total = study.total();
-    std::uint64_t fallen = 0, judged = 0;
-    plan.sink = [&](const Realization&, const Outcome& outcome) {
-        fallen += has_fallen(outcome);
-        judged += has_fallen(outcome) || outcome.state != State::invalid;
-    };
+    plan.sink = [&](const Realization&, const Outcome& outcome) { ends.add(outcome); };
     Observer nobody;
     run_ensemble(study, sampler, &motion, run, plan, nobody);
-    if (judged == 0)
+    if (ends.set_aside == ends.total)
         throw InputError(fmt::format("{}: every realization is invalid", motion.source));
-    return static_cast<double>(fallen) / static_cast<double>(judged);
+    return ends;
 }
 
 double restitution(const BoulderModel& model)

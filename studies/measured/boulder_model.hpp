@@ -5,6 +5,7 @@
 #include "ensemble/realization.hpp"
 #include "ensemble/study.hpp"
 #include "studies/measured/boulder_data.hpp"
+#include "studies/measured/fall_table.hpp"
 
 #include <string>
 #include <vector>
@@ -33,9 +34,9 @@ inline constexpr double boulder_friction = 0.7;
 /// @param realizations 1 without a spread
 Study boulder_study(const BoulderModel& model, std::uint64_t realizations = 1);
 
-/// Share of the realizations of a study that fall in a test; invalid ones are left out.
+/// How the realizations of a study end in a test; none in one whose motion is too weak to move anything.
 /// @throws InputError if all are invalid
-double share_falling(const Study& study, const Motion& motion, const RunOptions& run);
+Ends ensemble_ends(const Study& study, const Motion& motion, const RunOptions& run);
 
 /// What the block keeps of its rocking speed at an impact: from free rocking, released at half of alpha, by the energy
 /// of the highest point after the impact (still base; compliance of the bed included).

@@ -39,6 +39,7 @@ struct BoulderResults {
     std::vector<Stance> stances;
     MeshBody body;
     int realizations = 0;
+    Ends fitting, judging; ///< of the tables that are fitted with, and of the three judged models' ensembles
 };
 
 /// Text of the page. @param images path of the pictures, seen from it

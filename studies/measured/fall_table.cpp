@@ -41,7 +41,24 @@ bool has_fallen(const Outcome& outcome)
            (outcome.state == State::invalid && outcome.max_relative_rotation_rad > on_its_side);
 }
 
-std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studies, Isa isa)
+void Ends::add(const Outcome& outcome)
+{
+    const bool invalid = outcome.state == State::invalid;
+    ++total;
+    fallen += has_fallen(outcome);
+    on_its_side += invalid && has_fallen(outcome);
+    set_aside += invalid && !has_fallen(outcome);
+}
+
+void Ends::add(const Ends& more)
+{
+    total += more.total;
+    fallen += more.fallen;
+    on_its_side += more.on_its_side;
+    set_aside += more.set_aside;
+}
+
+std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studies, Isa isa, Ends* ends)
 {
     std::vector<char> falls(studies.size());
     if (motion.empty())
@@ -64,6 +81,8 @@ std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studi
         for (int lane = 0; lane < set.lanes(); ++lane)
             if (!set.free(lane) && set.outcome(lane)) {
                 falls[in_lane[static_cast<std::size_t>(lane)]] = has_fallen(*set.outcome(lane));
+                if (ends)
+                    ends->add(*set.outcome(lane));
                 refill(lane);
             }
     }

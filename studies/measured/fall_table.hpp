@@ -6,14 +6,27 @@
 #include "ensemble/outcome.hpp"
 #include "ensemble/study.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace stylobate::measured {
 
+/// How realizations ended, and how those are counted whose energy balance broke.
+struct Ends {
+    std::uint64_t total = 0;
+    std::uint64_t fallen = 0;      ///< with those that lay on their side
+    std::uint64_t on_its_side = 0; ///< invalid, but turned by more than 1 rad before: counted as fallen
+    std::uint64_t set_aside = 0;   ///< invalid otherwise
+
+    void add(const Outcome& outcome);
+    void add(const Ends& more);
+};
+
 /// Falls of blocks that differ in their slenderness alone.
 struct FallTable {
     std::vector<double> slenderness;      ///< in equal ratios
-    std::vector<std::vector<char>> falls; ///< (tests x slendernesses)
+    std::vector<std::vector<char>> falls; ///< (tests x slendernesses); an invalid one off its side counts as standing
+    std::vector<Ends> ends;               ///< (tests) over the slendernesses
 
     /// Share that falls of blocks whose slenderness is spread lognormally.
     /// @param median index into `slenderness`   @param spread sigma of the logarithm; 0: that one alone
@@ -29,7 +42,8 @@ bool has_fallen(const Outcome& outcome);
 
 /// Whether each of several structures falls under one motion; the first realization of each study.
 /// @param studies alike but for their values: the same blocks   @return (studies) 1 for a fall; none in an empty motion
-std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studies, Isa isa);
+/// @param ends to which how they ended is added
+std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studies, Isa isa, Ends* ends = nullptr);
 
 /// A test ends as it likes with probability `slip`: no model is then infinitely wrong.
 inline double with_slip(double share, double slip)

@@ -1,10 +1,10 @@
 #include "studies/measured/planar_impact_study.hpp"
 
 #include <Eigen/Core>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <random>
 
@@ -180,8 +180,8 @@ public:
         // freedom where the moment balance shows chi with 1.
         const std::size_t n = s_.point_floor.size();
         for (const double part : {0.5, 0.9}) {
-            const double one = std::sqrt(boost::math::quantile(boost::math::chi_squared(1), part));
-            const double three = std::sqrt(boost::math::quantile(boost::math::chi_squared(3), part));
+            const double one = length_quantile(1, part);
+            const double three = length_quantile(3, part);
             s_.isotropic_floor.push_back(quantile(s_.point_floor, part) * three / one);
         }
         const auto columns = [&](const std::vector<Impact>& impacts) {
@@ -345,6 +345,21 @@ double sign_flip_p(const std::vector<double>& a, const std::vector<double>& b, i
         as_much += std::fabs(sum) >= std::fabs(observed);
     }
     return (1.0 + as_much) / (1.0 + flips);
+}
+
+double length_quantile(int directions, double part)
+{
+    assert((directions == 1 || directions == 3) && part > 0 && part < 1 && "closed forms of the line and of space");
+    const auto below = [&](double length) {
+        const double shells = directions == 3 ? 2 * length * std::exp(-0.5 * length * length) / std::sqrt(2 * M_PI) : 0;
+        return std::erf(length / std::sqrt(2.0)) - shells;
+    };
+    double low = 0, high = 10;
+    for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (below(middle) < part ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
 }
 
 double orientation_by_moments(const Body& body, const std::vector<Impact>& impacts)

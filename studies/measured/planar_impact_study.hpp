@@ -102,6 +102,11 @@ ImpactStudy study_impacts(std::vector<Impact> impacts, const std::function<void(
 /// signs.
 double sign_flip_p(const std::vector<double>& a, const std::vector<double>& b, int flips, std::uint64_t seed);
 
+/// What the length of a vector of independent standard normal components stays below with probability `part` (the root
+/// of the quantile of chi2).
+/// @param directions 1 or 3 components   @param part in (0, 1)
+double length_quantile(int directions, double part);
+
 /// The orientation by which the moment balance holds best: least sum of |residual lever|; golden section within
 /// +-0.15 rad.
 double orientation_by_moments(const Body& body, const std::vector<Impact>& impacts);

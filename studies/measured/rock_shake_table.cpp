@@ -123,14 +123,17 @@ void simple_rules(BoulderResults& r)
 }
 
 /// Judges a fit by ensembles of the study that `stylobate run` takes.
-Predictor judged(const BoulderResults& r, const std::string& name, const BoulderFit& fit, const RunOptions& run)
+Predictor judged(BoulderResults& r, const std::string& name, const BoulderFit& fit, const RunOptions& run)
 {
     std::array<Study, boulders> study;
     for (std::size_t s = 0; s < boulders; ++s)
         study[s] =
             parse_study(boulder_study(fit.model[s], fit.model[s].slenderness_spread > 0 ? realizations : 1).text, name);
     Predictor p = predictor(r, name, [&](std::size_t i, std::size_t s) {
-        return with_slip(share_falling(study[s], r.data.tests[i].motion, run), fit.slip);
+        const Ends ends = ensemble_ends(study[s], r.data.tests[i].motion, run);
+        r.judging.add(ends);
+        const std::uint64_t valid = ends.total - ends.set_aside;
+        return with_slip(valid == 0 ? 0 : static_cast<double>(ends.fallen) / static_cast<double>(valid), fit.slip);
     });
     p.log_likelihood = fit.log_likelihood;
     return p;
@@ -226,6 +229,9 @@ void rock_shake_table(const PagePlace& place)
                                 now.log_likelihood));
             }
     }
+    for (const BoulderTable& table : tables)
+        for (const Ends& ends : table.falls.ends)
+            r.fitting.add(ends);
     const auto with_dashpot = [&](const Dashpot& dashpot) {
         std::vector<BoulderTable> some;
         for (const BoulderTable& table : tables)
