@@ -1,0 +1,149 @@
+#include "studies/diagnosis/ride.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+// A block rides on the table while what accelerates it is below this part of what makes it slip or rock.
+constexpr double rides_below = 0.6;
+
+std::vector<std::pair<std::size_t, std::size_t>> stretches(const std::vector<char>& good, std::size_t least)
+{
+    std::vector<std::pair<std::size_t, std::size_t>> parts;
+    for (std::size_t i = 0; i < good.size();) {
+        std::size_t k = i;
+        while (k < good.size() && good[k])
+            ++k;
+        if (k - i >= least)
+            parts.emplace_back(i, k);
+        i = std::max(k, i + 1);
+    }
+    return parts;
+}
+
+} // namespace
+
+double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to)
+{
+    return std::accumulate(v.begin() + static_cast<std::ptrdiff_t>(from), v.begin() + static_cast<std::ptrdiff_t>(to),
+                           0.0) /
+           static_cast<double>(to - from);
+}
+
+std::vector<int> lowest_blocks(const Specimen& s)
+{
+    std::vector<int> blocks;
+    for (const auto& [lower, upper] : s.joints)
+        if (lower < 0)
+            blocks.push_back(upper);
+    return blocks;
+}
+
+std::vector<double> base_displacement(const MeasuredRun& run)
+{
+    if (!run.base_displacement_m.empty())
+        return run.base_displacement_m.values;
+    const std::vector<double>& a = run.base_acceleration_m_s2.values;
+    std::vector<double> u(a.size(), 0.0);
+    double v = 0;
+    for (std::size_t i = 1; i < a.size(); ++i) {
+        const double dt = run.time_s[i] - run.time_s[i - 1];
+        u[i] = u[i - 1] + v * dt + dt * dt * (a[i - 1] / 3 + a[i] / 6);
+        v += dt * (a[i - 1] + a[i]) / 2;
+    }
+    return u;
+}
+
+Prepared prepare_rides(const Campaign& campaign, const TrackScales& scales)
+{
+    const Specimen& s = campaign.specimen;
+    Prepared out;
+    out.table = std::any_of(campaign.runs.begin(), campaign.runs.end(),
+                            [](const MeasuredRun& run) { return !run.table.x_m.empty(); });
+    const int block = lowest_blocks(s).front();
+    const auto b = static_cast<std::size_t>(block);
+    out.what = out.table ? "the table" : fmt::format("block {}", block);
+    double half_width = std::numeric_limits<double>::infinity(), top = 0, bottom = s.rest_y_m[b] - s.half_height_m[b];
+    for (std::size_t i = 0; i < s.rest_y_m.size(); ++i) {
+        half_width = std::min(half_width, s.half_width_m[i]);
+        top = std::max(top, s.rest_y_m[i] + s.half_height_m[i]);
+    }
+    const double limit =
+        rides_below * s.gravity_m_s2 * std::min(s.friction_nominal.value_or(0.5), 2 * half_width / (top - bottom));
+    const LocalCubic& wide = scales.widths.back();
+    const double dt = scales.spacing_s;
+    for (std::size_t index = 0; index < campaign.runs.size(); ++index) {
+        const MeasuredRun& run = campaign.runs[index];
+        const SeenMotion& seen = out.table ? run.table : run.blocks;
+        const bool has_base = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
+        if (run.time_s.size() < 2 || seen.x_m.empty() || !has_base)
+            continue;
+        const std::size_t stride = out.table ? 1 : static_cast<std::size_t>(s.blocks());
+        const std::size_t column = out.table ? 0 : b;
+        const auto n = static_cast<std::size_t>(std::floor((run.time_s.back() - run.time_s.front()) / dt + 1e-6)) + 1;
+        const auto sample = [&](const Series& series) {
+            return series.empty()
+                       ? std::vector<double>()
+                       : resampled(run.time_s, series.values.data() + column, stride, run.time_s.front(), dt, n);
+        };
+        Ride ride;
+        ride.run = index;
+        const std::vector<double> u = base_displacement(run);
+        ride.base = resampled(run.time_s, u.data(), 1, run.time_s.front(), dt, n);
+        ride.rate = scales.rates.apply(1, ride.base);
+        ride.acceleration = wide.apply(2, ride.base);
+        ride.x = sample(seen.x_m);
+        ride.y = sample(seen.y_m);
+        ride.theta = sample(seen.theta_rad);
+        ride.noise_x = seen.x_m.noise_sd.value_or(scales.noise_m);
+        ride.noise_y = seen.y_m.noise_sd.value_or(scales.noise_m);
+        ride.noise_theta = seen.theta_rad.noise_sd.value_or(scales.noise_rad);
+        ride.height_m = out.table ? 0 : s.rest_y_m[b];
+        ride.harmonic = run.kind == "harmonic";
+        ride.find_peak();
+        std::vector<char> good(n, 0);
+        const auto margin = static_cast<std::size_t>(wide.half_width());
+        std::vector<double> shaken = ride.x, leaned = ride.theta;
+        for (double& v : shaken)
+            v = std::isfinite(v) ? v : 0;
+        for (double& v : leaned)
+            v = std::isfinite(v) ? v : 0;
+        const std::vector<double> pushed = wide.apply(2, shaken), angle = scales.rates.apply(0, leaned);
+        double rest_angle = 0;
+        if (!leaned.empty()) {
+            std::vector<double> first(leaned.begin(),
+                                      leaned.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(n, 40)));
+            std::nth_element(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(first.size() / 2), first.end());
+            rest_angle = first[first.size() / 2];
+        }
+        for (std::size_t i = margin; i + margin < n; ++i) {
+            const bool there = std::isfinite(ride.x[i]) && std::isfinite(ride.base[i]);
+            const bool still =
+                out.table || (std::fabs(pushed[i]) < limit &&
+                              (leaned.empty() ||
+                               std::fabs(angle[i] - rest_angle) <
+                                   std::max(scales.rotation_rad / 3, 4 * ride.noise_theta * scales.rates.noise(0))));
+            good[i] = there && still;
+        }
+        // to a side of what moves, the smoothing has seen it
+        if (!out.table) {
+            std::vector<char> inside = good;
+            for (std::size_t i = 0; i < n; ++i)
+                if (!good[i])
+                    for (std::size_t k = i < margin ? 0 : i - margin; k < std::min(n, i + margin + 1); ++k)
+                        inside[k] = 0;
+            good = inside;
+        }
+        ride.parts = stretches(good, shortest_ride);
+        if (!ride.parts.empty())
+            out.rides.push_back(std::move(ride));
+    }
+    return out;
+}
+
+} // namespace stylobate

@@ -1,0 +1,140 @@
+#pragma once
+/// The parts of runs in which the lowest block, or the table itself, rides on the base: what direct tests look at.
+
+#include "ensemble/campaign.hpp"
+#include "studies/diagnosis/robust_fit.hpp"
+#include "studies/diagnosis/track.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// Shorter rides tell nothing.
+inline constexpr std::size_t shortest_ride = 30; // samples
+
+/// Mean of v[from] to v[to - 1].
+double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to);
+
+/// Blocks that stand on the table (or on what is fixed to it).
+std::vector<int> lowest_blocks(const Specimen& s);
+
+/// The file's base displacement at the cameras' samples; of an acceleration alone its double integral.
+std::vector<double> base_displacement(const MeasuredRun& run);
+
+/// One run at the spacing of the scales.
+struct Ride {
+    std::size_t run = 0;                    ///< of the campaign
+    std::vector<double> base;               ///< displacement of the file [m]
+    std::vector<double> rate, acceleration; ///< of it, smoothed
+    std::vector<double> x, y, theta;        ///< of the lowest block, or of the table: raw samples
+    double height_m = 0;                    ///< of what is seen, above the table
+    double noise_x = 0, noise_y = 0, noise_theta = 0;
+    std::vector<std::pair<std::size_t, std::size_t>> parts; ///< in which it rides
+    bool harmonic = false;
+    double middle = 0, peak = 0; ///< of the base: its mean, and how far from that it gets [m]
+
+    void find_peak()
+    {
+        middle = mean_of(base, 0, base.size());
+        peak = 0;
+        for (const double u : base)
+            peak = std::max(peak, std::fabs(u - middle));
+    }
+
+    /// Takes the base motion at a later time.
+    void shift(double by_s, const TrackScales& scales)
+    {
+        std::vector<double> time(base.size());
+        for (std::size_t i = 0; i < time.size(); ++i)
+            time[i] = scales.spacing_s * static_cast<double>(i);
+        base = resampled(time, base.data(), 1, by_s, scales.spacing_s, base.size());
+        rate = scales.rates.apply(1, base);
+        acceleration = scales.widths.back().apply(2, base);
+    }
+};
+
+struct Prepared {
+    std::vector<Ride> rides; ///< (runs that can be used)
+    bool table = false;      ///< the cameras see the table
+    std::string what;        ///< "the table" or "block 0"
+};
+
+/// Finds the rides of a campaign.
+Prepared prepare_rides(const Campaign& campaign, const TrackScales& scales);
+
+/// Regression of what is seen in all rides, with an offset of its own for each stretch.
+/// @param column(ride, i, k) k-th regressor   @return fit of the k regressors
+struct RideFit {
+    std::vector<double> size, sd;
+    std::vector<double> gain; ///< of each, over the fit without it [nats]
+    double scale = 1;
+    std::size_t samples = 0;
+};
+
+template <class Value, class Column>
+RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)
+{
+    std::vector<std::vector<double>> rows;
+    std::vector<double> values, sds;
+    for (const Ride& ride : rides)
+        for (const auto& [from, to] : ride.parts) {
+            std::vector<double> mean(static_cast<std::size_t>(regressors) + 1, 0);
+            for (std::size_t i = from; i < to; ++i) {
+                mean.back() += value(ride, i).first;
+                for (int k = 0; k < regressors; ++k)
+                    mean[static_cast<std::size_t>(k)] += column(ride, i, k);
+            }
+            for (double& m : mean)
+                m /= static_cast<double>(to - from);
+            for (std::size_t i = from; i < to; ++i) {
+                std::vector<double> row;
+                for (int k = 0; k < regressors; ++k)
+                    row.push_back(column(ride, i, k) - mean[static_cast<std::size_t>(k)]);
+                rows.push_back(std::move(row));
+                values.push_back(value(ride, i).first - mean.back());
+                sds.push_back(value(ride, i).second);
+            }
+        }
+    RideFit out;
+    out.samples = rows.size();
+    out.size.assign(static_cast<std::size_t>(regressors), 0);
+    out.sd.assign(static_cast<std::size_t>(regressors), std::numeric_limits<double>::infinity());
+    out.gain.assign(static_cast<std::size_t>(regressors), 0);
+    if (rows.empty())
+        return out;
+    RegressionData data;
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    data.columns.resize(n, regressors);
+    data.values = Eigen::Map<const Eigen::VectorXd>(values.data(), n);
+    data.sd = Eigen::Map<const Eigen::VectorXd>(sds.data(), n);
+    data.group.assign(rows.size(), 0);
+    data.prior_sd = Eigen::VectorXd::Constant(regressors, std::numeric_limits<double>::infinity());
+    std::vector<double> unit(static_cast<std::size_t>(regressors), 0);
+    for (const auto& row : rows)
+        for (std::size_t k = 0; k < row.size(); ++k)
+            unit[k] = std::max(unit[k], std::fabs(row[k]));
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index k = 0; k < regressors; ++k) {
+            const double by = unit[static_cast<std::size_t>(k)];
+            data.columns(i, k) = by > 0 ? rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] / by : 0;
+        }
+    const RobustFit fit = robust_fit(data);
+    out.scale = fit.scale(0);
+    for (int k = 0; k < regressors; ++k) {
+        const auto c = static_cast<std::size_t>(k);
+        if (unit[c] == 0)
+            continue;
+        out.size[c] = fit.coefficients(k) / unit[c];
+        out.sd[c] = std::sqrt(fit.covariance(k, k)) / unit[c];
+        // Wald's: enough for what is tens of standard deviations away, and for what is none
+        out.gain[c] = 0.5 * std::pow(out.size[c] / out.sd[c], 2);
+    }
+    return out;
+}
+
+} // namespace stylobate
