@@ -12,6 +12,7 @@
 #include "studies/diagnosis/diagnosis_json.hpp"
 #include "studies/diagnosis/diagnosis_text.hpp"
 #include "studies/diagnosis/pipeline.hpp"
+#include "studies/diagnosis/track.hpp"
 #include "studies/output_path.hpp"
 
 #include <fmt/format.h>
@@ -75,7 +76,8 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     if (output.empty())
         output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
     check_output(measured, output);
-    { // refuses before the work is done, not after it
+    track_scales(campaign); // refuses data that cannot be diagnosed, before anything is touched
+    {                       // refuses before the work is done, not after it
         const AtomicFile writable(output);
     }
     const std::filesystem::path beside = std::filesystem::path(output).parent_path();

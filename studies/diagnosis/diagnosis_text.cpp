@@ -169,12 +169,18 @@ std::string diagnosis_text(const Diagnosis& d)
             out += wrapped(d.next_test->text, 2);
     }
     out += data_part(d);
-    if (!d.baseline.empty())
-        out +=
-            heading("The calibrated baseline (95 % interval)") +
-            table_of(d.baseline, {"parameter", "value", ""}, [](const CalibratedParameter& p) {
-                return Row{p.name, p.value ? estimate_words(p.value, p.low, p.high, p.unit) : "", parameter_words(p)};
+    if (!d.baseline.empty()) {
+        out += heading("The calibrated baseline (95 % interval)");
+        std::vector<CalibratedParameter> numbers, words; // what has a value, and what is told in words alone
+        for (const CalibratedParameter& p : d.baseline)
+            (p.value ? numbers : words).push_back(p);
+        if (!numbers.empty())
+            out += table_of(numbers, {"parameter", "value", ""}, [](const CalibratedParameter& p) {
+                return Row{p.name, estimate_words(p.value, p.low, p.high, p.unit), parameter_words(p)};
             });
+        for (const CalibratedParameter& p : words)
+            out += wrapped(p.name + ": " + (parameter_words(p).empty() ? "not known" : parameter_words(p)), 2);
+    }
     if (!d.missing.empty()) {
         out += heading("What could not be judged");
         for (const Missing& missing : d.missing)

@@ -25,8 +25,9 @@ constexpr std::size_t most_wrong = 20;
 constexpr double two_sided95 = 1.96;
 
 /// @param chance_known whether campaigns with nothing hidden were simulated
+/// @param unexplained whether that is the verdict
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
-                       const std::vector<WindowBaseline>& baselines, bool chance_known)
+                       const std::vector<WindowBaseline>& baselines, bool chance_known, bool unexplained)
 {
     Candidate c;
     const Cause& cause = j.fit.cause;
@@ -60,12 +61,16 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     }
     c.decision = decision;
     const std::string where = c.why.empty() ? "" : c.why + "; ";
-    c.why = where + (!j.why_not.empty() ? j.why_not
-                     : j.channel == Channel::direct
-                         ? "found by a direct test"
-                         : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
-                                       j.channel == Channel::balance ? "by the balance of forces" : "by free windows",
-                                       j.fit.gain, j.chance95));
+    const std::string found =
+        j.channel == Channel::direct
+            ? "found by a direct test"
+            : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
+                          j.channel == Channel::balance ? "by the balance of forces" : "by free windows", j.fit.gain,
+                          j.chance95);
+    c.why = where + (j.why_not.empty() ? found : j.why_not);
+    if (decision == Decision::rejected && j.why_not.empty())
+        c.why += unexplained ? "; a force of no known kind explains clearly more"
+                             : "; what is named explains the same, and better";
     return c;
 }
 
@@ -291,11 +296,15 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
             d.figures.push_back(*figure);
         if (auto figure = turning_figure(balance))
             d.figures.push_back(*figure);
+        std::vector<std::string> still;
         for (int j = 0; j < static_cast<int>(measured.specimen.joints.size()); ++j)
             if (balance.fit->samples_of(Law::sliding, j) < 5)
-                add_missing(d, fmt::format("friction of joint {} by itself", j),
-                            "It slides too rarely for the balance of forces to tell its friction from that of the "
-                            "others. A motion under which it slides, low and strong, would show it.");
+                still.push_back(fmt::format("{}", j));
+        if (!still.empty())
+            add_missing(
+                d, fmt::format("the friction of joint{} {} by itself", still.size() > 1 ? "s" : "", list_words(still)),
+                "It slides too rarely for the balance of forces to tell its friction from that of the others. "
+                "A motion under which it slides, low and strong, would show it.");
     } else {
         d.missing.push_back({"balance of forces", balance.why_not});
         tell("  balance of forces: " + balance.why_not);
@@ -372,7 +381,8 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     std::set<std::pair<std::string, std::string>> told;
     const auto add = [&](const JudgedCause& j, Decision decision) {
         if (told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
-            d.candidates.push_back(candidate_of(j, measured, decision, windows.baselines, chance.campaigns > 0));
+            d.candidates.push_back(candidate_of(j, measured, decision, windows.baselines, chance.campaigns > 0,
+                                                decided.unexplained.has_value()));
     };
     for (const JudgedCause& j : decided.named)
         add(j, Decision::named);
