@@ -15,18 +15,33 @@ std::string number_words(MaybeReal value)
     return value && !std::isnan(*value) ? fmt::format("{:.3g}", *value) : "not known";
 }
 
+namespace {
+
+/// As many digits as make both ends of an interval differ, 3 to 6.
+int digits_of(MaybeReal low, MaybeReal high)
+{
+    if (!low || !high || !(*high > *low))
+        return 3;
+    const double most = std::max(std::fabs(*low), std::fabs(*high));
+    return std::clamp(1 + static_cast<int>(std::ceil(std::log10(most / (*high - *low)))), 3, 6);
+}
+
+} // namespace
+
 std::string interval_words(MaybeReal low, MaybeReal high)
 {
     if (!low && !high)
         return "";
     if (!low)
         return "up to " + number_words(high);
-    return high ? fmt::format("{:.3g} to {:.3g}", *low, *high) : number_words(low) + " or more";
+    const int digits = digits_of(low, high);
+    return high ? fmt::format("{:.{}g} to {:.{}g}", *low, digits, *high, digits) : number_words(low) + " or more";
 }
 
 std::string estimate_words(MaybeReal value, MaybeReal low, MaybeReal high, const std::string& unit)
 {
-    std::string text = number_words(value);
+    std::string text =
+        value && !std::isnan(*value) ? fmt::format("{:.{}g}", *value, digits_of(low, high)) : number_words(value);
     if (value && !unit.empty())
         text += " " + unit;
     const std::string interval = interval_words(low, high);

@@ -74,12 +74,12 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     return c;
 }
 
+/// The size with its 95 % interval in brackets.
 std::string size_text(const Candidate& c)
 {
     if (!c.size)
         return "";
-    return fmt::format(" ({} = {:.3g}{}{})", c.parameter, *c.size, c.unit.empty() ? "" : " " + c.unit,
-                       c.low && c.high ? fmt::format("; 95 % interval {:.3g} to {:.3g}", *c.low, *c.high) : "");
+    return ", " + c.parameter + " = " + estimate_words(c.size, c.low, c.high, c.unit);
 }
 
 /// Gains of the candidates beside what chance gives.
@@ -225,7 +225,8 @@ std::string verdict_text(const Diagnosis& d)
     for (const Candidate* c : named_causes(d))
         names.push_back(fmt::format("{} {}, {}{}", c->mechanism, place_words(c->place), mechanism_words(c->mechanism),
                                     size_text(*c)));
-    std::string text = names.empty() ? "" : fmt::format("The data show {}.", list_words(names));
+    std::string text =
+        names.empty() ? "" : fmt::format("The data show {} (in brackets: 95 % interval).", list_words(names));
     if (d.verdict == Verdict::unexplained)
         return text + fmt::format("{}omething acts that none of the known mechanisms explains: {}.",
                                   names.empty() ? "S" : " Beside that, s", d.unexplained ? d.unexplained->text : "");
