@@ -12,9 +12,13 @@
 #include "studies/diagnosis/diagnosis_json.hpp"
 #include "studies/diagnosis/diagnosis_text.hpp"
 #include "studies/diagnosis/pipeline.hpp"
+#include "studies/diagnosis/track.hpp"
+#include "studies/output_path.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -47,18 +51,35 @@ std::string fingerprint(const std::filesystem::path& path)
     return fmt::format("crc32 {:08x}", sum);
 }
 
+/// As a shell takes it for one word.
+std::string shell_word(const std::string& word)
+{
+    const std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+        return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 } // namespace
 
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study_file,
                      std::string output, long long nulls, long long seed, bool windows)
 {
     const Campaign campaign = read_campaign(measured);
-    const Study study = study_file.empty() ? default_study(campaign) : read_study(study_file, options.set);
+    const Study study = study_file.empty()
+                            ? parse_study(default_study(campaign).text,
+                                          "the study that a diagnosis begins with by default", options.set)
+                            : read_study(study_file, options.set);
     if (output.empty())
         output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
-    std::error_code error;
-    if (std::filesystem::is_directory(output, error))
-        throw InputError(output, 0, "is a folder.\n  Give the name of a file for the diagnosis.");
+    check_output(measured, output);
+    track_scales(campaign); // refuses data that cannot be diagnosed, before anything is touched
+    {                       // refuses before the work is done, not after it
+        const AtomicFile writable(output);
+    }
     const std::filesystem::path beside = std::filesystem::path(output).parent_path();
     const std::string stem = std::filesystem::path(output).stem().string();
 
@@ -88,9 +109,13 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         return exit_interrupted;
     }
     diagnosis->measured_fingerprint = fingerprint(measured);
-    diagnosis->command = fmt::format("stylobate diagnose {}{} -o {} --nulls {} --seed {}{}", measured,
-                                     study_file.empty() ? "" : " --study " + study_file, output, nulls, seed,
-                                     windows ? " --windows" : "");
+    diagnosis->command = "stylobate diagnose " + shell_word(measured);
+    if (!study_file.empty())
+        diagnosis->command += " --study " + shell_word(study_file);
+    for (const std::string& setting : options.set)
+        diagnosis->command += " --set " + shell_word(setting);
+    diagnosis->command +=
+        fmt::format(" -o {} --nulls {} --seed {}{}", shell_word(output), nulls, seed, windows ? " --windows" : "");
     if (!diagnosis->extended_study.empty()) {
         AtomicFile file(how.extension);
         file.write(diagnosis->extended_study);
@@ -102,6 +127,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         fmt::print("{}\n", diagnosis_json(*diagnosis).text());
     else
         fmt::print("{}", diagnosis_text(*diagnosis));
+    std::fflush(stdout); // before what is said beside it
     tell(fmt::format("Diagnosis: {}. A page of it: stylobate report {}", output, output));
     return exit_done;
 }

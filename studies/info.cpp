@@ -6,6 +6,9 @@
 #include "io/measured_outcomes.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/diagnosis_words.hpp"
 #include "studies/json.hpp"
 #include "studies/version.hpp"
 
@@ -21,7 +24,7 @@
 namespace stylobate {
 namespace {
 
-/// Results begin with a seal, before their HDF5 part.
+/// Results and diagnoses begin with a seal, before their HDF5 part.
 bool is_sealed(const std::filesystem::path& file)
 {
     constexpr std::string_view seal = "stylobate seal";
@@ -138,6 +141,74 @@ int info_of_result(const CommonOptions& options, const std::string& file)
     return exit_done;
 }
 
+int info_of_diagnosis(const CommonOptions& options, const std::string& file)
+{
+    const Diagnosis d = read_diagnosis(file);
+    if (options.json) {
+        Json causes = Json::list();
+        for (const Candidate* cause : named_causes(d))
+            causes.item(Json::object().member("name", cause->mechanism).member("place", cause->place));
+        fmt::print("{}\n", Json::object()
+                               .member("holds", "diagnosis")
+                               .member("file", file)
+                               .member("measured", d.measured_file)
+                               .member("specimen", d.specimen)
+                               .member("runs", d.runs)
+                               .member("code_version", d.code_version)
+                               .member("verdict", to_string(d.verdict))
+                               .member("causes", causes)
+                               .text());
+        return exit_done;
+    }
+    fmt::print("{}: a diagnosis of {} ({}), by stylobate {}\n{}. {}\nA page of it: stylobate report {}\n", file,
+               d.measured_file, count_words(d.runs, "run", "runs"), d.code_version, verdict_heading(d),
+               verdict_words(d), file);
+    return exit_done;
+}
+
+int info_of_calibration(const CommonOptions& options, const std::string& file, const CalibrationSummary& c)
+{
+    if (options.json) {
+        Json parameters = Json::list();
+        for (std::size_t i = 0; i < c.keys.size(); ++i)
+            parameters.item(Json::object()
+                                .member("key", c.keys[i])
+                                .member("value", c.value[i])
+                                .member("low", c.low[i])
+                                .member("high", c.high[i]));
+        fmt::print("{}\n", Json::object()
+                               .member("holds", "calibration")
+                               .member("file", file)
+                               .member("measured", c.measured)
+                               .member("evidence", c.evidence)
+                               .member("best_form", c.best_form)
+                               .member("code_version", c.code_version)
+                               .member("parameter_sets", c.parameter_sets)
+                               .member("parameters", parameters)
+                               .text());
+        return exit_done;
+    }
+    fmt::print("{}: a calibration with the {} of {}, by stylobate {}\nbest contact form: {}\n", file, c.evidence,
+               c.measured, c.code_version, c.best_form);
+    for (std::size_t i = 0; i < c.keys.size(); ++i)
+        fmt::print("  {:<36} {:>11.4g}   95 % from {:.4g} to {:.4g}\n", c.keys[i], c.value[i], c.low[i], c.high[i]);
+    return exit_done;
+}
+
+int info_of_file(const CommonOptions& options, const std::string& file)
+{
+    std::error_code ignored;
+    if (std::filesystem::path(file).extension() == ".csv")
+        return info_of_outcomes(options, file);
+    if (std::filesystem::is_directory(file, ignored))
+        return info_of_campaign(options, file);
+    if (is_sealed(file))
+        return is_diagnosis(file) ? info_of_diagnosis(options, file) : info_of_result(options, file);
+    if (const std::optional<CalibrationSummary> calibration = read_calibration_summary(file))
+        return info_of_calibration(options, file, *calibration);
+    return info_of_campaign(options, file);
+}
+
 } // namespace
 
 Isa CommonOptions::isa() const
@@ -161,12 +232,8 @@ int CommonOptions::thread_count() const
 
 int info_command(const CommonOptions& options, const std::string& file)
 {
-    std::error_code ignored;
-    if (std::filesystem::path(file).extension() == ".csv")
-        return info_of_outcomes(options, file);
     if (!file.empty())
-        return !std::filesystem::is_directory(file, ignored) && is_sealed(file) ? info_of_result(options, file)
-                                                                                : info_of_campaign(options, file);
+        return info_of_file(options, file);
     const std::vector<Isa> usable = usable_isas();
     if (options.json) {
         Json sets = Json::list();

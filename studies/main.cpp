@@ -186,7 +186,8 @@ int main(int argc, char** argv)
 
     std::string held;
     auto* info = app.add_subcommand("info", "version, instruction sets, threads; or what a file holds");
-    info->add_option("FILE", held, "measured data (HDF5, folder), measured outcomes (CSV) or results");
+    info->add_option("FILE", held,
+                     "measured data (HDF5, folder), measured outcomes (CSV), results, a calibration or a diagnosis");
     add_common(*info, options);
     info->callback([&] { status = info_command(options, held); });
 

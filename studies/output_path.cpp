@@ -18,7 +18,7 @@ void check_output(const std::string& input, const std::string& output)
 {
     std::error_code none;
     if (!output.empty() && fs::equivalent(input, output, none))
-        throw InputError(fmt::format("-o {}: is the results file itself; choose another output", output));
+        throw InputError(fmt::format("-o {}: is the file that is read; choose another output", output));
 }
 
 } // namespace stylobate

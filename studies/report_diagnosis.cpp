@@ -97,10 +97,10 @@ private:
                                                     probability_words(cause->probability)));
         if (d_.indistinguishable.size() > 1)
             facts.emplace_back("Not told apart by these data", list_words(d_.indistinguishable));
-        if (!d_.wrong.empty()) {
+        if (!d_.wrong.empty() && d_.verdict != Verdict::none) {
             const WrongStretch& worst = d_.wrong.front();
-            facts.emplace_back("Worst", fmt::format("run {}, {}, {}, from {:.2f} to {:.2f} s: {:.1f} times what noise, "
-                                                    "repeats and tolerances allow",
+            facts.emplace_back("Worst", fmt::format("run {}, {}, {}, from {:.2f} to {:.2f} s: off by {:.1f} times what "
+                                                    "noise and a lag of some milliseconds make",
                                                     worst.run, block_words(worst.block), worst.coordinate, worst.from_s,
                                                     worst.to_s, worst.excess));
         }
@@ -110,17 +110,28 @@ private:
         if (d_.next_test)
             facts.emplace_back("Next test", d_.next_test->excitation);
         if (!d_.missing.empty())
-            facts.emplace_back("Not judged", count_words(d_.missing.size(), "thing", "things") + ", see below");
+            facts.emplace_back("Not judged", not_judged());
         if (!facts.empty())
             page_.facts(facts);
         figures(FigurePlace::verdict);
     }
 
+    std::string not_judged() const
+    {
+        std::string text;
+        for (const Missing& missing : d_.missing)
+            text += (text.empty() ? "" : "; ") + missing.what;
+        return text;
+    }
+
     void wrong()
     {
-        page_.section("What is wrong, and where");
+        page_.section(d_.verdict == Verdict::none ? "Where the baseline is off" : "What is wrong, and where");
         if (d_.wrong.empty()) {
-            page_.paragraph("No stretch of any run is farther off than noise, repeats and tolerances allow.");
+            page_.paragraph(d_.cost.window_simulations > 0
+                                ? "In no window that could be simulated is the baseline off by more than noise and a "
+                                  "lag of some milliseconds make."
+                                : "No window of any run could be simulated, so this was not judged.");
         } else {
             HtmlTable table{"lllrrr", {"run", "where", "coordinate", "from [s]", "to [s]", "excess"}, {}, ""};
             for (std::size_t i = 0; i < std::min(d_.wrong.size(), most_rows); ++i) {
@@ -132,8 +143,7 @@ private:
             page_.note((d_.wrong.size() > most_rows ? fmt::format("The worst {} of {} stretches; the file has all. ",
                                                                   most_rows, d_.wrong.size())
                                                     : std::string()) +
-                       "Excess: the error of the calibrated baseline over what noise, repeats and tolerances allow, "
-                       "root mean square over the stretch. Times are on the cameras' clock.");
+                       wrong_words(d_) + " Times are on the cameras' clock.");
         }
         figures(FigurePlace::wrong);
     }
@@ -166,7 +176,9 @@ private:
             page_.table(table);
             page_.note("Gain: log likelihood over the calibrated baseline. By chance (the mark on the bar): the 95 % "
                        "quantile of that gain in simulated campaigns without the mechanism; p: the probability of such "
-                       "a gain there. Probabilities are among the candidates that were judged.");
+                       "a gain there. A gain little above that of chance names no cause (see Method). Causes without "
+                       "them were found by a test of base, sensors or rest, which has a threshold of its own (see The "
+                       "data). Probabilities are among the candidates that were judged.");
             reasons();
             evidence();
         }
@@ -317,7 +329,8 @@ private:
                                   interval_words(p.low, p.high), note});
         }
         page_.table(table);
-        page_.note("“Not determined”: these data do not tell the parameter; the value is nominal or assumed.");
+        if (std::any_of(d_.baseline.begin(), d_.baseline.end(), [](const auto& p) { return !p.determined; }))
+            page_.note("“Not determined”: these data do not tell the parameter; the value is nominal or assumed.");
         figures(FigurePlace::baseline);
     }
 

@@ -9,6 +9,7 @@ namespace stylobate {
 
 namespace {
 
+constexpr char format_name[] = "stylobate-calibration";
 constexpr std::uint64_t format_version = 1;
 
 void write_form(hid_t parent, const FormCalibration& form)
@@ -84,12 +85,41 @@ void write_form(hid_t parent, const FormCalibration& form)
 
 } // namespace
 
+std::optional<CalibrationSummary> read_calibration_summary(const std::filesystem::path& file)
+{
+    hdf5::Handle open;
+    try {
+        open = hdf5::open_file(file, false);
+        if (!hdf5::has_attribute(open.id(), "format") || hdf5::read_any_text(open.id(), "format") != format_name)
+            return std::nullopt;
+    } catch (const hdf5::Error&) {
+        return std::nullopt; // no HDF5 at all: somebody else's to say what it is
+    }
+    try {
+        CalibrationSummary summary;
+        summary.measured = hdf5::read_text(open.id(), "measured");
+        summary.evidence = hdf5::read_text(open.id(), "evidence");
+        summary.best_form = hdf5::read_text(open.id(), "best_form");
+        summary.code_version = hdf5::read_text(open.id(), "code_version");
+        summary.parameter_sets = hdf5::read_number(open.id(), "parameter_sets");
+        const std::string place = "forms/" + summary.best_form + "/parameters/";
+        const hdf5::Dims dims = hdf5::dims_of(open.id(), place + "key");
+        summary.keys = hdf5::read_texts(open.id(), place + "key", dims);
+        summary.value = hdf5::read_doubles(open.id(), place + "value", dims);
+        summary.low = hdf5::read_doubles(open.id(), place + "low", dims);
+        summary.high = hdf5::read_doubles(open.id(), place + "high", dims);
+        return summary;
+    } catch (const hdf5::Error& error) {
+        throw InputError(file.string(), 0, std::string("is a damaged calibration: ") + error.what());
+    }
+}
+
 void write_calibration(const Calibration& calibration, const Study& start, const std::string& code_version,
                        const std::filesystem::path& file)
 {
     try {
         hdf5::Handle made = hdf5::create_file(file, 0);
-        hdf5::write_text(made.id(), "format", "stylobate-calibration");
+        hdf5::write_text(made.id(), "format", format_name);
         hdf5::write_number(made.id(), "format_version", H5T_STD_U32LE, format_version);
         hdf5::write_text(made.id(), "code_version", code_version);
         hdf5::write_text(made.id(), "measured", calibration.measured);

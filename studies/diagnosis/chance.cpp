@@ -110,7 +110,7 @@ std::string chance_key(const Campaign& campaign, const Study& study, const Chanc
 }
 
 Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptions& options,
-                 const std::function<void(std::uint64_t)>& told, Observer& observer)
+                 const std::function<void(std::uint64_t done, std::uint64_t cached)>& told, Observer& observer)
 {
     Chance out;
     const std::string key = "# stylobate chance gains " + chance_key(campaign, study, options);
@@ -122,6 +122,8 @@ Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptio
             while (out.campaigns < options.campaigns && std::getline(in, line) && take_line(line, out))
                 text += line + "\n";
         out.cached = out.campaigns;
+        if (out.cached > 0)
+            told(out.campaigns, out.cached);
     }
     const TrackScales scales = track_scales(campaign);
     while (out.campaigns < options.campaigns) {
@@ -157,7 +159,7 @@ Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptio
                 file.write(text);
                 file.commit();
             }
-            told(out.campaigns);
+            told(out.campaigns, out.cached);
         }
     }
     out.complete = true;

@@ -33,9 +33,10 @@ struct Chance {
     bool complete = false; ///< false: the observer stopped it
 };
 
-/// @param told after each campaign: how many there are
+/// @param told after each campaign, and once before if some are in the cache: how many there are, and how many of them
+/// were in the cache
 Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptions& options,
-                 const std::function<void(std::uint64_t)>& told, Observer& observer);
+                 const std::function<void(std::uint64_t done, std::uint64_t cached)>& told, Observer& observer);
 
 /// What a specimen, its motions and its cameras are known by: changes of anything else leave the cache valid.
 std::string chance_key(const Campaign& campaign, const Study& study, const ChanceOptions& options);

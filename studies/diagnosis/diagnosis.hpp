@@ -50,14 +50,15 @@ struct CalibratedParameter {
     friend bool operator==(const CalibratedParameter&, const CalibratedParameter&) = default;
 };
 
-/// A stretch of a run in which a coordinate is farther off than noise, repeats and tolerances explain.
+/// A stretch of a run in which the baseline, started from the measured state, is farther off than noise and a short lag
+/// make.
 struct WrongStretch {
     std::string run;
     int block = 0;          ///< -1: the base
     std::string coordinate; ///< "x", "y" or "theta"
     double from_s = 0;      ///< the cameras' clock
     double to_s = 0;
-    double excess = 0; ///< error over what is allowed, root mean square over the stretch; > 1
+    double excess = 0; ///< error over what those make, root mean square of the worst window; 2 or more
     friend bool operator==(const WrongStretch&, const WrongStretch&) = default;
 };
 

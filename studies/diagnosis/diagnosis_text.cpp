@@ -116,15 +116,18 @@ std::string diagnosis_text(const Diagnosis& d)
     out += heading("Verdict: " + verdict_heading(d)) + wrapped(verdict_words(d), 2);
 
     if (!d.wrong.empty())
-        out += heading("What is wrong, worst first (excess: error over what noise, repeats and tolerances allow)") +
-               table_of(d.wrong, {"run", "where", "coordinate", "from", "to", "excess"}, [](const WrongStretch& w) {
-                   return Row{w.run,
-                              block_words(w.block),
-                              w.coordinate,
-                              fmt::format("{:.2f} s", w.from_s),
-                              fmt::format("{:.2f} s", w.to_s),
-                              fmt::format("{:.1f}", w.excess)};
-               });
+        out += heading(d.verdict == Verdict::none ? "Where the baseline is off, worst first"
+                                                  : "What is wrong, worst first") +
+               table_of(d.wrong, {"run", "where", "coordinate", "from", "to", "excess"},
+                        [](const WrongStretch& w) {
+                            return Row{w.run,
+                                       block_words(w.block),
+                                       w.coordinate,
+                                       fmt::format("{:.2f} s", w.from_s),
+                                       fmt::format("{:.2f} s", w.to_s),
+                                       fmt::format("{:.1f}", w.excess)};
+                        }) +
+               wrapped(wrong_words(d), 2);
     if (!d.candidates.empty())
         out +=
             heading("Candidates (gain in nats over the calibrated baseline; by chance: its 95 % quantile)") +
@@ -166,17 +169,25 @@ std::string diagnosis_text(const Diagnosis& d)
             out += wrapped(d.next_test->text, 2);
     }
     out += data_part(d);
-    if (!d.baseline.empty())
-        out += heading("The calibrated baseline (95 % interval)") +
-               table_of(d.baseline, {"parameter", "value", ""}, [](const CalibratedParameter& p) {
-                   return Row{p.name, estimate_words(p.value, p.low, p.high, p.unit),
-                              p.determined ? "" : "not determined by these data"};
-               });
+    if (!d.baseline.empty()) {
+        out += heading("The calibrated baseline (95 % interval)");
+        std::vector<CalibratedParameter> numbers, words; // what has a value, and what is told in words alone
+        for (const CalibratedParameter& p : d.baseline)
+            (p.value ? numbers : words).push_back(p);
+        if (!numbers.empty())
+            out += table_of(numbers, {"parameter", "value", ""}, [](const CalibratedParameter& p) {
+                return Row{p.name, estimate_words(p.value, p.low, p.high, p.unit), parameter_words(p)};
+            });
+        for (const CalibratedParameter& p : words)
+            out += wrapped(p.name + ": " + (parameter_words(p).empty() ? "not known" : parameter_words(p)), 2);
+    }
     if (!d.missing.empty()) {
         out += heading("What could not be judged");
         for (const Missing& missing : d.missing)
             out += wrapped("- " + missing.what + ": " + missing.why, 2);
     }
+    if (!d.command.empty())
+        out += heading("Again") + "  " + d.command + "\n"; // in one line, to be copied
     return out + heading("Cost") + wrapped(cost_words(d.cost), 2);
 }
 

@@ -15,18 +15,33 @@ std::string number_words(MaybeReal value)
     return value && !std::isnan(*value) ? fmt::format("{:.3g}", *value) : "not known";
 }
 
+namespace {
+
+/// As many digits as make both ends of an interval differ, 3 to 6.
+int digits_of(MaybeReal low, MaybeReal high)
+{
+    if (!low || !high || !(*high > *low))
+        return 3;
+    const double most = std::max(std::fabs(*low), std::fabs(*high));
+    return std::clamp(1 + static_cast<int>(std::ceil(std::log10(most / (*high - *low)))), 3, 6);
+}
+
+} // namespace
+
 std::string interval_words(MaybeReal low, MaybeReal high)
 {
     if (!low && !high)
         return "";
     if (!low)
         return "up to " + number_words(high);
-    return high ? fmt::format("{:.3g} to {:.3g}", *low, *high) : number_words(low) + " or more";
+    const int digits = digits_of(low, high);
+    return high ? fmt::format("{:.{}g} to {:.{}g}", *low, digits, *high, digits) : number_words(low) + " or more";
 }
 
 std::string estimate_words(MaybeReal value, MaybeReal low, MaybeReal high, const std::string& unit)
 {
-    std::string text = number_words(value);
+    std::string text =
+        value && !std::isnan(*value) ? fmt::format("{:.{}g}", *value, digits_of(low, high)) : number_words(value);
     if (value && !unit.empty())
         text += " " + unit;
     const std::string interval = interval_words(low, high);
@@ -68,6 +83,29 @@ std::string mechanism_words(const std::string& mechanism)
     return mechanism;
 }
 
+std::string place_words(const std::string& place)
+{
+    return place == "all" ? "everywhere" : place == "base" ? "at the base" : "at " + place;
+}
+
+std::string parameter_words(const CalibratedParameter& parameter)
+{
+    if (parameter.determined)
+        return parameter.note;
+    return "not determined by these data" + (parameter.note.empty() ? "" : ": " + parameter.note);
+}
+
+std::string wrong_words(const Diagnosis& diagnosis)
+{
+    std::string text = "Excess: how far the calibrated baseline is off in short windows that start from the measured "
+                       "state, in units of what noise and a lag of some milliseconds of the motion make (root mean "
+                       "square of the worst window; listed from 2 on).";
+    if (diagnosis.verdict == Verdict::none)
+        text += " It is what its contacts and the scatter of specimens leave: no cause that was looked for explains it "
+                "clearly better than chance would.";
+    return text;
+}
+
 std::string verdict_heading(const Diagnosis& diagnosis)
 {
     switch (diagnosis.verdict) {
@@ -81,7 +119,8 @@ std::string verdict_heading(const Diagnosis& diagnosis)
         return names.empty() ? "A cause is named" : "The cause: " + list_words(names);
     }
     default:
-        return "Something is wrong that no known mechanism explains";
+        return named_causes(diagnosis).empty() ? "Something is wrong that no known mechanism explains"
+                                               : "A cause, and something that no known mechanism explains";
     }
 }
 
@@ -93,7 +132,7 @@ std::string verdict_words(const Diagnosis& diagnosis)
         return "Simulation and measurement agree within noise, repeats and tolerances; no mechanism is needed.";
     std::string text;
     for (const Candidate* cause : named_causes(diagnosis)) {
-        text += fmt::format("{}{} at {}: {}, {} {}", text.empty() ? "" : " ", cause->mechanism, cause->place,
+        text += fmt::format("{}{} {}: {}, {} {}", text.empty() ? "" : " ", cause->mechanism, place_words(cause->place),
                             mechanism_words(cause->mechanism), cause->parameter,
                             estimate_words(cause->size, cause->low, cause->high, cause->unit));
         text += cause->probability ? ", probability " + probability_words(cause->probability) + "." : ".";
@@ -120,6 +159,10 @@ std::string gain_words(const ModelGain& gain)
                     *gain.error_before, unit, *gain.error_after, unit);
     if (gain.low || gain.high)
         text += fmt::format(" (95 % interval {})", interval_words(gain.low, gain.high));
+    if (gain.low && gain.high)
+        text += *gain.low > *gain.error_before    ? ": it predicts worse"
+                : *gain.high < *gain.error_before ? ": it predicts better"
+                                                  : ": no gain that these runs show";
     if (gain.floor)
         text += fmt::format("; repeats of one motion differ by {:.3g}{} among themselves", *gain.floor, unit);
     return text + ".";

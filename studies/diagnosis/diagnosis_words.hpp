@@ -25,6 +25,13 @@ std::string count_words(std::uint64_t n, const std::string& one, const std::stri
 /// What a mechanism is, for who does not know its name; the name itself if it is none that studies can name.
 std::string mechanism_words(const std::string& mechanism);
 
+/// "at joint 0", "everywhere".
+std::string place_words(const std::string& place);
+/// What was found of a parameter of the baseline, beside its number: "not determined by these data: no joint slides".
+std::string parameter_words(const CalibratedParameter& parameter);
+/// What the stretches in which the baseline is off are worth as evidence, and in what their excess is counted.
+std::string wrong_words(const Diagnosis& diagnosis);
+
 /// "The simulation agrees with ...": a line.
 std::string verdict_heading(const Diagnosis& diagnosis);
 /// The verdict in one to three sentences: the pipeline's own, or else composed of what was found.

@@ -4,6 +4,7 @@
 #include "io/study_file.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/chance.hpp"
+#include "studies/diagnosis/diagnosis_words.hpp"
 #include "studies/diagnosis/prediction.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 #include "studies/version.hpp"
@@ -23,8 +24,10 @@ namespace {
 constexpr std::size_t most_wrong = 20;
 constexpr double two_sided95 = 1.96;
 
+/// @param chance_known whether campaigns with nothing hidden were simulated
+/// @param unexplained whether that is the verdict
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
-                       const std::vector<WindowBaseline>& baselines)
+                       const std::vector<WindowBaseline>& baselines, bool chance_known, bool unexplained)
 {
     Candidate c;
     const Cause& cause = j.fit.cause;
@@ -43,11 +46,12 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         }
     }
     c.gain_nats = j.fit.gain;
-    if (j.channel != Channel::direct) {
+    if (j.channel != Channel::direct && chance_known) {
         c.null95 = j.chance95;
         c.p = j.chance;
     }
-    c.probability = j.probability;
+    if (j.channel == Channel::direct || chance_known)
+        c.probability = j.probability;
     for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
         if (j.fit.gain_by_run[r] != 0)
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
@@ -57,21 +61,25 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     }
     c.decision = decision;
     const std::string where = c.why.empty() ? "" : c.why + "; ";
-    c.why = where + (!j.why_not.empty() ? j.why_not
-                     : j.channel == Channel::direct
-                         ? "found by a direct test"
-                         : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
-                                       j.channel == Channel::balance ? "by the balance of forces" : "by free windows",
-                                       j.fit.gain, j.chance95));
+    const std::string found =
+        j.channel == Channel::direct
+            ? "found by a direct test"
+            : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
+                          j.channel == Channel::balance ? "by the balance of forces" : "by free windows", j.fit.gain,
+                          j.chance95);
+    c.why = where + (j.why_not.empty() ? found : j.why_not);
+    if (decision == Decision::rejected && j.why_not.empty())
+        c.why += unexplained ? "; a force of no known kind explains clearly more"
+                             : "; what is named explains the same, and better";
     return c;
 }
 
+/// The size with its 95 % interval in brackets.
 std::string size_text(const Candidate& c)
 {
     if (!c.size)
         return "";
-    return fmt::format(" ({} = {:.3g}{}{})", c.parameter, *c.size, c.unit.empty() ? "" : " " + c.unit,
-                       c.low && c.high ? fmt::format(", 95 % [{:.3g}, {:.3g}]", *c.low, *c.high) : "");
+    return ", " + c.parameter + " = " + estimate_words(c.size, c.low, c.high, c.unit);
 }
 
 /// Gains of the candidates beside what chance gives.
@@ -109,7 +117,7 @@ std::optional<Figure> friction_figure(const BalanceEvidence& balance, const Camp
     figure.title = "Friction of the joints that slide, from the balance of forces";
     figure.caption =
         "Each point is one window in which a joint slid all through: friction over normal force, without any "
-        "contact model. Bars: noise of the cameras.";
+        "contact model. Bars: one standard deviation, from the noise of the cameras.";
     figure.x_label = "slip velocity [m/s]";
     figure.y_label = "friction coefficient";
     const double mu = campaign.specimen.friction_nominal.value_or(0.7);
@@ -156,12 +164,53 @@ std::optional<Figure> turning_figure(const BalanceEvidence& balance)
     return figure;
 }
 
-std::string join(const std::vector<std::string>& words)
+/// Things that lack the same are told in one sentence.
+void add_missing(Diagnosis& d, const std::string& what, const std::string& why)
+{
+    for (Missing& other : d.missing)
+        if (other.why == why) {
+            other.what += ", " + what;
+            return;
+        }
+    d.missing.push_back({what, why});
+}
+
+std::string missing_words(const Diagnosis& d)
 {
     std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+    for (const Missing& missing : d.missing)
+        text += (text.empty() ? "" : ", ") + missing.what;
     return text;
+}
+
+/// What the reader of the campaign noticed; what it noticed in several runs is one sentence.
+std::vector<std::string> finding_texts(const std::vector<Finding>& findings)
+{
+    struct Told {
+        std::vector<std::string> runs;
+        std::string place, text;
+    };
+    std::vector<Told> all;
+    for (const Finding& finding : findings) {
+        Told one{{}, finding.place, finding.text};
+        const std::size_t comma = finding.place.find(", ");
+        if (finding.place.starts_with("run ") && comma != std::string::npos)
+            one = {{finding.place.substr(4, comma - 4)}, finding.place.substr(comma + 2), finding.text};
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Told& other) {
+            return !one.runs.empty() && !other.runs.empty() && other.place == one.place && other.text == one.text;
+        });
+        if (same == all.end())
+            all.push_back(one);
+        else
+            same->runs.push_back(one.runs.front());
+    }
+    std::vector<std::string> texts;
+    for (const Told& told : all)
+        texts.push_back(told.runs.empty() ? told.place + ": " + told.text
+                        : told.runs.size() == 1
+                            ? "run " + told.runs.front() + ", " + told.place + ": " + told.text
+                            : "runs " + list_words(told.runs) + ", " + told.place + ": " + told.text);
+    return texts;
 }
 
 std::string verdict_text(const Diagnosis& d)
@@ -169,18 +218,21 @@ std::string verdict_text(const Diagnosis& d)
     if (d.verdict == Verdict::none)
         return d.missing.empty()
                    ? "Nothing was found that the simulation gets wrong beyond noise, scatter and its contact law."
-                   : "Nothing was found in what could be judged; some stages lacked data.";
-    if (d.verdict == Verdict::unexplained)
-        return fmt::format("Something acts that none of the known mechanisms explains: {}.",
-                           d.unexplained ? d.unexplained->text : "");
+                   : fmt::format("Nothing was found that the simulation gets wrong beyond noise, scatter and its "
+                                 "contact law, in what could be judged. Not judged: {}.",
+                                 missing_words(d));
     std::vector<std::string> names;
     for (const Candidate* c : named_causes(d))
-        if (c->decision == Decision::named)
-            names.push_back(fmt::format("{} at {}{}", c->mechanism, c->place, size_text(*c)));
-    std::string text = fmt::format("The data show {}.", join(names));
+        names.push_back(fmt::format("{} {}, {}{}", c->mechanism, place_words(c->place), mechanism_words(c->mechanism),
+                                    size_text(*c)));
+    std::string text =
+        names.empty() ? "" : fmt::format("The data show {} (in brackets: 95 % interval).", list_words(names));
+    if (d.verdict == Verdict::unexplained)
+        return text + fmt::format("{}omething acts that none of the known mechanisms explains: {}.",
+                                  names.empty() ? "S" : " Beside that, s", d.unexplained ? d.unexplained->text : "");
     if (d.indistinguishable.size() > 1)
         text += fmt::format(" They do not tell {} from {}.", d.indistinguishable.front(),
-                            join({d.indistinguishable.begin() + 1, d.indistinguishable.end()}));
+                            list_words({d.indistinguishable.begin() + 1, d.indistinguishable.end()}));
     return text;
 }
 
@@ -197,13 +249,12 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     d.seed = options.seed;
     d.options = {fmt::format("nulls = {}", options.nulls), fmt::format("threads = {}", options.run.threads)};
     d.runs = measured.runs.size();
-    for (const Finding& finding : measured.findings)
-        d.data_findings.push_back(finding.place + ": " + finding.text);
+    d.data_findings = finding_texts(measured.findings);
     SimulationCount count;
 
-    tell(fmt::format("{}: {} runs of {} blocks", measured.source, measured.runs.size(), measured.specimen.blocks()));
-    const TrackScales scales = track_scales(measured);
+    const TrackScales scales = track_scales(measured); // refuses what cannot be diagnosed, before anything is told
     const SpecimenStructure built = build_specimen(measured.specimen);
+    tell(fmt::format("{}: {} runs of {} blocks", measured.source, measured.runs.size(), measured.specimen.blocks()));
     Study study = start;
     study.structure = built.structure;
 
@@ -214,7 +265,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     for (const DataTest& test : direct.base_tests) {
         tell(fmt::format("  {:<12} {}: {}", to_string(test.outcome), test.name, test.sentence));
         if (test.outcome == TestOutcome::not_judged)
-            d.missing.push_back({test.name, test.sentence});
+            add_missing(d, test.name, test.sentence);
     }
     for (const DataTest& test : direct.sensor_tests)
         if (test.outcome == TestOutcome::failed)
@@ -246,11 +297,15 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
             d.figures.push_back(*figure);
         if (auto figure = turning_figure(balance))
             d.figures.push_back(*figure);
+        std::vector<std::string> still;
         for (int j = 0; j < static_cast<int>(measured.specimen.joints.size()); ++j)
             if (balance.fit->samples_of(Law::sliding, j) < 5)
-                d.missing.push_back(
-                    {fmt::format("friction of joint {} from the balance of forces", j),
-                     "It slides too rarely. A motion under which it slides, low and strong, would show it."});
+                still.push_back(fmt::format("{}", j));
+        if (!still.empty())
+            add_missing(
+                d, fmt::format("the friction of joint{} {} by itself", still.size() > 1 ? "s" : "", list_words(still)),
+                "It slides too rarely for the balance of forces to tell its friction from that of the others. "
+                "A motion under which it slides, low and strong, would show it.");
     } else {
         d.missing.push_back({"balance of forces", balance.why_not});
         tell("  balance of forces: " + balance.why_not);
@@ -277,8 +332,10 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         for (const WindowBaseline& b : windows.baselines)
             tell(
                 fmt::format("  windows: {} scores {:.1f} nats", b.contacts, b.score - windows.baselines.front().score));
-        d.baseline.push_back(
-            {"contact.form", "", std::nullopt, std::nullopt, std::nullopt, true, windows.baselines.front().contacts});
+        d.baseline.push_back({"contact.form", "", std::nullopt, std::nullopt, std::nullopt, true,
+                              windows.baselines.front().contacts +
+                                  " (best of the forms that were tried; the factors are those on the study that the "
+                                  "diagnosis began with, and no intervals were sought: see stylobate calibrate)"});
     } else {
         d.missing.push_back({"free windows", windows.why_not});
     }
@@ -292,7 +349,10 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                           options.run};
         chance = chance_of(
             measured, start, how,
-            [&](std::uint64_t n) { tell(fmt::format("  campaigns with nothing hidden: {} of {}", n, options.nulls)); },
+            [&](std::uint64_t done, std::uint64_t cached) {
+                tell(fmt::format("  campaigns with nothing hidden: {} of {}{}", done, options.nulls,
+                                 done == cached ? " (kept from before in " + options.cache.string() + ")" : ""));
+            },
             observer);
         count.simulations += chance.simulations;
         count.window_simulations += chance.window_simulations;
@@ -303,8 +363,9 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                            "contacts (form, stiffness, exponent, damping), friction of the joints, widths, masses and "
                            "places of the blocks, noise of the cameras"});
     } else {
-        d.missing.push_back({"what chance gives", "No campaigns with nothing hidden were simulated (nulls = 0): only "
-                                                  "direct tests can name a cause."});
+        add_missing(d, "what chance gives",
+                    "No campaigns with nothing hidden were simulated (--nulls 0): only direct tests can name a cause, "
+                    "and forces of an unknown kind are held against fixed thresholds alone.");
     }
 
     // the verdict
@@ -321,7 +382,8 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
     std::set<std::pair<std::string, std::string>> told;
     const auto add = [&](const JudgedCause& j, Decision decision) {
         if (told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
-            d.candidates.push_back(candidate_of(j, measured, decision, windows.baselines));
+            d.candidates.push_back(candidate_of(j, measured, decision, windows.baselines, chance.campaigns > 0,
+                                                decided.unexplained.has_value()));
     };
     for (const JudgedCause& j : decided.named)
         add(j, Decision::named);
@@ -342,8 +404,12 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         u.block = s.block;
         u.coordinate = s.coordinate;
         u.depends_on = s.depends_on;
-        u.text = fmt::format("{}, {:.1f} nats better than the baseline where the best known cause gains {:.1f}", s.text,
-                             decided.unexplained->gain, balance.causes.empty() ? 0 : balance.causes.front().gain);
+        double best = 0;
+        for (const CauseFit& fit : balance.causes)
+            best = std::max(best, fit.gain);
+        u.text = fmt::format("{}. It explains {:.1f} nats more than the baseline; the best known cause in its place "
+                             "explains {:.1f}",
+                             s.text, decided.unexplained->gain, best);
         for (std::size_t k = 0; k < balance.structures.size() && k < 8; ++k) {
             const StructureFit& f = balance.structures[k];
             u.features.push_back(
@@ -383,7 +449,15 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         extended.text = study_text(extended);
         d.extended_study = extended.text;
         if (!left_out.empty())
-            d.missing.push_back({"extended study", "It lacks " + join(left_out) + "."});
+            d.missing.push_back({"all of the extended study", "It lacks " + list_words(left_out) + "."});
+        if (!d.gain)
+            d.missing.push_back(
+                {"what the extended model gains",
+                 windows.baselines.empty()
+                     ? "No free windows could be simulated: " + windows.why_not
+                     : "It takes runs of two or more motions, so that some can be left out, with windows in them."});
+    } else if (d.verdict == Verdict::unexplained) {
+        d.missing.push_back({"what an extended model gains", "None was made: it would lack what is not explained."});
     }
     std::vector<JudgedCause> rivals;
     for (const auto* list : {&decided.named, &decided.in_set, &decided.judged})
@@ -404,11 +478,17 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         "Base and sensors are tested directly, while the lowest block rides on the table and while all lies at rest.",
         "The forces in the joints follow from the smoothed accelerations of the blocks by Newton's law alone; where a "
         "joint slides or rocks, its law is checked, without contact stiffness, damping or simulation.",
-        "The simulation follows the measured motion as an observer, and free windows that start from it are compared "
-        "with what was seen, with and without each cause.",
-        "Campaigns with nothing hidden, simulated with contacts of many kinds, are put through the same stages: a "
-        "cause "
-        "must gain clearly more than it does there."};
+        std::string("The simulation follows the measured motion as an observer, and free windows that start from it "
+                    "are compared with what was seen: that chooses the contacts of the baseline") +
+            (options.windows ? ", and tells what each cause would explain."
+                             : ". They judge causes too only with --windows.")};
+    if (chance.campaigns > 0)
+        d.method.push_back(fmt::format(
+            "Campaigns with nothing hidden, simulated with contacts of many kinds, are put through the same stages: a "
+            "cause must gain {:g} nats more than 95 % of them give it, with a probability by chance below {:g}, not by "
+            "one run alone, and be larger than what specimens differ by. So a gain a little above that of chance is "
+            "no cause.",
+            options.rule.clear, options.rule.chance));
     d.cost.simulations = count.simulations;
     d.cost.window_simulations = count.window_simulations;
     d.cost.block_steps = count.block_steps;

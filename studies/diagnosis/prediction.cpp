@@ -2,6 +2,7 @@
 
 #include "ensemble/random.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/diagnosis/diagnosis_words.hpp"
 #include "studies/diagnosis/virtual_campaign.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 
@@ -458,10 +459,13 @@ std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& s
                      [](const MotionChoice& a, const MotionChoice& b) { return *a.separation > *b.separation; });
     test.excitation = test.motions.front().motion;
     test.separates = {rivals[0].cause.mechanism, rivals[1].cause.mechanism};
-    test.text = fmt::format("Of {} motions, {} simulations each, it separates {} from {} best: by {:.1f} standard "
-                            "deviations of slip, rocking or collapse.",
-                            motions.size(), campaigns, rivals[0].cause.label(), rivals[1].cause.label(),
-                            *test.motions.front().separation);
+    const auto named_place = [&](std::size_t k) {
+        return rivals[k].cause.mechanism + " " + place_words(rivals[k].cause.place);
+    };
+    test.text =
+        fmt::format("Of {} motions, {} simulations each, it separates {} from {} best: by {:.1f} standard "
+                    "deviations of slip, rocking or collapse.",
+                    motions.size(), campaigns, named_place(0), named_place(1), *test.motions.front().separation);
     return test;
 }
 

@@ -52,6 +52,25 @@ double noise_of(const Series& series, std::size_t columns)
     return std::sqrt(squares[squares.size() / 2] / 0.4549); // median of chi square with one degree of freedom
 }
 
+/// Why no run can be used: which data sets are absent, or from where on nothing more is known.
+std::string nothing_seen(const Campaign& campaign)
+{
+    std::string absent;
+    const auto need = [&](const char* name, auto member) {
+        if (std::all_of(campaign.runs.begin(), campaign.runs.end(),
+                        [&](const MeasuredRun& run) { return (run.blocks.*member).empty(); }))
+            absent += (absent.empty() ? "" : ", ") + std::string(name);
+    };
+    need("blocks/x_m", &SeenMotion::x_m);
+    need("blocks/y_m", &SeenMotion::y_m);
+    need("blocks/theta_rad", &SeenMotion::theta_rad);
+    return fmt::format("has no run in which x, y and rotation of the blocks were measured{}.\n  The forces in the "
+                       "joints cannot be had without them.",
+                       campaign.runs.empty() ? ": it has no runs"
+                       : absent.empty()      ? ""
+                                             : "; no run has " + absent);
+}
+
 } // namespace
 
 std::vector<double> resampled(const std::vector<double>& time_s, const double* values, std::size_t stride,
@@ -98,9 +117,7 @@ TrackScales track_scales(const Campaign& campaign)
         scales.noise_rad = std::max(scales.noise_rad, noise_of(run.blocks.theta_rad, n));
     }
     if (scales.spacing_s == 0)
-        throw InputError(campaign.source, 0,
-                         "has no run in which x, y and rotation of the blocks were measured.\n  The forces in the "
-                         "joints cannot be had without them.");
+        throw InputError(campaign.source, 0, nothing_seen(campaign));
     const double most = widest * scales.time_s / scales.spacing_s;
     if (most < narrowest)
         throw InputError(
