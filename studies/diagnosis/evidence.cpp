@@ -12,6 +12,9 @@ namespace {
 constexpr const char* structure = "structure";
 // Friction that a study would assume where the specimen states none.
 constexpr double friction_unknown = 0.7;
+// Fewer campaigns do not show what one in twenty does: more than the most that they gave is asked for.
+constexpr std::size_t enough_campaigns = 20;
+constexpr double few_factor = 1.5;
 // Of a tail that is continued beyond the campaigns there are.
 constexpr double least_excess = 1;
 
@@ -123,6 +126,8 @@ double ChanceGains::quantile95(Channel channel, const std::string& mechanism) co
     if (gains.empty())
         return 0;
     std::sort(gains.begin(), gains.end());
+    if (gains.size() < enough_campaigns)
+        return few_factor * gains.back() + 1;
     const double at = 0.95 * static_cast<double>(gains.size() - 1);
     const auto k = static_cast<std::size_t>(at);
     return k + 1 < gains.size() ? gains[k] + (at - static_cast<double>(k)) * (gains[k + 1] - gains[k]) : gains.back();

@@ -15,6 +15,7 @@ constexpr double least_normal = 0.25;
 constexpr double most_lift = 0.5;
 // as far as it can be seen: by smoothing that leaves less noise than this part of gravity.
 constexpr double least_seen = 0.12;
+constexpr double endless = 1e3; // m
 // A combination counts as free of unknowns below this part of the law's own size.
 constexpr double cancelled = 1e-9;
 
@@ -95,7 +96,8 @@ private:
             vxl = track_.base(1, i);
             hl = 1;
             yl = s_.base_block_top_m - hl;
-            bl = s_.base_block_half_width_m.value_or(1e3);
+            // where the base is not known to be, its corners are not: the upper block's own is taken
+            bl = track_.has_base() ? s_.base_block_half_width_m.value_or(endless) : endless;
         }
         JointMotion m;
         m.width = std::min(bu, bl);
