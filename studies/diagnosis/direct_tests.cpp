@@ -257,7 +257,8 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
         told("time_offset", place, offset, offset_sd, narrower * limits.offset_s, "s", late,
              fmt::format("{} is {:.2f} ms ahead of the base motion of the file.", prepared.what, 1e3 * offset)));
     if (late)
-        out.found.push_back(cause_of("time_offset", place, "offset_s", "s", 0, offset, offset_sd, fit.gain[1]));
+        out.found.push_back(cause_of("time_offset", place, "offset_s", "s", 0, offset, offset_sd,
+                                     0.5 * std::pow(offset / offset_sd, 2)));
     const bool wrong = beyond(gain - 1, fit.sd[0], narrower * limits.gain, limits.sds);
     out.base_tests.push_back(
         told("sensor_gain", place, gain, fit.sd[0], 1 + narrower * limits.gain, "", wrong,
