@@ -112,6 +112,9 @@ TEST_F(ChanceFile, GarbageIsNotUsed)
     EXPECT_EQ(with(good.substr(0, first_line) + "area\tbalance\tdrag\tmuch\n"), 0u);
     EXPECT_EQ(with(good.substr(0, second_line) + "garbage\twithout\tend"), 1u);
     EXPECT_EQ(with(good.substr(0, second_line)), 1u);
+    EXPECT_EQ(with(good.substr(0, good.size() - 4)), 1u); // cut within a number
+    EXPECT_EQ(with(good.substr(0, first_line) + "area\tbalance\tdrag\t3.5x\n"), 0u);
+    EXPECT_EQ(with(good.substr(0, first_line) + "area\tbalance\tdrag\tnan\n"), 0u);
 }
 
 } // namespace
