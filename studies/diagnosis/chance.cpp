@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -58,12 +60,11 @@ bool take_line(const std::string& line, Chance& chance)
     std::vector<CauseFit> balance, windows;
     std::vector<StructureFit> structures;
     for (std::size_t k = 1; k + 2 < parts.size(); k += 3) {
-        double gain = 0;
-        try {
-            gain = std::stod(parts[k + 2]);
-        } catch (const std::exception&) {
+        const char* number = parts[k + 2].c_str();
+        char* end = nullptr;
+        const double gain = std::strtod(number, &end);
+        if (end == number || *end != '\0' || !std::isfinite(gain))
             return false;
-        }
         if (parts[k + 1] == "structure") {
             structures.push_back({{}, gain, 0, 0, {}});
             continue;
@@ -119,7 +120,9 @@ Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptio
         std::ifstream in(options.cache);
         std::string line;
         if (std::getline(in, line) && line == key)
-            while (out.campaigns < options.campaigns && std::getline(in, line) && take_line(line, out))
+            while (out.campaigns < options.campaigns && std::getline(in, line) &&
+                   !in.eof() && // a line without its end is cut
+                   take_line(line, out))
                 text += line + "\n";
         out.cached = out.campaigns;
         if (out.cached > 0)

@@ -19,6 +19,12 @@ namespace {
 // More than so many standard deviations of noise is leaning.
 constexpr double most_leans = 2.5;
 
+/// A sample of a series that this run may lack: then NaN.
+double sample_of(const std::vector<double>& series, std::size_t i)
+{
+    return series.empty() ? std::numeric_limits<double>::quiet_NaN() : series[i];
+}
+
 /// Circular frequency of a harmonic ride.
 double omega_of(const Ride& ride)
 {
@@ -99,10 +105,8 @@ VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scal
     for (const Ride& ride : prepared.rides) {
         if (ride.y.empty())
             continue;
-        std::vector<double> y = ride.y;
-        for (double& v : y)
-            v = std::isfinite(v) ? v : 0;
-        const std::vector<double> smooth = scales.rates.apply(0, y), rise = scales.widths.back().apply(2, y);
+        // what was not seen spoils the smoothing of its neighbours, too
+        const std::vector<double> smooth = scales.rates.apply(0, ride.y), rise = scales.widths.back().apply(2, ride.y);
         std::vector<double> turned = ride.theta;
         for (double& v : turned)
             v = std::isfinite(v) ? v : 0;
@@ -112,8 +116,9 @@ VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scal
             std::vector<std::size_t> upright;
             const double straight = ride.theta.empty() ? 0 : mean_of(angle, from, to);
             for (std::size_t i = from; i < to; ++i)
-                if (ride.theta.empty() ||
-                    std::fabs(angle[i] - straight) < most_leans * ride.noise_theta * scales.rates.noise(0))
+                if (std::isfinite(smooth[i]) &&
+                    (ride.theta.empty() ||
+                     std::fabs(angle[i] - straight) < most_leans * ride.noise_theta * scales.rates.noise(0)))
                     upright.push_back(i);
             double mean = 0;
             for (const std::size_t i : upright)
@@ -121,7 +126,8 @@ VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scal
             for (const std::size_t i : upright) {
                 square += std::pow(smooth[i] - mean, 2);
                 noise += std::pow(ride.noise_y * scales.rates.noise(0), 2);
-                out.peak_m_s2 = std::max(out.peak_m_s2, std::fabs(rise[i]));
+                if (std::isfinite(rise[i]))
+                    out.peak_m_s2 = std::max(out.peak_m_s2, std::fabs(rise[i]));
                 ++out.samples;
             }
         }
@@ -134,7 +140,7 @@ VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scal
     const RideFit fit = fit_rides(
         prepared.rides, 1,
         [](const Ride& r, std::size_t i) {
-            return std::pair{r.y.empty() ? 0 : r.y[i], r.noise_y};
+            return std::pair{sample_of(r.y, i), r.noise_y};
         },
         [](const Ride& r, std::size_t i, int) { return r.base[i]; });
     out.ratio = fit.size[0];
@@ -156,13 +162,14 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
         return;
     }
     // rotation of what is seen against the base's acceleration
-    const bool turns = !prepared.rides.front().theta.empty();
+    const bool turns =
+        std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return !r.theta.empty(); });
     RideFit pitch;
     if (turns)
         pitch = fit_rides(
             prepared.rides, 1,
             [](const Ride& r, std::size_t i) {
-                return std::pair{r.theta[i], r.noise_theta};
+                return std::pair{sample_of(r.theta, i), r.noise_theta};
             },
             [](const Ride& r, std::size_t i, int) { return r.acceleration[i]; });
     const double slope = turns ? pitch.size[0] : 0;
@@ -250,7 +257,8 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
         told("time_offset", place, offset, offset_sd, narrower * limits.offset_s, "s", late,
              fmt::format("{} is {:.2f} ms ahead of the base motion of the file.", prepared.what, 1e3 * offset)));
     if (late)
-        out.found.push_back(cause_of("time_offset", place, "offset_s", "s", 0, offset, offset_sd, fit.gain[1]));
+        out.found.push_back(cause_of("time_offset", place, "offset_s", "s", 0, offset, offset_sd,
+                                     0.5 * std::pow(offset / offset_sd, 2)));
     const bool wrong = beyond(gain - 1, fit.sd[0], narrower * limits.gain, limits.sds);
     out.base_tests.push_back(
         told("sensor_gain", place, gain, fit.sd[0], 1 + narrower * limits.gain, "", wrong,

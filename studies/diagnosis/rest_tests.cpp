@@ -83,8 +83,11 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
         std::vector<double> all;
         for (std::size_t b = 0; b < n; ++b)
             all.push_back(place[b][r]);
+        std::erase_if(all, [](double v) { return !std::isfinite(v); }); // not seen at first
+        if (all.empty())
+            continue;
         std::sort(all.begin(), all.end());
-        const double middle = (all[(n - 1) / 2] + all[n / 2]) / 2;
+        const double middle = (all[(all.size() - 1) / 2] + all[all.size() / 2]) / 2;
         for (std::size_t b = 0; b < n; ++b)
             offset[b].push_back(place[b][r] - middle);
     }

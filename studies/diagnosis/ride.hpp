@@ -67,7 +67,8 @@ struct Prepared {
 /// Finds the rides of a campaign.
 Prepared prepare_rides(const Campaign& campaign, const TrackScales& scales);
 
-/// Regression of what is seen in all rides, with an offset of its own for each stretch.
+/// Regression of what is seen in all rides, with an offset of its own for each stretch. Values that are not finite
+/// were not seen.
 /// @param column(ride, i, k) k-th regressor   @return fit of the k regressors
 struct RideFit {
     std::vector<double> size, sd;
@@ -84,14 +85,21 @@ RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value,
     for (const Ride& ride : rides)
         for (const auto& [from, to] : ride.parts) {
             std::vector<double> mean(static_cast<std::size_t>(regressors) + 1, 0);
+            std::size_t count = 0;
             for (std::size_t i = from; i < to; ++i) {
-                mean.back() += value(ride, i).first;
+                const double seen = value(ride, i).first;
+                if (!std::isfinite(seen))
+                    continue;
+                ++count;
+                mean.back() += seen;
                 for (int k = 0; k < regressors; ++k)
                     mean[static_cast<std::size_t>(k)] += column(ride, i, k);
             }
             for (double& m : mean)
-                m /= static_cast<double>(to - from);
+                m /= static_cast<double>(count);
             for (std::size_t i = from; i < to; ++i) {
+                if (!std::isfinite(value(ride, i).first))
+                    continue;
                 std::vector<double> row;
                 for (int k = 0; k < regressors; ++k)
                     row.push_back(column(ride, i, k) - mean[static_cast<std::size_t>(k)]);
