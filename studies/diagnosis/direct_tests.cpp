@@ -193,12 +193,14 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
         offset += more;
     }
     // TableDistortion in either form; that which the data like better
+    for (Ride& ride : prepared.rides)
+        ride.omega = omega_of(ride);
     RideFit fit;
     TableDistortion distortion;
     for (const bool polynomial : {true, false}) {
         const RideFit tried = fit_rides(
             prepared.rides, 2 + distortion_terms(polynomial), value, [&](const Ride& r, std::size_t i, int k) {
-                return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, omega_of(r), i, k - 2);
+                return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, r.omega, i, k - 2);
             });
         const TableDistortion found = distortion_of(polynomial, tried);
         if (polynomial || found.gain > distortion.gain) {

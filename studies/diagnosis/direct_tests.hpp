@@ -18,7 +18,7 @@ namespace stylobate {
 /// Beyond which a test has found something. They stand well above what campaigns without any effect show, and below
 /// what changes a response.
 struct DirectThresholds {
-    double distortion = 0.02;        ///< of a harmonic, over the fundamental, in displacement
+    double distortion = 0.02;        ///< of a harmonic, over the fundamental, in acceleration
     double pitch_rad_s2_m = 4e-4;    ///< soft contacts lean by a tenth of it
     double vertical = 0.6;           ///< rms of the common vertical motion over the cameras' noise
     double offset_s = 8e-4;          ///< without a view of the table; a fifth of it with one

@@ -36,6 +36,7 @@ struct Ride {
     double noise_x = 0, noise_y = 0, noise_theta = 0;
     std::vector<std::pair<std::size_t, std::size_t>> parts; ///< in which it rides
     bool harmonic = false;
+    double omega = 0;            ///< circular frequency of a harmonic ride [rad/s]
     double middle = 0, peak = 0; ///< of the base: its mean, and how far from that it gets [m]
 
     void find_peak()
