@@ -69,6 +69,7 @@ TableDistortion distortion_of(bool polynomial, const RideFit& fit)
     TableDistortion d;
     d.polynomial = polynomial;
     d.size.assign(fit.size.begin() + 2, fit.size.end());
+    bool negative = false; // quadratures have no sign
     for (int order = 2; order < 4; ++order) {
         const std::size_t first =
             polynomial ? static_cast<std::size_t>(order) : 2 * static_cast<std::size_t>(order) - 2;
@@ -85,8 +86,11 @@ TableDistortion distortion_of(bool polynomial, const RideFit& fit)
             d.order = order;
             d.ratio = per * size;
             d.sd = per * sd;
+            negative = polynomial && fit.size[first] < 0;
         }
     }
+    if (negative)
+        d.ratio = -d.ratio;
     return d;
 }
 
@@ -213,7 +217,7 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
     const double narrower = prepared.table ? limits.with_table : 1;
     // what rides never reach can be fitted with anything: more than the motion itself is no distortion
     const bool distorted =
-        distortion.ratio < 1 && beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
+        std::fabs(distortion.ratio) < 1 && beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
     out.base_tests.push_back(told("harmonic_distortion", place, distortion.ratio, distortion.sd, limits.distortion, "",
                                   distorted,
                                   fmt::format("Harmonic {} of the table's acceleration is {:.4f} of the fundamental.",
