@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace stylobate {
 
@@ -45,6 +46,38 @@ double harmonic_term(double u, double quadrature, int order, bool sine)
         return 0;
     const double phase = std::atan2(u, quadrature); // u = A sin(phase)
     return amplitude * (sine ? std::sin(order * phase) : std::cos(order * phase));
+}
+
+/// The same fit with standard deviations that also hold what differs from run to run (the jackknife's): soft contacts
+/// and what else rides along is alike within a run, and no noise.
+template <class Value, class Column>
+RideFit fit_over_runs(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)
+{
+    RideFit fit = fit_rides(rides, regressors, value, column);
+    std::set<std::size_t> runs;
+    for (const Ride& ride : rides)
+        runs.insert(ride.run);
+    if (runs.size() < 3)
+        return fit;
+    std::vector<double> sum(fit.size.size(), 0), squares(fit.size.size(), 0);
+    for (const std::size_t left_out : runs) {
+        std::vector<Ride> others;
+        for (const Ride& ride : rides)
+            if (ride.run != left_out)
+                others.push_back(ride);
+        const RideFit without = fit_rides(others, regressors, value, column);
+        for (std::size_t k = 0; k < sum.size(); ++k) {
+            sum[k] += without.size[k];
+            squares[k] += without.size[k] * without.size[k];
+        }
+    }
+    const auto n = static_cast<double>(runs.size());
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+        const double variance = std::max(0.0, squares[k] / n - std::pow(sum[k] / n, 2)) * (n - 1);
+        fit.sd[k] = std::max(fit.sd[k], std::sqrt(variance));
+        fit.gain[k] = 0.5 * std::pow(fit.size[k] / fit.sd[k], 2);
+    }
+    return fit;
 }
 
 int distortion_terms(bool polynomial)
@@ -170,7 +203,7 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
         std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return !r.theta.empty(); });
     RideFit pitch;
     if (turns)
-        pitch = fit_rides(
+        pitch = fit_over_runs(
             prepared.rides, 1,
             [](const Ride& r, std::size_t i) {
                 return std::pair{sample_of(r.theta, i), r.noise_theta};
@@ -202,7 +235,7 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
     RideFit fit;
     TableDistortion distortion;
     for (const bool polynomial : {true, false}) {
-        const RideFit tried = fit_rides(
+        const RideFit tried = fit_over_runs(
             prepared.rides, 2 + distortion_terms(polynomial), value, [&](const Ride& r, std::size_t i, int k) {
                 return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, r.omega, i, k - 2);
             });
