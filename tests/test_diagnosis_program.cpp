@@ -93,7 +93,7 @@ TEST_F(DiagnosisProgram, BadInputLeavesNothing)
     write_bytes(folder / "no.h5", "not HDF5");
     expect_refused({"diagnose", "no.h5", "-o", "d.h5"}, {"no.h5"});
     expect_refused({"diagnose", campaign(4), "--study", "absent.toml", "-o", "d.h5"}, {"absent.toml"});
-    expect_refused({"diagnose", campaign(4), "-o", folder.string()}, {"is a folder"});
+    expect_refused({"diagnose", campaign(4), "-o", folder.string()}, {"Is a directory"});
 
     // blocks of which x and y were measured, but not how they turn: no forces
     Campaign blind = sample_campaign();

@@ -152,7 +152,7 @@ TEST_F(Faults, OutputsThatCannotBeWritten)
     expect_refused({"replay", "out.h5", "--realization", "0", "-o", "nowhere/t.h5"}, {"nowhere", "no such folder"});
     expect_refused({"replay", "out.h5", "--realization", "0", "-o", "out.h5"}, {"out.h5", "exists already"});
     expect_refused({"export", "out.h5", "--to", "png", "-o", "nowhere/a.png"}, {"nowhere/a.png"});
-    expect_refused({"export", "out.h5", "--to", "png", "-o", "./out.h5"}, {"out.h5", "results file itself"});
+    expect_refused({"export", "out.h5", "--to", "png", "-o", "./out.h5"}, {"out.h5", "the file that is read"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "nowhere/a"}, {"nowhere/a"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "file"}, {"file"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "out.h5"}, {"out.h5"});

@@ -109,7 +109,7 @@ TEST_F(Report, RefusesBadInputAndWritesNothing)
     for (const char* file : {"one.h5", "diagnosis.h5"}) {
         expect_refused({"report", file, "-o", "page.html"}, {"page.html", "nothing was written"});
         expect_refused({"report", file, "-o", "no/page.html"}, {"no/page.html", "nothing was written"});
-        expect_refused({"report", file, "-o", file}, {file, "itself"});
+        expect_refused({"report", file, "-o", file}, {file, "the file that is read"});
     }
 }
 
