@@ -104,7 +104,7 @@ std::vector<double> residuals(const std::vector<SeenValue>& seen, const Readings
         const std::size_t k = value.time * blocks + value.block;
         const double model = value.coordinate == BlockCoordinate::x   ? readings.x_m[k]
                              : value.coordinate == BlockCoordinate::y ? readings.y_m[k] - rest_y_m[value.block]
-                                                                 : readings.theta_rad[k];
+                                                                      : readings.theta_rad[k];
         const double r = (model - value.value) / value.scale;
         z.push_back(std::isfinite(r) ? std::clamp(r, -lost, lost) : lost);
     }
