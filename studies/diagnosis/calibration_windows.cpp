@@ -32,9 +32,6 @@ struct WindowComparison::Prepared {
     std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
 };
 
-namespace {
-
-/// The nominal realization of a variant: nothing drawn, nothing shaken yet.
 Realization nominal_realization(const Study& variant, const StructureSpec& structure)
 {
     Study study = variant;
@@ -48,8 +45,6 @@ Realization nominal_realization(const Study& variant, const StructureSpec& struc
     study.initial = InitialSpec{};
     return Sampler(study, nullptr).realization(0);
 }
-
-} // namespace
 
 WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions& options)
     : prepared_(std::make_unique<Prepared>())

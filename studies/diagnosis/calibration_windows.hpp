@@ -15,6 +15,9 @@
 
 namespace stylobate {
 
+/// The nominal realization of a study's contacts and mechanisms in a structure: nothing drawn, nothing shaken yet.
+Realization nominal_realization(const Study& variant, const StructureSpec& structure);
+
 /// A model that is to predict a campaign.
 struct ModelVariant {
     std::string name;

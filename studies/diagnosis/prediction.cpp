@@ -50,6 +50,26 @@ struct Errors {
     }
 };
 
+/// What a study with these causes is off by in every window; nothing if the observer stopped it.
+std::optional<WindowResiduals> residuals_of(WindowComparison& comparison, const SpecimenStructure& built,
+                                            const Study& study, const std::vector<SizedCause>& causes,
+                                            const RunOptions& options, SimulationCount& count, Observer& observer)
+{
+    ModelVariant variant;
+    variant.study = study;
+    variant.change = [&](Realization& r, std::size_t) {
+        for (const SizedCause& cause : causes)
+            apply_cause(cause, built, r);
+    };
+    std::vector<WindowResiduals> residuals = comparison.residuals({variant}, options, observer);
+    count.simulations += comparison.simulations();
+    count.window_simulations += comparison.window_simulations();
+    count.block_steps += comparison.block_steps();
+    if (residuals.empty())
+        return std::nullopt;
+    return std::move(residuals.front());
+}
+
 std::optional<Errors> errors_of(const Campaign& campaign, const Study& study, const std::vector<SizedCause>& causes,
                                 const RunOptions& options, SimulationCount& count, Observer& observer)
 {
@@ -58,20 +78,12 @@ std::optional<Errors> errors_of(const Campaign& campaign, const Study& study, co
     Errors errors{std::vector<double>(campaign.runs.size(), 0), std::vector<double>(campaign.runs.size(), 0)};
     if (comparison.windows().empty())
         return errors;
-    ModelVariant variant;
-    variant.study = study;
-    variant.change = [&](Realization& r, std::size_t) {
-        for (const SizedCause& cause : causes)
-            apply_cause(cause, built, r);
-    };
-    const auto residuals = comparison.residuals({variant}, options, observer);
-    count.simulations += comparison.simulations();
-    count.window_simulations += comparison.window_simulations();
-    count.block_steps += comparison.block_steps();
-    if (residuals.empty())
+    const std::optional<WindowResiduals> residuals =
+        residuals_of(comparison, built, study, causes, options, count, observer);
+    if (!residuals)
         return std::nullopt;
-    for (std::size_t w = 0; w < residuals[0].size(); ++w)
-        for (const double z : residuals[0][w]) {
+    for (std::size_t w = 0; w < residuals->size(); ++w)
+        for (const double z : (*residuals)[w]) {
             const std::size_t run = comparison.windows()[w].run;
             errors.squares[run] += std::min(z * z, most_residual * most_residual);
             errors.counts[run] += 1;
@@ -141,19 +153,10 @@ std::vector<WrongStretch> wrong_stretches(const Campaign& campaign, const Study&
     std::vector<WrongStretch> wrong;
     if (comparison.windows().empty())
         return wrong;
-    ModelVariant variant;
-    variant.study = baseline;
-    variant.change = [&](Realization& r, std::size_t) {
-        for (const SizedCause& cause : causes)
-            apply_cause(cause, built, r);
-    };
-    const auto residuals = comparison.residuals({variant}, options, observer);
-    count.simulations += comparison.simulations();
-    count.window_simulations += comparison.window_simulations();
-    count.block_steps += comparison.block_steps();
-    if (residuals.empty())
+    const std::optional<WindowResiduals> residuals =
+        residuals_of(comparison, built, baseline, causes, options, count, observer);
+    if (!residuals)
         return wrong;
-    std::vector<int> measured(built.block.size());
     std::map<int, int> block_of; // of the layout -> of the specimen
     for (std::size_t b = 0; b < built.block.size(); ++b)
         block_of[built.block[b]] = static_cast<int>(b);
@@ -163,13 +166,13 @@ std::vector<WrongStretch> wrong_stretches(const Campaign& campaign, const Study&
         wrong.push_back(it->second);
         return open.erase(it);
     };
-    for (std::size_t w = 0; w < residuals[0].size(); ++w) {
+    for (std::size_t w = 0; w < residuals->size(); ++w) {
         const WindowPlace& place = comparison.windows()[w];
         std::map<std::pair<int, int>, std::pair<double, int>> square;
-        for (std::size_t k = 0; k < residuals[0][w].size(); ++k) {
+        for (std::size_t k = 0; k < (*residuals)[w].size(); ++k) {
             const SeenValue& seen = comparison.seen(w)[k];
             auto& [sum, n] = square[{block_of[static_cast<int>(seen.block)], static_cast<int>(seen.coordinate)}];
-            sum += std::min(std::pow(residuals[0][w][k], 2), 1e4);
+            sum += std::min(std::pow((*residuals)[w][k], 2), 1e4);
             ++n;
         }
         for (const auto& [what, sum] : square) {

@@ -3,9 +3,9 @@
 #include "ensemble/distribution.hpp"
 #include "ensemble/following.hpp"
 #include "ensemble/random.hpp"
-#include "ensemble/sampler.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/measured_motion.hpp"
+#include "studies/diagnosis/calibration_windows.hpp"
 
 #include <fmt/format.h>
 
@@ -55,20 +55,6 @@ struct DrawnSpecimen {
     std::string contacts;
 };
 
-Realization nominal(const Study& about, const StructureSpec& structure)
-{
-    Study study = about;
-    study.kind = StudyKind::single;
-    study.surface.reset();
-    study.realizations = 1;
-    study.perturbations.clear();
-    study.structure = structure;
-    study.excitation = ExcitationSpec{};
-    study.excitation.duration_s = 1;
-    study.initial = InitialSpec{};
-    return Sampler(study, nullptr).realization(0);
-}
-
 DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const SpecimenStructure& built,
                             std::uint64_t seed, std::uint64_t number, const HealthyScatter& scatter,
                             const std::vector<SizedCause>& causes)
@@ -99,7 +85,7 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
     }
     DrawnSpecimen out;
     Realization& r = out.realization;
-    r = nominal(study, built.structure);
+    r = nominal_realization(study, built.structure);
     for (Joint& joint : r.joints) {
         joint.friction *= friction * (1 + scatter.friction * draw.normal());
         if (!scatter.contacts)
