@@ -33,7 +33,9 @@ OperationCounts operations_per_block_step(int blocks)
     std::vector<TopologyJoint> joints;
     for (int i = 1; i < blocks; ++i)
         joints.push_back({i - 1, i});
-    const Topology topology{blocks, 1, blocks - 1, blocks - 1, joints.data()};
+    Topology topology{blocks, 1, blocks - 1, blocks - 1, joints.data()};
+    std::vector<int> bed_lists(static_cast<std::size_t>(bed_lists_size(topology)));
+    list_beds(topology, bed_lists.data());
     std::vector<double> memory(bundle_registers(topology), 0.0);
     const Bundle b = bind_bundle(topology, 1, memory.data());
     const Realization r = sampler.realization(0);
@@ -49,7 +51,7 @@ OperationCounts operations_per_block_step(int blocks)
         b.at(OfJoint::K_n, j, 0) = 1e8;
     }
     counted = {};
-    Stepper<Counted, Baseline, false>(topology, b).run(0, 16);
+    Stepper<Counted, Baseline, false, true>(topology, b).run(0, 16);
     const long block_steps = 16L * (blocks - 1);
     return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
             counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,

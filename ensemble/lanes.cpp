@@ -95,6 +95,8 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     topology_.joint = joints_.data();
     topology_.model = model_of(pattern);
     close_.resize(static_cast<std::size_t>(topology_.watched));
+    bed_lists_.resize(static_cast<std::size_t>(bed_lists_size(topology_)));
+    list_beds(topology_, bed_lists_.data());
 
     memory_.reset(allocate(bundle_registers(topology_) * lanes_));
     bundle_ = bind_bundle(topology_, kernels_.lanes, memory_.get(), close_.data());

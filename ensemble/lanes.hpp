@@ -129,6 +129,7 @@ private:
     std::vector<int> place_of_; ///< realization's block -> kernel's block, -1 for one that touches no free block
     std::vector<TopologyJoint> joints_;
     std::vector<int> close_; ///< for the kernel
+    std::vector<int> bed_lists_;
     Topology topology_;
     struct AlignedFree {
         void operator()(double* p) const;

@@ -58,9 +58,13 @@ STYLOBATE_INLINE Real base_displacement(MotionFormula formula, const FormulaPara
     }
     Real turn = (c - whole) + rest + L::load(p.phase_cycles);
     turn = turn - round_of(turn);
-    const Real ramp = smooth_ramp(c * L::load(p.start_ramps_per_cycle)) *
-                      select(c >= cycles, select(L::load(p.end_ramps_per_cycle) > Real(1e299), Real(1.0), zero),
-                             smooth_ramp((cycles - c) * L::load(p.end_ramps_per_cycle)));
+    // between the ramps both factors are 1, to the bit
+    const Real up = c * L::load(p.start_ramps_per_cycle), down = (cycles - c) * L::load(p.end_ramps_per_cycle);
+    Real ramp(1.0);
+    if (any((up < Real(1.0)) | (down < Real(1.0))))
+        ramp =
+            smooth_ramp(up) * select(c >= cycles, select(L::load(p.end_ramps_per_cycle) > Real(1e299), Real(1.0), zero),
+                                     smooth_ramp(down));
     return L::load(p.amplitude_m) * ramp * (sine_of_cycles(turn) - L::load(p.offset));
 }
 

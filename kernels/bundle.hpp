@@ -23,7 +23,7 @@ struct OfBlock {
         dx,              ///< increment of the last step [m]; step
         dy,              ///< [m] step
         dtheta,          ///< [rad] step
-        force_x,         ///< sum of the contact forces [N]; step
+        force_x,         ///< sum of the contact forces at the last step of a chunk [N]; step
         force_y,         ///< [N] step
         moment,          ///< [N m] step
         sine,            ///< of theta; step
@@ -56,7 +56,11 @@ struct OfJoint {
         C_n_chord,     ///< C_N / (dt x contact length) [N/m2]
         C_t_chord,     ///< [N/m2]
         mu,
-        per_K_t, ///< 1 / K_T [m/N]
+        per_K_t,      ///< 1 / K_T [m/N]
+        force_x,      ///< of a bed on its upper block in the last step, frame of the base [N]; step
+        force_y,      ///< [N] step
+        upper_moment, ///< the same about the upper block's centre [N m]; step
+        lower_moment, ///< and about the lower block's [N m]; step
         count
     };
 };

@@ -16,9 +16,10 @@ double peak_fma(long count)
     for (int i = 0; i < chains; ++i)
         sums[i] = Real(1.0 + i);
     const Real factor(0.999999), term(1e-6);
-    for (long k = 0; k < count; k += chains)
-        for (int i = 0; i < chains; ++i)
-            sums[i] = fma(sums[i], factor, term);
+    for (long k = 0; k < count; k += 4 * chains) // several rounds at a time: the loop itself takes room, too
+        for (int round = 0; round < 4; ++round)
+            for (int i = 0; i < chains; ++i)
+                sums[i] = fma(sums[i], factor, term);
     Real total(0.0);
     for (int i = 0; i < chains; ++i)
         total = total + sums[i];

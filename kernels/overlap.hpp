@@ -103,30 +103,50 @@ STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const P
     return o;
 }
 
-/// The same for a pair that stands, in closed form: bottom face of the upper block against top face of the lower one.
-///
-/// Seen so that the left end is the deeper one, the overlap is the trapezoid under the top face, plus the sliver where
-/// the upper block's left side leans outwards, less the sliver where its right side leans inwards, all cut by the
-/// lower block's sides: a pentagon at the most. `fits` says in which realizations this holds; the others need
-/// `general_overlap`, which gives the same numbers where both hold.
-///
-/// @param depth_limit a tenth of the smaller half height: how deep a corner may be for the closed form to hold
-template <class Real, class Mask>
-STYLOBATE_INLINE Overlap<Real> stacked_overlap(const Placement<Real>& p, Real lower_half_width, Real upper_half_width,
-                                               Real depth_limit, Mask& fits)
+/// Where the ends of the upper block's bottom face are, seen from the lower block and mirrored, if need be, so that the
+/// left end is the deeper one.
+template <class Real>
+struct PentagonFrame {
+    Real left, right;             ///< x of the ends [m]
+    Real left_depth, right_depth; ///< how deep they are, 0 where above the top face [m]
+    Real slope;                   ///< tan of the relative rotation: its sign is that of the picture that was mirrored
+    Real cot;                     ///< 1 / |slope|
+};
+
+/// (Apart from `pentagon` so that the division need not be waited for: many frames first, then many pentagons.)
+template <class Real>
+STYLOBATE_INLINE void pentagon_frame(const Placement<Real>& p, Real upper_half_width, PentagonFrame<Real>& frame)
 {
-    const Real zero(0.0), half(0.5), third(1.0 / 3.0), sixth(1.0 / 6.0);
-    // mirror, so that the left end is the deeper one
+    const Real zero(0.0);
     const Real X = turn_sign(p.x, p.sine);
     const Real sine = max_of(abs_of(p.sine), Real(1e-18));
     const Real both = Real(1.0) / (sine * p.cosine);
-    const Real slope = sine * sine * both;       // tan of the relative rotation
-    const Real cot = p.cosine * p.cosine * both; // and its inverse
-    const Real bL = lower_half_width;
     const Real reach = upper_half_width * p.cosine;
-    const Real left = X - reach, right = X + reach;
-    const Real dl = max_of(fma(upper_half_width, sine, p.depth), zero);  // depth of the upper block's left corner
-    const Real dr = max_of(fnma(upper_half_width, sine, p.depth), zero); // and of its right corner, 0 if it is out
+    frame.left = X - reach;
+    frame.right = X + reach;
+    // beyond moderate rotations the pentagon does not hold: no depth limit is as large as this
+    frame.left_depth = select(p.cosine > Real(0.2), max_of(fma(upper_half_width, sine, p.depth), zero), Real(1e300));
+    frame.right_depth = max_of(fnma(upper_half_width, sine, p.depth), zero);
+    frame.slope = turn_sign(sine * sine * both, p.sine);
+    frame.cot = p.cosine * p.cosine * both;
+}
+
+/// The overlap of a pair that stands, in closed form: bottom face of the upper block against top face of the lower one.
+///
+/// The overlap is the trapezoid under the top face, plus the sliver where the upper block's left side leans outwards,
+/// less the sliver where its right side leans inwards, all cut by the lower block's sides: a pentagon at the most.
+/// `fits` says in which realizations this holds; the others need `general_overlap`, which gives the same numbers where
+/// both hold. `o.elastic` is left to the caller: it is `o.moment_depth`.
+///
+/// @param depth_limit a tenth of the smaller half height: how deep a corner may be for the closed form to hold
+template <class Real, class Mask>
+STYLOBATE_INLINE void pentagon(const PentagonFrame<Real>& frame, Real lower_half_width, Real depth_limit, Mask& fits,
+                               Overlap<Real>& o)
+{
+    const Real zero(0.0), half(0.5), three(3.0), sixth(1.0 / 6.0);
+    const Real slope = abs_of(frame.slope), cot = frame.cot;
+    const Real left = frame.left, right = frame.right, dl = frame.left_depth, dr = frame.right_depth;
+    const Real bL = lower_half_width;
 
     // left end: either the upper block's corner with its sliver beyond, or cut by the lower block's side
     const Real inset = left + bL; // of the upper corner from the lower block's side
@@ -142,22 +162,32 @@ STYLOBATE_INLINE Overlap<Real> stacked_overlap(const Placement<Real>& p, Real lo
     const Real qr = clamp(fma(end - right, cot, dr), zero, dr);
     const Real wr = qr * slope;
 
-    const Real area_left = w * fnma(half, q, dl);
-    const Real area_right = half * wr * qr;
-    const Real area = fma(half * W, da + db, area_left) - area_right;
-    // first moments about x = xa and about the top face
-    const Real W6 = W * sixth;
-    const Real arm_left = w * w * fms(third, q, half * dl);
-    const Real arm = fnma(area_right, fnma(third, wr, W), fma(W * W6, fma(Real(2.0), db, da), arm_left));
-    const Real depth_left = half * w * fma(dl, dl - q, third * q * q);
-    const Real depth_right = third * area_right * qr;
-    const Real depth = fma(W6, fma(da, da + db, db * db), depth_left) - depth_right;
+    // twice the area: trapezoid + left sliver - right sliver
+    const Real corner = wr * qr;
+    o.area = half * (fma(W, da + db, w * (dl + (dl - q))) - corner);
+    // six times the first moments about x = xa and about the top face
+    const Real arm = fnma(corner, fms(three, W, wr), fma(W * W, (db + db) + da, w * w * fnma(three, dl, q + q)));
+    const Real depth = sixth * fnma(corner, qr, fma(W, fma(da, da + db, db * db), w * fma(three * dl, dl - q, q * q)));
+    o.moment_x = turn_sign(fma(xa, o.area, sixth * arm), frame.slope);
+    o.moment_depth = depth;
+    o.normal_x = turn_sign((db - qr) - (da - q), frame.slope);
+    o.normal_y = W - wr + w;
 
-    // it holds for moderate rotations and small depths, with the deeper corner over the lower block
-    fits = (p.cosine > Real(0.2)) & (dl < depth_limit) & (wr <= W) & ((left < bL) | (dl <= zero));
+    // it holds for small depths, with the deeper corner over the lower block
+    fits = (dl < depth_limit) & (wr <= W) & ((left < bL) | (dl <= zero));
+}
 
-    return {area, turn_sign(fma(xa, area, arm), p.sine), depth, turn_sign((db - qr) - (da - q), p.sine), W - wr + w,
-            depth};
+/// Frame and pentagon in one.
+template <class Real, class Mask>
+STYLOBATE_INLINE Overlap<Real> stacked_overlap(const Placement<Real>& p, Real lower_half_width, Real upper_half_width,
+                                               Real depth_limit, Mask& fits)
+{
+    PentagonFrame<Real> frame;
+    pentagon_frame(p, upper_half_width, frame);
+    Overlap<Real> o;
+    pentagon(frame, lower_half_width, depth_limit, fits, o);
+    o.elastic = o.moment_depth;
+    return o;
 }
 
 } // namespace stylobate

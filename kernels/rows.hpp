@@ -6,6 +6,12 @@
 
 namespace stylobate {
 
+/// Two displacements and a rotation, or two forces and a moment.
+template <class Real>
+struct Planar {
+    Real x, y, theta;
+};
+
 template <class Real>
 class Rows {
 public:

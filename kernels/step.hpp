@@ -1,16 +1,17 @@
 #pragma once
 /// One step of all realizations of a bundle: the heart of Stylobate. `THEORY.md` goes through it symbol by symbol.
 ///
-///   angles      sine and versine of every block's rotation
 ///   geometry    where each joint's upper block lies, seen from its lower one
-///   overlap     area, centroid and direction of the contact (closed form; general where that does not hold)
-///   faces       relative displacement of the faces in the last step, at the centroid
-///   forces      Eqs. 1 to 3, the energy terms, and the sums over the blocks
-///   update      Eqs. 4 to 6 as d += dt2 F / m, u += d
+///   overlap     area, moments and direction of the contact (closed form; general where that does not hold)
+///   faces       centroid and unit normal, and how the faces moved against each other there in the last step
+///   forces      Eqs. 1 to 3 and the energy terms
+///   update      sums over the blocks, Eqs. 4 to 6 as d += dt2 F / m, u += d, and sine and versine of the new rotation
 ///
 /// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory:
 /// neighbouring joints are independent within a phase, so that the processor works on several at once, where one pass
-/// from geometry to force would wait for each result in turn.
+/// from geometry to force would wait for each result in turn. How much it has in hand at a time is limited, so a phase
+/// is quick if its chain of operations is short: the divisions and the root stand in different phases, side by side
+/// and never one behind the other (`docs/performance.md`).
 ///
 /// Beds go through the phases in every step. Watched pairs (`topology.hpp`) do where their bounding boxes meet; which
 /// pairs come so close is looked for only when a block has strayed. Neither changes a bit of the result: a pair that
@@ -19,8 +20,10 @@
 #include "kernels/contact.hpp"
 #include "kernels/mechanism.hpp"
 #include "kernels/mechanisms/extended.hpp"
+#include "kernels/neighbours.hpp"
 #include "kernels/overlap.hpp"
 #include "kernels/rows.hpp"
+#include "kernels/scratch.hpp"
 #include "kernels/trig.hpp"
 
 namespace stylobate {
@@ -34,28 +37,6 @@ inline constexpr int joint_group = 8;
 inline constexpr double least_area = 1e-18;  // m2
 inline constexpr double least_chord = 1e-12; // m
 
-/// What a contact form hands on besides: nothing where it has no points of its own.
-template <class Real, int count>
-struct PointScratch {
-    FormPoints<Real, count> points; // overlap -> forces: shares of the force, and places along the contact
-};
-template <class Real>
-struct PointScratch<Real, 0> {
-};
-
-/// What the phases hand on, per joint.
-template <class Real, int points>
-struct JointScratch : PointScratch<Real, points> {
-    Placement<Real> place;         // geometry -> overlap
-    Real apart_x, apart_y;         // geometry -> faces: upper centre - lower centre, frame of the base
-    Real area, chord;              // overlap -> forces
-    Real arm_x, arm_y;             // overlap -> faces: centroid from the lower block's centre, in its frame
-    Real normal_x, normal_y;       // overlap -> faces: lower block's frame; faces -> forces: frame of the base
-    Real lower_arm_x, lower_arm_y; // faces -> forces: centroid from the blocks' centres, frame of the base
-    Real upper_arm_x, upper_arm_y; //
-    Real closing, sliding;         // faces -> forces
-};
-
 /// The two kinds of joints, as the phases tell them apart.
 struct Bed {
     static constexpr bool at_rest = true;
@@ -67,10 +48,11 @@ struct Pair {
 } // namespace detail
 
 /// @tparam watching whether there are watched pairs
-template <class Real, class Mechanism, bool watching>
-class Stepper : Rows<Real> {
+/// @tparam stack `Topology::stack`: then what meets where is known beforehand, and need not be looked up
+template <class Real, class Mechanism, bool watching, bool stack>
+class Stepper : Neighbours<Real, Mechanism> {
 public:
-    Stepper(const Topology& topology, const Bundle& bundle) : Rows<Real>(bundle), topology_(topology) {}
+    Stepper(const Topology& topology, const Bundle& bundle) : Neighbours<Real, Mechanism>(topology, bundle) {}
 
     /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
     STYLOBATE_INLINE void run(int first, int last) const
@@ -78,9 +60,16 @@ public:
         Scratch scratch[detail::joint_group];
         const int beds = topology_.beds();
         [[maybe_unused]] int close = -1;
+        for (int i = topology_.fixed; i < topology_.blocks; ++i)
+            turn(i, get(OfBlock::theta, i));
         for (int step = first; step < last; ++step) {
             const bool audit = step + 1 == last;
-            angles();
+            if constexpr (others)
+                for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+                    put(OfBlock::force_x, i, Real(0.0));
+                    put(OfBlock::force_y, i, Real(0.0));
+                    put(OfBlock::moment, i, Real(0.0));
+                }
             for (int begin = 0; begin < beds; begin += detail::joint_group)
                 contacts<detail::Bed>(
                     beds - begin < detail::joint_group ? beds - begin : detail::joint_group,
@@ -94,135 +83,138 @@ public:
 private:
     using Scratch = detail::JointScratch<Real, Mechanism::points>;
 
+    /// Whether forces act on the blocks besides those of the beds: these are summed up in the blocks' rows.
+    static constexpr bool others = watching || Mechanism::extended;
+
     using Rows<Real>::get;
     using Rows<Real>::put;
     using Rows<Real>::b_;
+    using Near = Neighbours<Real, Mechanism>;
+    using Near::centre_x;
+    using Near::centre_y;
+    using Near::topology_;
 
-    /// Displacement of a block's geometric centre.
-    STYLOBATE_INLINE Real centre_x(int i) const
+    /// The blocks of a joint.
+    template <class Kind>
+    STYLOBATE_INLINE TopologyJoint ends(int joint) const
     {
-        if constexpr (Mechanism::extended)
-            return centre_from_mass_x(get(OfBlock::x, i), get(OfBlockExtension::eccentricity, i),
-                                      get(OfBlock::versine, i));
+        if constexpr (stack && Kind::at_rest)
+            return {joint, joint + 1};
         else
-            return get(OfBlock::x, i);
+            return topology_.joint[joint];
     }
-    STYLOBATE_INLINE Real centre_y(int i) const
+
+    struct Pose {
+        Real sine, versine, theta;
+        Real x, y; ///< of the geometric centre
+    };
+    STYLOBATE_INLINE Pose pose(int i) const
     {
-        if constexpr (Mechanism::extended)
-            return centre_from_mass_y(get(OfBlock::y, i), get(OfBlockExtension::eccentricity, i),
-                                      get(OfBlock::sine, i));
-        else
-            return get(OfBlock::y, i);
+        return {get(OfBlock::sine, i), get(OfBlock::versine, i), get(OfBlock::theta, i), centre_x(i), centre_y(i)};
     }
 
     /// From geometry to forces, for `count` joints; `joint(j)` is the j-th of them.
     template <class Kind, class JointOf>
     STYLOBATE_INLINE void contacts(int count, JointOf joint, Scratch* scratch, bool audit) const
     {
-        for (int j = 0; j < count; ++j)
-            geometry<Kind>(joint(j), scratch[j]);
+        geometry<Kind>(count, joint, scratch);
         for (int j = 0; j < count; ++j)
             overlap<Kind>(joint(j), scratch[j], audit);
         for (int j = 0; j < count; ++j)
-            faces(joint(j), scratch[j]);
+            faces<Kind>(joint(j), scratch[j], audit);
         forces<Kind>(count, joint, scratch);
     }
 
-    STYLOBATE_INLINE void angles() const
+    STYLOBATE_INLINE void turn(int i, Real theta) const
     {
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            const Angle<Real> a = angle(get(OfBlock::theta, i));
-            put(OfBlock::sine, i, a.sine);
-            put(OfBlock::versine, i, a.versine);
-            put(OfBlock::force_x, i, Real(0.0));
-            put(OfBlock::force_y, i, Real(0.0));
-            put(OfBlock::moment, i, Real(0.0));
-        }
+        const Angle<Real> a = angle(theta);
+        put(OfBlock::sine, i, a.sine);
+        put(OfBlock::versine, i, a.versine);
     }
 
     /// Relative placement. Of a bed from relative displacements and versines: nothing large cancels.
+    /// @param x, y upper centre - lower centre, frame of the base
     template <class Kind>
-    STYLOBATE_INLINE void geometry(int joint, Scratch& s) const
+    STYLOBATE_INLINE Placement<Real> placement(int joint, const Pose& lower, const Pose& upper, Real& x, Real& y) const
     {
-        const auto [lower, upper] = topology_.joint[joint];
-        const Real sl = get(OfBlock::sine, lower), vl = get(OfBlock::versine, lower);
-        const Real su = get(OfBlock::sine, upper), vu = get(OfBlock::versine, upper);
+        const Real sl = lower.sine, vl = lower.versine, su = upper.sine, vu = upper.versine;
         const Real one(1.0);
         const Real cl = one - vl, cu = one - vu;
-        const Real x = get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower));
-        const Real rise = centre_y(upper) - centre_y(lower);
+        x = get(OfJoint::reference_x, joint) + (upper.x - lower.x);
+        const Real rise = upper.y - lower.y;
         const Real height = get(OfJoint::height, joint);
-        const Real y = rise + height;
-        const Real hu = get(OfBlock::half_height, upper);
+        y = rise + height;
+        const auto [below, above] = ends<Kind>(joint);
+        const Real hu = get(OfBlock::half_height, above);
         const Real versine = fnma(su, sl, fnma(vl, vu, vl + vu));
-        const Real sine = fms(su, cl, cu * sl);
-        s.place.sine = sine;
-        s.place.cosine = one - versine;
-        s.place.x = fma(x, cl, fma(y, sl, hu * sine));
+        Placement<Real> place;
+        place.sine = fms(su, cl, cu * sl);
+        place.cosine = one - versine;
+        place.x = fma(x, cl, fma(y, sl, hu * place.sine));
+        if constexpr (Kind::at_rest)
+            place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
+        else
+            place.depth = fma(x, sl, fnma(y, cl, fma(hu, place.cosine, get(OfBlock::half_height, below))));
+        return place;
+    }
+
+    /// In a stack, a joint's upper block is the next one's lower one, and its pose is still at hand.
+    template <class Kind, class JointOf>
+    STYLOBATE_INLINE void geometry(int count, JointOf joint, Scratch* scratch) const
+    {
+        if (count == 0)
+            return;
+        Pose lower = pose(ends<Kind>(joint(0)).lower);
+        for (int j = 0; j < count; ++j) {
+            const auto [below, above] = ends<Kind>(joint(j));
+            if constexpr (!(stack && Kind::at_rest))
+                lower = pose(below);
+            const Pose upper = pose(above);
+            geometry<Kind>(joint(j), lower, upper, scratch[j]);
+            lower = upper;
+        }
+    }
+
+    template <class Kind>
+    STYLOBATE_INLINE void geometry(int joint, const Pose& lower, const Pose& upper, Scratch& s) const
+    {
+        const auto [below, above] = ends<Kind>(joint);
+        Real x, y;
+        const Placement<Real> place = placement<Kind>(joint, lower, upper, x, y);
+        if constexpr (Kind::at_rest && !Mechanism::extended)
+            pentagon_frame(place, get(OfBlock::half_width, above), s.frame);
+        else
+            s.place = place;
+        if constexpr (Mechanism::extended) { // from centre of mass to centre of mass
+            const Real el = get(OfBlockExtension::eccentricity, below), eu = get(OfBlockExtension::eccentricity, above);
+            const Real one(1.0);
+            x = fma(eu, one - upper.versine, fnma(el, one - lower.versine, x));
+            y = fma(eu, upper.sine, fnma(el, lower.sine, y));
+        }
         s.apart_x = x;
         s.apart_y = y;
-        if constexpr (Mechanism::extended) { // from centre of mass to centre of mass
-            const Real el = get(OfBlockExtension::eccentricity, lower), eu = get(OfBlockExtension::eccentricity, upper);
-            s.apart_x = fma(eu, cu, fnma(el, cl, x));
-            s.apart_y = fma(eu, su, fnma(el, sl, y));
+        if constexpr (Kind::at_rest) {
+            const Real rotation = abs_of(upper.theta - lower.theta);
+            put(OfJoint::max_rotation, joint, max_of(get(OfJoint::max_rotation, joint), rotation));
         }
+    }
+
+    template <class Kind>
+    STYLOBATE_INLINE void overlap(int joint, Scratch& s, [[maybe_unused]] bool audit) const
+    {
         if constexpr (!Kind::at_rest) {
-            s.place.depth = fma(x, sl, fnma(y, cl, fma(hu, s.place.cosine, get(OfBlock::half_height, lower))));
-            return;
+            s.met = general(joint, s.place);
+        } else if constexpr (Mechanism::extended) {
+            s.met = meet_extended(joint, s);
+        } else {
+            auto fits = s.frame.slope < s.frame.slope;
+            pentagon(s.frame, get(OfBlock::half_width, ends<Kind>(joint).lower), get(OfJoint::depth_limit, joint), fits,
+                     s.met);
+            if (audit)
+                s.met.elastic = s.met.moment_depth;
+            if (any(!fits)) [[unlikely]]
+                fall_back(joint, fits, s.met);
         }
-        s.place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
-        const Real rotation = abs_of(get(OfBlock::theta, upper) - get(OfBlock::theta, lower));
-        put(OfJoint::max_rotation, joint, max_of(get(OfJoint::max_rotation, joint), rotation));
-    }
-
-    template <class Kind>
-    STYLOBATE_INLINE void overlap(int joint, Scratch& s, bool audit) const
-    {
-        const auto [lower, upper] = topology_.joint[joint];
-        const Overlap<Real> o = meet<Kind>(joint, s);
-
-        // one division for both: 1 / (area x chord)
-        const Real zero(0.0);
-        const Real chord = sqrt_of(fma(o.normal_x, o.normal_x, o.normal_y * o.normal_y));
-        const auto pressed = (o.area > Real(detail::least_area)) & (chord > Real(detail::least_chord));
-        s.area = select(pressed, o.area, zero);
-        s.chord = chord;
-        const Real inverse = Real(1.0) / select(pressed, o.area * chord, Real(1.0));
-        const Real per_area = chord * inverse, per_chord = s.area * inverse;
-        s.arm_x = o.moment_x * per_area;
-        s.arm_y = fnma(o.moment_depth, per_area, get(OfBlock::half_height, lower));
-        s.normal_x = o.normal_x * per_chord;
-        s.normal_y = o.normal_y * per_chord;
-        if constexpr (Mechanism::extended)
-            s.arm_x = s.arm_x - get(OfBlockExtension::eccentricity, lower);
-        if constexpr (Mechanism::points > 0 && Kind::at_rest) {
-            const Real middle = s.points.moment * per_area;
-            for (int i = 0; i < Mechanism::points; ++i) {
-                s.points.x[i] = s.points.x[i] - middle;
-                s.points.area[i] = s.points.area[i] * per_area;
-            }
-        }
-        if (audit)
-            put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
-    }
-
-    /// (A function of its own, so that what it returns is never copied: in halves, that stalls the AVX2 kernel.)
-    template <class Kind>
-    STYLOBATE_INLINE Overlap<Real> meet(int joint, Scratch& s) const
-    {
-        const Placement<Real>& place = s.place;
-        if constexpr (!Kind::at_rest)
-            return general(joint, place);
-        else if constexpr (Mechanism::extended)
-            return meet_extended(joint, s);
-        const auto [lower, upper] = topology_.joint[joint];
-        auto fits = place.sine < place.sine;
-        Overlap<Real> o = stacked_overlap(place, get(OfBlock::half_width, lower), get(OfBlock::half_width, upper),
-                                          get(OfJoint::depth_limit, joint), fits);
-        if (any(!fits)) [[unlikely]]
-            fall_back(joint, place, fits, o);
-        return o;
     }
 
     STYLOBATE_INLINE Overlap<Real> meet_extended(int joint, Scratch& s) const
@@ -276,9 +268,11 @@ private:
     __attribute__((noinline))
 #endif
     void
-    fall_back(int joint, const Placement<Real>& place, Mask fits, Overlap<Real>& o) const
+    fall_back(int joint, Mask fits, Overlap<Real>& o) const
     {
-        const Overlap<Real> g = general(joint, place);
+        Real x, y;
+        const auto [lower, upper] = topology_.joint[joint];
+        const Overlap<Real> g = general(joint, placement<detail::Bed>(joint, pose(lower), pose(upper), x, y));
         o.area = select(fits, o.area, g.area);
         o.moment_x = select(fits, o.moment_x, g.moment_x);
         o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
@@ -287,34 +281,61 @@ private:
         o.elastic = select(fits, o.elastic, g.elastic);
     }
 
-    STYLOBATE_INLINE void faces(int joint, Scratch& s) const
+    template <class Kind>
+    STYLOBATE_INLINE void faces(int joint, Scratch& s, bool audit) const
     {
-        const auto [lower, upper] = topology_.joint[joint];
-        const Real zero(0.0);
-        const Real sine = get(OfBlock::sine, lower), cosine = Real(1.0) - get(OfBlock::versine, lower);
-        const Real nx = fms(s.normal_x, cosine, s.normal_y * sine);
-        const Real ny = fma(s.normal_x, sine, s.normal_y * cosine);
-        const Real lx = fms(s.arm_x, cosine, s.arm_y * sine);
-        const Real ly = fma(s.arm_x, sine, s.arm_y * cosine);
+        const auto [lower, upper] = ends<Kind>(joint);
+        const Overlap<Real>& o = s.met;
+        const Real zero(0.0), one(1.0);
+        // the root and the two divisions do not wait for each other
+        const Real square = fma(o.normal_x, o.normal_x, o.normal_y * o.normal_y);
+        const auto pressed =
+            (o.area > Real(detail::least_area)) & (square > Real(detail::least_chord * detail::least_chord));
+        const Real area = select(pressed, o.area, zero);
+        const Real per_area = one / select(pressed, o.area, one);
+        const Real chord = sqrt_of(square);
+        const Real per_chord = chord * (one / select(pressed, square, one));
+
+        // centroid and unit normal, in the lower block's frame
+        Real arm_x = o.moment_x * per_area;
+        const Real arm_y = fnma(o.moment_depth, per_area, get(OfBlock::half_height, lower));
+        if constexpr (Mechanism::extended)
+            arm_x = arm_x - get(OfBlockExtension::eccentricity, lower);
+        if constexpr (Mechanism::points > 0 && Kind::at_rest) {
+            const Real middle = s.points.moment * per_area;
+            for (int i = 0; i < Mechanism::points; ++i) {
+                s.points.x[i] = s.points.x[i] - middle;
+                s.points.area[i] = s.points.area[i] * per_area;
+            }
+        }
+        const Real normal_x = o.normal_x * per_chord, normal_y = o.normal_y * per_chord;
+
+        // in the base's
+        const Real sine = get(OfBlock::sine, lower), cosine = one - get(OfBlock::versine, lower);
+        const Real nx = fms(normal_x, cosine, normal_y * sine);
+        const Real ny = fma(normal_x, sine, normal_y * cosine);
+        const Real lx = fms(arm_x, cosine, arm_y * sine);
+        const Real ly = fma(arm_x, sine, arm_y * cosine);
         const Real ux = lx - s.apart_x;
         const Real uy = ly - s.apart_y;
         const Real wl = get(OfBlock::dtheta, lower), wu = get(OfBlock::dtheta, upper);
         const Real vx = fma(wl, ly, fnma(wu, uy, get(OfBlock::dx, upper) - get(OfBlock::dx, lower)));
         const Real vy = fnma(wl, lx, fma(wu, ux, get(OfBlock::dy, upper) - get(OfBlock::dy, lower)));
-        // blocks that do not touch neither close nor slide
-        const auto pressed = s.area > zero;
-        s.closing = select(pressed, fnma(vx, nx, zero - vy * ny), zero);
-        s.sliding = select(pressed, fms(vx, ny, vy * nx), zero);
+        s.area = area;
+        s.chord = chord;
         s.normal_x = nx;
         s.normal_y = ny;
-        s.lower_arm_x = lx;
-        s.lower_arm_y = ly;
-        s.upper_arm_x = ux;
-        s.upper_arm_y = uy;
+        s.arm_x = lx;
+        s.arm_y = ly;
+        // blocks that do not touch neither close nor slide
+        s.closing = select(pressed, fnma(vx, nx, zero - vy * ny), zero);
+        s.sliding = select(pressed, fms(vx, ny, vy * nx), zero);
+        if (audit)
+            put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
     }
 
-    /// The sums over a block take its joints in the order of the list. A pair adds to them only where it touches: so
-    /// they have the same bits whether or not it was worked on.
+    /// A bed's force stays with it until its blocks sum theirs up. A pair adds to them at once, and only where it
+    /// touches: so they have the same bits whether or not it was worked on.
     template <class Kind, class JointOf>
     STYLOBATE_INLINE void forces(int count, JointOf joint_of, const Scratch* scratch) const
     {
@@ -326,7 +347,7 @@ private:
         for (int j = 0; j < count; ++j) {
             const int joint = joint_of(j);
             const Scratch& s = scratch[j];
-            const auto [lower, upper] = topology_.joint[joint];
+            const auto [lower, upper] = ends<Kind>(joint);
             const JointLaw<Real> law{get(OfJoint::K_n, joint),        get(OfJoint::K_t, joint),
                                      get(OfJoint::C_n_per_dt, joint), get(OfJoint::C_t_per_dt, joint),
                                      get(OfJoint::C_n_chord, joint),  get(OfJoint::C_t_chord, joint),
@@ -354,20 +375,31 @@ private:
 
             const Real fx = fms(f.normal, s.normal_x, f.tangential * s.normal_y);
             const Real fy = fma(f.normal, s.normal_y, f.tangential * s.normal_x);
-            const auto pressed = s.area > Real(0.0);
-            const auto sum = [&](OfBlock::Field field, int block, Real with) {
-                put(field, block, Kind::at_rest ? with : select(pressed, with, get(field, block)));
-            };
-            sum(OfBlock::force_x, upper, get(OfBlock::force_x, upper) + fx);
-            sum(OfBlock::force_y, upper, get(OfBlock::force_y, upper) + fy);
-            const Real upper_moment = fms(s.upper_arm_x, fy, s.upper_arm_y * fx);
-            const Real lower_moment = fms(s.lower_arm_x, fy, s.lower_arm_y * fx);
-            sum(OfBlock::moment, upper,
-                get(OfBlock::moment, upper) + (extended ? upper_moment + couple : upper_moment));
-            sum(OfBlock::force_x, lower, get(OfBlock::force_x, lower) - fx);
-            sum(OfBlock::force_y, lower, get(OfBlock::force_y, lower) - fy);
-            sum(OfBlock::moment, lower,
-                get(OfBlock::moment, lower) - (extended ? lower_moment + couple : lower_moment));
+            const Real upper_arm_x = s.arm_x - s.apart_x, upper_arm_y = s.arm_y - s.apart_y;
+            Real upper_moment = fms(upper_arm_x, fy, upper_arm_y * fx);
+            Real lower_moment = fms(s.arm_x, fy, s.arm_y * fx);
+            if constexpr (extended) {
+                upper_moment = upper_moment + couple;
+                lower_moment = lower_moment + couple;
+            }
+            if constexpr (Kind::at_rest) {
+                put(OfJoint::force_x, joint, fx);
+                put(OfJoint::force_y, joint, fy);
+                put(OfJoint::upper_moment, joint, upper_moment);
+                put(OfJoint::lower_moment, joint, lower_moment);
+            } else {
+                const auto pressed = s.area > Real(0.0);
+                const auto sum = [&](OfBlock::Field field, int block, Real with) {
+                    put(field, block, select(pressed, get(field, block) + with, get(field, block)));
+                };
+                const Real zero(0.0);
+                sum(OfBlock::force_x, upper, fx);
+                sum(OfBlock::force_y, upper, fy);
+                sum(OfBlock::moment, upper, upper_moment);
+                sum(OfBlock::force_x, lower, zero - fx);
+                sum(OfBlock::force_y, lower, zero - fy);
+                sum(OfBlock::moment, lower, zero - lower_moment);
+            }
 
             // energy: the work of this step is its displacement times the mean of the forces at its two ends
             const Real dashpot = fnma(law.K_n, s.area, f.normal);
@@ -417,58 +449,6 @@ private:
         return energy;
     }
 
-    /// Whether a block of any realization has moved so far since `look_around` that a pair may have come close unseen.
-    STYLOBATE_INLINE bool strayed() const
-    {
-        const Real skin = get(OfRealization::skin);
-        auto far = skin < skin;
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            const Real x = abs_of(get(OfBlock::x, i) - get(OfNeighbourhood::x, i));
-            const Real y = abs_of(get(OfBlock::y, i) - get(OfNeighbourhood::y, i));
-            const Real turned = abs_of(get(OfBlock::theta, i) - get(OfNeighbourhood::theta, i));
-            Real radius = get(OfBlock::half_width, i) + get(OfBlock::half_height, i);
-            if constexpr (Mechanism::extended)
-                radius = radius + abs_of(get(OfBlockExtension::eccentricity, i));
-            far = far | (fma(radius, turned, max_of(x, y)) > skin);
-        }
-        return any(far);
-    }
-
-    /// Whether the bounding boxes of a pair are less than `margin` apart, or it still carries a force to be ended.
-    STYLOBATE_INLINE auto meets(int joint, Real margin) const
-    {
-        const auto [lower, upper] = topology_.joint[joint];
-        const Real one(1.0);
-        const Real sl = abs_of(get(OfBlock::sine, lower)), cl = abs_of(one - get(OfBlock::versine, lower));
-        const Real su = abs_of(get(OfBlock::sine, upper)), cu = abs_of(one - get(OfBlock::versine, upper));
-        const Real bl = get(OfBlock::half_width, lower), hl = get(OfBlock::half_height, lower);
-        const Real bu = get(OfBlock::half_width, upper), hu = get(OfBlock::half_height, upper);
-        const Real x = abs_of(get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower)));
-        const Real y = abs_of(get(OfJoint::height, joint) + (centre_y(upper) - centre_y(lower)));
-        const Real reach_x = fma(bl, cl, fma(hl, sl, fma(bu, cu, hu * su)));
-        const Real reach_y = fma(bl, sl, fma(hl, cl, fma(bu, su, hu * cu)));
-        const Real carried = abs_of(get(OfJoint::spring, joint)) + abs_of(get(OfJoint::shear_force, joint)) +
-                             abs_of(get(OfJoint::dashpot_force, joint));
-        return ((x - reach_x < margin) & (y - reach_y < margin)) | (carried > Real(0.0));
-    }
-
-    /// Lists the pairs that can meet before a block has strayed by the skin: those less than two skins apart.
-    /// @return how many
-    STYLOBATE_INLINE int look_around() const
-    {
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            put(OfNeighbourhood::x, i, get(OfBlock::x, i));
-            put(OfNeighbourhood::y, i, get(OfBlock::y, i));
-            put(OfNeighbourhood::theta, i, get(OfBlock::theta, i));
-        }
-        const Real margin = get(OfRealization::skin) * Real(2.0);
-        int close = 0;
-        for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
-            if (any(meets(joint, margin)))
-                b_.close[close++] = joint;
-        return close;
-    }
-
     /// The watched pairs that meet, in the order of the list. Kept out of the way of the beds.
     /// @param close how many pairs are listed as close; -1: none has been looked for
     /// @return how many are now
@@ -478,8 +458,8 @@ private:
     int
     pairs(int close, Scratch* scratch, bool audit) const
     {
-        if (close < 0 || strayed())
-            close = look_around();
+        if (close < 0 || Near::strayed())
+            close = Near::look_around();
         if (audit)
             for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
                 put(OfJoint::elastic, joint, Real(0.0));
@@ -488,12 +468,45 @@ private:
         for (int next = 0; next < close;) {
             int group[detail::joint_group], count = 0;
             for (; next < close && count < detail::joint_group; ++next)
-                if (any(meets(b_.close[next], margin)))
+                if (any(Near::meets(b_.close[next], margin)))
                     group[count++] = b_.close[next];
             contacts<detail::Pair>(
                 count, [&group](int j) { return group[j]; }, scratch, audit);
         }
         return close;
+    }
+
+    /// Sum of the contact forces on a block, its beds in the order of the list.
+    STYLOBATE_INLINE Planar<Real> sum(int i) const
+    {
+        Planar<Real> force{Real(0.0), Real(0.0), Real(0.0)};
+        if constexpr (others)
+            force = {get(OfBlock::force_x, i), get(OfBlock::force_y, i), get(OfBlock::moment, i)};
+        const auto rests_on = [&](int bed) {
+            force.x = force.x + get(OfJoint::force_x, bed);
+            force.y = force.y + get(OfJoint::force_y, bed);
+            force.theta = force.theta + get(OfJoint::upper_moment, bed);
+        };
+        const auto carries = [&](int bed) {
+            force.x = force.x - get(OfJoint::force_x, bed);
+            force.y = force.y - get(OfJoint::force_y, bed);
+            force.theta = force.theta - get(OfJoint::lower_moment, bed);
+        };
+        if constexpr (stack) {
+            rests_on(i - 1);
+            if (i + 1 < topology_.blocks)
+                carries(i);
+            return force;
+        }
+        const int* const lists = topology_.bed_lists;
+        for (int at = lists[i]; at < lists[i + 1]; ++at) {
+            const int bed = lists[at] >> 1;
+            if (lists[at] & 1)
+                carries(bed);
+            else
+                rests_on(bed);
+        }
+        return force;
     }
 
     /// Energies at the positions that the step starts from. The kinetic one is the product of the velocities half a
@@ -511,29 +524,35 @@ private:
         }();
         Real kinetic(0.0), potential(0.0), momentum(0.0);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            const Planar<Real> force = sum(i);
             const Real dx = get(OfBlock::dx, i), dy = get(OfBlock::dy, i), dtheta = get(OfBlock::dtheta, i);
             const Real x = get(OfBlock::x, i), y = get(OfBlock::y, i);
             const Real per_mass = get(OfBlock::dt2_per_mass, i), mass = get(OfBlock::mass, i);
-            Real ex, ey, etheta;
+            Planar<Real> e;
             if constexpr (Mechanism::extended) {
-                pull.step(i, dx, dy, dtheta, ex, ey, etheta);
+                pull.step(i, force, dx, dy, dtheta, e);
             } else {
-                ex = fma(per_mass, get(OfBlock::force_x, i), dx + push);
-                ey = fma(per_mass, get(OfBlock::force_y, i), dy + gy);
-                etheta = fma(get(OfBlock::dt2_per_inertia, i), get(OfBlock::moment, i), dtheta);
+                e.x = fma(per_mass, force.x, dx + push);
+                e.y = fma(per_mass, force.y, dy + gy);
+                e.theta = fma(get(OfBlock::dt2_per_inertia, i), force.theta, dtheta);
             }
             momentum = fma(mass, dx, momentum);
             if (audit) {
-                const Real twice = fma(dx, ex, dy * ey);
-                kinetic = fma(mass, twice, fma(get(OfBlock::inertia, i), dtheta * etheta, kinetic));
+                const Real twice = fma(dx, e.x, dy * e.y);
+                kinetic = fma(mass, twice, fma(get(OfBlock::inertia, i), dtheta * e.theta, kinetic));
                 potential = fnma(mass, fma(gx, x, gy * y), potential);
+                put(OfBlock::force_x, i, force.x);
+                put(OfBlock::force_y, i, force.y);
+                put(OfBlock::moment, i, force.theta);
             }
-            put(OfBlock::dx, i, ex);
-            put(OfBlock::dy, i, ey);
-            put(OfBlock::dtheta, i, etheta);
-            put(OfBlock::x, i, x + ex);
-            put(OfBlock::y, i, y + ey);
-            put(OfBlock::theta, i, get(OfBlock::theta, i) + etheta);
+            put(OfBlock::dx, i, e.x);
+            put(OfBlock::dy, i, e.y);
+            put(OfBlock::dtheta, i, e.theta);
+            put(OfBlock::x, i, x + e.x);
+            put(OfBlock::y, i, y + e.y);
+            const Real theta = get(OfBlock::theta, i) + e.theta;
+            put(OfBlock::theta, i, theta);
+            turn(i, theta);
         }
         const Real both = get(OfRealization::base_step) + base;
         Real base_energy = fnma(both, momentum, get(OfRealization::base_energy));
@@ -550,18 +569,19 @@ private:
             put(OfRealization::potential, potential);
         }
     }
-
-    const Topology& topology_;
 };
 
 /// Runs steps `first` to `last - 1` of the chunk for all realizations of the bundle.
 template <class Real, class Mechanism = Baseline>
 void run_steps(const Topology& topology, const Bundle& bundle, int first, int last)
 {
+    const auto run = [&]<bool watching, bool stack>() {
+        Stepper<Real, Mechanism, watching, stack>(topology, bundle).run(first, last);
+    };
     if (topology.watched > 0)
-        Stepper<Real, Mechanism, true>(topology, bundle).run(first, last);
+        topology.stack ? run.template operator()<true, true>() : run.template operator()<true, false>();
     else
-        Stepper<Real, Mechanism, false>(topology, bundle).run(first, last);
+        topology.stack ? run.template operator()<false, true>() : run.template operator()<false, false>();
 }
 
 } // namespace stylobate

@@ -24,8 +24,36 @@ struct Topology {
     const TopologyJoint* joint = nullptr; ///< (joints)
     int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
     Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
+    const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes
+    bool stack = false;                   ///< the beds are those of one column: bed j has block j below, j + 1 above
     int beds() const { return joints - watched; }
     int free_blocks() const { return blocks - fixed; }
 };
+
+/// How many integers `list_beds` writes.
+inline int bed_lists_size(const Topology& topology)
+{
+    return topology.blocks + 1 + 2 * topology.beds();
+}
+
+/// Sees whether the beds are a stack, and lists the beds of every block, for the sum of its forces: those of block i
+/// are entries lists[i] to lists[i + 1] - 1, in the order of the joints; an entry is twice the bed's number, and one
+/// more where the block is its lower one.
+/// @param lists (`bed_lists_size`) the caller's, to live as long as the topology
+inline void list_beds(Topology& topology, int* lists)
+{
+    topology.stack = topology.fixed == 1 && topology.blocks == topology.beds() + 1;
+    for (int bed = 0; bed < topology.beds(); ++bed)
+        topology.stack &= topology.joint[bed].lower == bed && topology.joint[bed].upper == bed + 1;
+    int at = topology.blocks + 1;
+    for (int i = 0; i < topology.blocks; ++i) {
+        lists[i] = at;
+        for (int bed = 0; bed < topology.beds(); ++bed)
+            if (topology.joint[bed].upper == i || topology.joint[bed].lower == i)
+                lists[at++] = 2 * bed + (topology.joint[bed].lower == i);
+    }
+    lists[topology.blocks] = at;
+    topology.bed_lists = lists;
+}
 
 } // namespace stylobate

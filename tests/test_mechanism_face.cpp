@@ -220,7 +220,9 @@ TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
 {
     // a block that nothing can move (1 / m = 1 / I = 0) is turned to and fro at a depth: F = K d (2 b - 2 k P)
     const TopologyJoint joint{0, 1};
-    const Topology topology{2, 1, 1, 1, &joint, 0, {true, ContactForm::area}};
+    Topology topology{2, 1, 1, 1, &joint, 0, {true, ContactForm::area}};
+    std::vector<int> bed_lists(static_cast<std::size_t>(bed_lists_size(topology)));
+    list_beds(topology, bed_lists.data());
     std::vector<double> memory(bundle_registers(topology), 0.0);
     const Bundle b = bind_bundle(topology, 1, memory.data());
     const double depth = 1e-5, K = 1e8, wear = 0.2, turn = 1e-6;

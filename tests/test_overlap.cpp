@@ -427,6 +427,7 @@ TEST(Overlap, MirrorImage)
 /// Extended precision in the kernels' clothes, for numerical derivatives.
 struct Fine {
     long double v;
+    Fine() = default;
     Fine(double all) : v(all) {}
     static Fine of(long double value)
     {
@@ -447,6 +448,7 @@ struct Fine {
     friend Fine min_of(Fine a, Fine b) { return a.v < b.v ? a : b; }
     friend Fine max_of(Fine a, Fine b) { return a.v > b.v ? a : b; }
     friend Fine abs_of(Fine a) { return of(std::fabs(a.v)); }
+    friend Fine select(bool mask, Fine yes, Fine no) { return mask ? yes : no; }
     friend Fine turn_sign(Fine a, Fine sign) { return std::signbit(sign.v) ? of(-a.v) : a; }
 };
 

@@ -57,12 +57,15 @@ struct Column {
         topology.top = free_blocks;
         topology.joints = free_blocks;
         topology.joint = joints.data();
+        bed_lists.resize(static_cast<std::size_t>(bed_lists_size(topology)));
+        list_beds(topology, bed_lists.data());
     }
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
     std::size_t registers() const { return bundle_registers(topology); }
 
     std::vector<TopologyJoint> joints;
+    std::vector<int> bed_lists;
     Topology topology;
 };
 

@@ -226,8 +226,8 @@ public:
         rows.put(OfRealizationExtension::base_dy, base_dy_ + vertical_);
     }
 
-    /// New increments of block `i` that had dx, dy, dtheta in the last step.
-    STYLOBATE_INLINE void step(int i, Real dx, Real dy, Real dtheta, Real& ex, Real& ey, Real& etheta)
+    /// New increments of block `i` that had dx, dy, dtheta in the last step, under the sums of its contact forces.
+    STYLOBATE_INLINE void step(int i, const Planar<Real>& force, Real dx, Real dy, Real dtheta, Planar<Real>& e)
     {
         using B = OfBlockExtension;
         const Real mass = rows_.get(OfBlock::mass, i), inertia = rows_.get(OfBlock::inertia, i);
@@ -252,14 +252,14 @@ public:
             slow_x = factor * lab_x;
             slow_y = factor * lab_y;
         }
-        ex = fma(rows_.get(OfBlock::dt2_per_mass, i), rows_.get(OfBlock::force_x, i), (dx + px) - slow_x);
-        ey = fma(rows_.get(OfBlock::dt2_per_mass, i), rows_.get(OfBlock::force_y, i), (dy + py) - slow_y);
-        etheta = fma(rows_.get(OfBlock::dt2_per_inertia, i), rows_.get(OfBlock::moment, i), dtheta + ptheta);
+        e.x = fma(rows_.get(OfBlock::dt2_per_mass, i), force.x, (dx + px) - slow_x);
+        e.y = fma(rows_.get(OfBlock::dt2_per_mass, i), force.y, (dy + py) - slow_y);
+        e.theta = fma(rows_.get(OfBlock::dt2_per_inertia, i), force.theta, dtheta + ptheta);
         if (dragged)
-            drag_energy_ = fma(mass, fma(slow_x, dx + ex, slow_y * (dy + ey)), drag_energy_);
+            drag_energy_ = fma(mass, fma(slow_x, dx + e.x, slow_y * (dy + e.y)), drag_energy_);
         // beyond what the baseline's balance has: gravity and the base in the frame at rest
-        drive_energy_ = fma(mass, fma(px - level_x_, dx + ex, (py - gravity_y_) * (dy + ey)),
-                            fma(inertia * ptheta, dtheta + etheta, drive_energy_));
+        drive_energy_ = fma(mass, fma(px - level_x_, dx + e.x, (py - gravity_y_) * (dy + e.y)),
+                            fma(inertia * ptheta, dtheta + e.theta, drive_energy_));
     }
 
     /// 2 dt2 x the work of the step's pull on all blocks.

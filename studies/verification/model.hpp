@@ -261,6 +261,8 @@ public:
         close_.resize(static_cast<std::size_t>(r.watched));
         topology_.joints = static_cast<int>(joints_.size());
         topology_.joint = joints_.data();
+        bed_lists_.resize(static_cast<std::size_t>(bed_lists_size(topology_)));
+        list_beds(topology_, bed_lists_.data());
         const std::size_t bytes = (bundle_registers(topology_) * sizeof(double) + 63) / 64 * 64;
         memory_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
         std::fill(memory_.get(), memory_.get() + bytes / sizeof(double), 0.0);
@@ -342,6 +344,7 @@ private:
     std::vector<int> place_of_; ///< realization's block -> kernel's block: the fixed ones first
     std::vector<TopologyJoint> joints_;
     std::vector<int> close_;
+    std::vector<int> bed_lists_;
     Topology topology_;
     std::unique_ptr<double[], Free> memory_;
     Bundle bundle_;

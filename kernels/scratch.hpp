@@ -1,0 +1,31 @@
+#pragma once
+/// What the phases of a step hand on to each other (`step.hpp`).
+
+#include "kernels/mechanisms/points.hpp"
+#include "kernels/overlap.hpp"
+
+namespace stylobate::detail {
+
+/// What a contact form hands on besides: nothing where it has no points of its own.
+template <class Real, int count>
+struct PointScratch {
+    FormPoints<Real, count> points; // overlap -> forces: shares of the force, and places along the contact
+};
+template <class Real>
+struct PointScratch<Real, 0> {
+};
+
+/// What the phases hand on, per joint.
+template <class Real, int points>
+struct JointScratch : PointScratch<Real, points> {
+    PentagonFrame<Real> frame; // geometry -> overlap: of a bed of the baseline
+    Placement<Real> place;     // geometry -> overlap: of the others
+    Real apart_x, apart_y;     // geometry -> forces: upper centre - lower centre, frame of the base
+    Overlap<Real> met;         // overlap -> faces
+    Real area, chord;          // faces -> forces: 0 where the blocks do not touch
+    Real normal_x, normal_y;   // faces -> forces: frame of the base
+    Real arm_x, arm_y;         // faces -> forces: centroid from the lower block's centre, frame of the base
+    Real closing, sliding;     // faces -> forces
+};
+
+} // namespace stylobate::detail
