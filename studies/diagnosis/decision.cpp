@@ -166,9 +166,11 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
     const double chance95 = chance.quantile95_of_structures();
     if (!balance.structures.empty()) {
         const StructureFit& best = balance.structures.front();
+        const double left = best.gain_by_run.empty()
+                                ? 0
+                                : best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end());
         const bool clear = best.gain > chance95 + rule.structure_clear && best.gain_by_run.size() > 1 &&
-                           best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end()) >
-                               rule.without_best * best.gain;
+                           (left > rule.without_best * best.gain || left > chance95 + rule.clear);
         double listed = explained;
         for (const CauseFit& fit : balance.causes)
             listed = std::max(listed, fit.gain);

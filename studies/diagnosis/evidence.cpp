@@ -42,6 +42,8 @@ bool possible(const CauseFit& fit)
         return fit.size > 0.05 && fit.size < 3;
     if (m == "stribeck")
         return fit.size > 0.05 && fit.size < 1;
+    if (m == "friction_wear" && fit.size * fit.cause.fixed > 1)
+        return false; // no friction is left
     if (m == "drag" || m == "dowel" || m == "corner_loss" || m == "corner_wear" || m == "friction_wear")
         return fit.size > 0;
     return true;
