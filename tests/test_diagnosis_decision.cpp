@@ -171,6 +171,11 @@ TEST(Decision, ImpossibleSizesAreNotJudged)
 {
     EXPECT_TRUE(decide_on({fit_of("drag", {20, 20}, -1)}).decided.judged.empty());
     EXPECT_TRUE(decide_on({fit_of("stribeck", {20, 20}, 1.2)}).decided.judged.empty());
+    CauseFit worn = fit_of("friction_wear", {20, 20}, 12);
+    worn.cause.fixed = 0.08; // 0.96 of the friction is gone when it ends
+    EXPECT_EQ(decide_on({worn}).decided.judged.size(), 1u);
+    worn.size = 13; // more than all of it
+    EXPECT_TRUE(decide_on({worn}).decided.judged.empty());
 }
 
 TEST(Decision, WhatExplainsAlikeIsInTheSet)
@@ -217,6 +222,9 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     // one run alone, or no more than chance
     EXPECT_EQ(decide_on({}, {}, {structure({60, 0, 0})}).decided.verdict, Verdict::none);
     EXPECT_EQ(decide_on({}, {}, {structure({5, 5, 5})}).decided.verdict, Verdict::none);
+    // what is left without the best run is beyond chance by itself, or is not
+    EXPECT_EQ(decide_on({}, {}, {structure({20, 8, 0})}).decided.verdict, Verdict::unexplained);
+    EXPECT_EQ(decide_on({}, {}, {structure({20, 6, 0})}).decided.verdict, Verdict::none);
 }
 
 TEST(Decision, DirectFindingsAreNamedAndExplainWhatTheyDo)

@@ -14,6 +14,8 @@ namespace {
 // What smoothing, finite contacts and small rotations leave out, over the weight: samples of wide windows would else
 // count as exact.
 constexpr double least_sd = 0.01;
+// What the path costs after which wear ends, in nats: half of ln(samples) for some fifty of them.
+constexpr double price_of_an_end = 2;
 // A sample shows wear that ends if it has this part of it still before it.
 constexpr double worn_enough = 0.75;
 
@@ -234,6 +236,12 @@ CauseFit BalanceFit::fit(const Cause& cause, const std::vector<Cause>& given) co
     } else if (cause.mechanism == "stribeck") {
         out.size = mean / (mean + after.size);
         out.sd = after.sd * out.size / (mean + after.size);
+    } else if (cause.mechanism == "friction_wear") {
+        out.size = after.size / mean;
+        out.sd = after.sd / mean;
+        // friction that was less all along explains nearly as much with one parameter less
+        if (cause.fixed > 0)
+            out.gain = std::max(0.0, out.gain - price_of_an_end);
     }
     return out;
 }
@@ -348,11 +356,12 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
         stribeck.fixed = part * speed;
         causes.push_back(stribeck);
     }
-    // wear goes on for ever, or ends after a path
-    for (int j = -1; j < joints; ++j)
+    // Wear goes on for ever, or ends after a path. Where one joint alone slides, that joint is named, not all of them.
+    for (int j = 0; j <= joints; ++j)
         for (const double part : {0.0, 0.1, 0.2, 0.4, 0.8}) {
-            Cause worn{"friction_wear", j < 0 ? "all" : fmt::format("joint {}", j), "wear_per_m", "1/m", 0};
-            worn.joint = j;
+            const bool all = j == joints;
+            Cause worn{"friction_wear", all ? "all" : fmt::format("joint {}", j), "wear_per_m", "1/m", 0};
+            worn.joint = all ? -1 : j;
             worn.fixed = part * length;
             causes.push_back(worn);
         }

@@ -25,7 +25,7 @@ struct DecisionRule {
     double chance = 4e-3;        ///< a dozen mechanisms are judged: together 5 % at the most
     double without_best = 0.4;   ///< part of the gain that must be left without the best run
     double apart = 3;            ///< nats
-    double structure_clear = 6;  ///< nats beyond the 95 % quantile of chance, for 'unexplained'
+    double structure_clear = 12; ///< nats beyond the 95 % quantile of chance, for 'unexplained'
     double structure_better = 8; ///< nats by which no mechanism may fall short of it
     double sure = 3;             ///< nats of surprise at which a cause has even odds against 'none', less 1
 };

@@ -114,12 +114,12 @@ void test_height(const VerticalMotion& vertical, const std::string& what, const 
     if (follows)
         out.found.push_back(cause_of("vertical_motion", "base", "ratio", "", 0, vertical.ratio, vertical.ratio_sd,
                                      0.5 * std::pow(vertical.ratio / vertical.ratio_sd, 2)));
-    else if (rings)
-        out.found.push_back(cause_of("vertical_motion", "base", "peak_m_s2", "m/s2", 0, vertical.line_m_s2,
-                                     vertical.line_sd_m_s2, vertical.line));
-    else
+    else if (vertical.rms_over_noise > limits.vertical) // seen as it is, of which a line may be a part
         out.found.push_back(cause_of("vertical_motion", "base", "peak_m_s2", "m/s2", 0, vertical.peak_m_s2,
                                      0.1 * vertical.peak_m_s2, 100));
+    else
+        out.found.push_back(cause_of("vertical_motion", "base", "peak_m_s2", "m/s2", 0, vertical.line_m_s2,
+                                     vertical.line_sd_m_s2, vertical.line));
 }
 
 void test_base(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared,

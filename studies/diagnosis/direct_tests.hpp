@@ -26,7 +26,7 @@ struct DirectThresholds {
     double offset_s = 8e-4;         ///< without a view of the table; a fifth of it with one
     double gain = 0.02;             ///< likewise
     double with_table = 0.2;        ///< factor of the two above where the cameras see the table
-    double wedge_rad = 6e-4;        ///< between two blocks at rest
+    double wedge_rad = 3e-4;        ///< between two blocks at rest
     double placed_by_chance = 4e-3; ///< probability that any block of a campaign is so far off in the mean
     double sds = 5;                 ///< and every one of them must be so many of its own standard deviations
 };
