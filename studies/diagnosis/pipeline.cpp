@@ -437,7 +437,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                 continue;
             }
             if (j.fit.cause.mechanism == "harmonic_distortion") {
-                left_out.push_back("harmonic_distortion (give the corrected motion as a table instead)");
+                add_distortion(direct.distortion, direct.gain, extended);
                 continue;
             }
             add_mechanism({j.fit.cause, j.fit.size}, built, extended);
