@@ -171,6 +171,8 @@ const char* to_string(StepLimit limit)
         return "dashpots of the contacts";
     case StepLimit::edge_dashpot:
         return "dashpot at an edge";
+    case StepLimit::flat_fall:
+        return "long face of a block that falls flat";
     }
     return "?";
 }
@@ -281,6 +283,32 @@ StepBound step_bound(const Realization& r)
         bound.governed_by = StepLimit::edge_dashpot;
     else if (c > 0)
         bound.governed_by = StepLimit::dashpot;
+    return bound;
+}
+
+StepBound step_bound_to_rest(const Realization& r)
+{
+    StepBound bound = step_bound(r);
+    if (r.watched > 0)
+        return bound; // the long faces are in it
+    double w2 = 0;
+    int block = 0;
+    for (const Joint& joint : r.joints)
+        for (const int b : {joint.lower, joint.upper}) {
+            const Block& meets = r.blocks[static_cast<std::size_t>(b)];
+            const double once = meets.fixed ? 0 : caught_between(meets, joint) / 2;
+            if (once > w2) {
+                w2 = once;
+                block = b;
+            }
+        }
+    constexpr double steps = 6;
+    const double flat_s = 1 / (steps * std::sqrt(w2));
+    if (flat_s < bound.dt_s) {
+        bound.dt_s = flat_s;
+        bound.governed_by = StepLimit::flat_fall;
+        bound.block = block;
+    }
     return bound;
 }
 

@@ -3,6 +3,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/measured_file.hpp"
+#include "io/measured_outcomes.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
 #include "studies/command.hpp"
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <system_error>
 
 namespace stylobate {
 
@@ -210,9 +213,19 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     const std::string calibrated =
         wanted.output.empty() ? stem + "_calibrated.toml"
                               : std::filesystem::path(results).replace_extension().string() + "_calibrated.toml";
-    const Campaign campaign = read_campaign(measured);
+    std::optional<OutcomeTable> table;
+    Campaign campaign;
+    std::error_code ignored;
+    if (given.extension() == ".csv" && !std::filesystem::is_directory(given, ignored))
+        table = read_outcomes(given);
+    else
+        campaign = read_campaign(measured);
     Study start;
-    if (wanted.study.empty()) {
+    if (wanted.study.empty() && table) {
+        throw InputError(measured, 0,
+                         "a table of outcomes does not say what stood on the base.\n  Give its structure, and what the "
+                         "table leaves open of the shaking, by --study STUDY.toml.");
+    } else if (wanted.study.empty()) {
         start = default_study(campaign);
         start = parse_study(start.text, "the study that a campaign is calibrated from by default", options.set);
     } else {
@@ -229,7 +242,8 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     Calibration found;
     {
         CalibrationConsole console(options.quiet);
-        found = calibrate(campaign, start, search, run, console);
+        found =
+            table ? calibrate(*table, start, search, run, console) : calibrate(campaign, start, search, run, console);
     }
     if (!found.complete) {
         if (!options.quiet)

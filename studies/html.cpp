@@ -40,6 +40,7 @@ th { font-weight: 600; text-align: left; vertical-align: bottom; border-bottom: 
 th, td { padding: .26rem .9rem .26rem 0; }
 td { vertical-align: top; border-bottom: 1px solid var(--line); overflow-wrap: break-word; }
 td:last-child, th:last-child { padding-right: .2rem; }
+.n { white-space: nowrap; }
 .r { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .c { text-align: center; font-variant-numeric: tabular-nums; }
 .facts td:first-child { color: var(--soft); white-space: nowrap; padding-right: 1.6rem; }

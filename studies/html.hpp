@@ -28,7 +28,7 @@ struct Html {
 std::string html_escaped(std::string_view text);
 
 struct HtmlTable {
-    std::string align; ///< a letter for each column: l, r (numbers) or c
+    std::string align; ///< a letter for each column: l, n (short words, on one line), r (numbers) or c
     std::vector<Html> head;
     std::vector<std::vector<Html>> rows;
     std::string caption;

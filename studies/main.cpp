@@ -107,9 +107,13 @@ int main(int argc, char** argv)
     CalibrateOptions calibration;
     bool keep_all = false;
     auto* calibrate = app.add_subcommand("calibrate", "contact parameters from measured response, with intervals");
-    calibrate->add_option("MEASURED", measured, "measured campaign (HDF5, or a folder of CSV files)")->required();
+    calibrate
+        ->add_option("MEASURED", measured,
+                     "measured campaign (HDF5, or a folder of CSV files), or a table of outcomes (CSV)")
+        ->required();
     calibrate->add_option("--study", calibration.study,
-                          "study file to begin from (default: the specimen, nominal friction, a bed of 2e9 N/m3)");
+                          "study file to begin from (default: the specimen, nominal friction, a bed of 2e9 N/m3; a "
+                          "table of outcomes needs one)");
     calibrate->add_option("-o,--output", calibration.output, "results (HDF5); the calibrated study lies beside it");
     calibrate
         ->add_option("--fit", calibration.fit,

@@ -158,7 +158,7 @@ private:
             for (const Candidate& c : d_.candidates)
                 most = std::max({most, c.gain_nats.value_or(0), 1.3 * c.null95.value_or(0)});
             HtmlTable table{
-                "lllrlrrl",
+                "lnlrlrrl",
                 {"mechanism", "place", "size (95 % interval)", "gain [nats]", "", "by chance (95 %)", "p", "decision"},
                 {},
                 ""};
@@ -183,8 +183,10 @@ private:
             evidence();
         }
         for (const NullEnsemble& null : d_.nulls)
-            page_.note(fmt::format("By chance, contact form {}: {} simulated campaigns. {}", null.form, null.campaigns,
-                                   null.what));
+            page_.note(
+                fmt::format("By chance: {} simulated campaigns with nothing hidden, contact form {}. They differ in: "
+                            "{}.",
+                            null.campaigns, null.form, null.what));
         figures(FigurePlace::candidates);
     }
 
@@ -291,7 +293,7 @@ private:
         if (tests.empty())
             return;
         page_.heading(title);
-        HtmlTable table{"llrrll", {"test", "place", "value ± sd", "threshold", "outcome", ""}, {}, ""};
+        HtmlTable table{"lnrrll", {"test", "place", "value ± sd", "threshold", "outcome", ""}, {}, ""};
         for (const DataTest& t : tests) {
             const std::string unit = t.unit.empty() ? "" : " " + t.unit;
             table.rows.push_back(
@@ -319,7 +321,7 @@ private:
         if (d_.baseline.empty())
             return;
         page_.section("The calibrated baseline");
-        HtmlTable table{"lrll", {"parameter", "value", "95 % interval", ""}, {}, ""};
+        HtmlTable table{"lrnl", {"parameter", "value", "95 % interval", ""}, {}, ""};
         for (const CalibratedParameter& p : d_.baseline) {
             Html note = p.determined ? Html() : tag("warn", "not determined");
             if (!p.determined && !p.note.empty())

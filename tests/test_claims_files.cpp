@@ -2,6 +2,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
+#include "ensemble/synthetic_motion.hpp"
 #include "io/study_file.hpp"
 #include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"
@@ -337,6 +338,48 @@ TEST(ClaimObservation, PathOfTheBaseAndStartOfTheStrongShaking)
     s.excitation.start = HarmonicEdge::smooth;
     s.excitation.ramp_cycles = 2;
     EXPECT_DOUBLE_EQ(observe(s, r, nullptr, o, false).cycles_to_collapse, 0.5);
+}
+
+TEST(ClaimObservation, StrongShakingOfWhatIsNoHarmonicMotion)
+{
+    Study s = parse_study(study, "made_up.toml");
+    const Realization plain = Sampler(s, nullptr).realization(0);
+    Outcome o;
+    o.state = State::collapsed;
+    o.collapse_time_s = 8;
+    const auto start_s = [&](ExcitationKind kind, const Realization& r, const Motion* record) {
+        s.excitation.kind = kind;
+        return o.collapse_time_s - observe(s, r, record, o, false).cycles_to_collapse / r.frequency_hz;
+    };
+    // acceleration grows to 2 m/s2 within 10 s: half of it after 5
+    std::vector<double> ramp;
+    for (int i = 0; i <= 1000; ++i)
+        ramp.push_back(0.002 * i);
+    Motion motion = motion_of(ramp, 0.01);
+    motion.predominant_frequency_hz = 3;
+    Realization r = plain;
+    r.frequency_hz = 3;
+    EXPECT_NEAR(start_s(ExcitationKind::record, r, &motion), 5, 1e-9);
+    EXPECT_NEAR(start_s(ExcitationKind::table, r, &motion), 5, 1e-9);
+    r.frequency_hz = 6; // in half the time
+    EXPECT_NEAR(start_s(ExcitationKind::table, r, &motion), 2.5, 1e-9);
+    // a realization's own motion is in its own time
+    r.motion = std::make_shared<const Motion>(motion);
+    EXPECT_NEAR(start_s(ExcitationKind::noise, r, nullptr), 5, 1e-9);
+    // a tapered sine of 4 cycles of ramp and 12 in all: the envelope has half its size two cycles on, a crest near it
+    r = plain;
+    r.frequency_hz = 2;
+    r.pga_m_s2 = 3;
+    s.excitation.ramp_cycles = 4;
+    s.excitation.cycles = 12;
+    EXPECT_NEAR(start_s(ExcitationKind::tapered, r, nullptr), 1, 0.3);
+    // Ricker's wavelet: its trough of 0.446 of the crest is no strong shaking, the crest is, in the middle
+    s.excitation.tail_s.reset();
+    const double start = start_s(ExcitationKind::ricker, r, nullptr);
+    const double middle = SyntheticMotion(s.excitation, r).duration_s() / 2;
+    // (1 - 2 q) exp(-q) = 1 / 2 at q = (pi f t)2 = 0.18868
+    EXPECT_NEAR(start, middle - std::sqrt(0.18868) / (std::numbers::pi * r.frequency_hz), 0.003);
+    EXPECT_EQ(start_s(ExcitationKind::full_sine, r, nullptr), 0);
 }
 
 } // namespace

@@ -122,6 +122,58 @@ TEST(BalanceFit, FrictionOfOneJoint)
     EXPECT_LT(best.sd, 0.1);
 }
 
+TEST(BalanceFit, WearThatEnds)
+{
+    // v^2 / 2 as a function of the path: friction falls from mu by `wear` for each metre, until the path `ends`
+    const double mu = 0.5, wear = 8, ends = 0.08, g = formula_gravity;
+    Campaign campaign;
+    campaign.specimen = one_block();
+    unsigned seed = 30;
+    for (const double velocity : {1.2, -1.3, 1.4, -1.5, 1.6, -1.4}) {
+        std::vector<double> x(40, 0.0); // at rest, then pushed
+        double at = 0, v = std::fabs(velocity);
+        const double dt = 0.01 / formula_rate_hz;
+        for (int i = 1; v > 0; ++i) {
+            const double worn = std::min(at + 0.5 * dt * v, ends); // midpoint
+            const double slower = mu * (1 - wear * worn) * g;
+            at += dt * (v - 0.5 * dt * slower);
+            v -= dt * slower;
+            if (i % 100 == 0 && v > 0)
+                x.push_back(std::copysign(at, velocity));
+        }
+        ASSERT_GT(at, 2 * ends);
+        campaign.runs.push_back(formula_run(
+            campaign.specimen, static_cast<int>(x.size()),
+            [&](int b, int i) {
+                Pose pose = at_rest(campaign.specimen, b);
+                pose.x += x[static_cast<std::size_t>(i)];
+                return pose;
+            },
+            camera_m, camera_rad, ++seed));
+    }
+    const BalanceEvidence evidence = evidence_of(campaign);
+    ASSERT_FALSE(evidence.causes.empty());
+    const CauseFit& best = evidence.causes.front();
+    EXPECT_EQ(best.cause.mechanism, "friction_wear") << listed(evidence);
+    EXPECT_EQ(best.cause.place, "joint 0"); // the only one
+    EXPECT_NEAR(best.cause.fixed, ends, 1e-9) << listed(evidence);
+    EXPECT_NEAR(best.size, wear, 4 * best.sd) << listed(evidence);
+    EXPECT_LT(best.sd, 0.2 * wear);
+    EXPECT_GT(best.gain, 10);
+}
+
+TEST(BalanceFit, FrictionThatWasLessAllAlongIsNoWear)
+{
+    // what the few samples before an end of wear leave open is paid for
+    const BalanceEvidence evidence = evidence_of(slab_campaign(0.5, 0.3));
+    EXPECT_EQ(evidence.causes.front().cause.mechanism, "joint_friction") << listed(evidence);
+    for (const CauseFit& fit : evidence.causes) {
+        if (fit.cause.mechanism != "friction_wear")
+            continue;
+        EXPECT_LT(fit.gain, evidence.causes.front().gain - 1.5) << listed(evidence);
+    }
+}
+
 TEST(BalanceFit, Drag)
 {
     const double c = 0.36; // N s2/m2, of 0.9 kg

@@ -100,6 +100,27 @@ TEST(ChanceGains, TheLargestOfEachMechanismCounts)
     EXPECT_EQ(chance.gains().at({Channel::balance, "wedge"}), (Gains{0, 3}));
 }
 
+TEST(ChanceGains, CampaignsThatNameNothingCount)
+{
+    ChanceGains chance;
+    for (int i = 0; i < 3; ++i)
+        chance.add(Channel::balance, {});
+    EXPECT_EQ(chance.campaigns(Channel::balance), 3u);
+    EXPECT_FALSE(chance.tell_of(Channel::balance, "drag"));
+    EXPECT_EQ(chance.probability(Channel::balance, "drag", 9), 1);
+    chance.add(Channel::balance, {fit_of("drag", {4})});
+    chance.add(Channel::balance, {});
+    chance.add(Channel::balance, {fit_of("dowel", {2})});
+    EXPECT_EQ(chance.campaigns(Channel::balance), 6u);
+    EXPECT_TRUE(chance.tell_of(Channel::balance, "drag"));
+    using Gains = std::vector<double>;
+    EXPECT_EQ(chance.gains().at({Channel::balance, "drag"}), (Gains{0, 0, 0, 4, 0, 0}));
+    EXPECT_EQ(chance.gains().at({Channel::balance, "dowel"}), (Gains{0, 0, 0, 0, 0, 2}));
+    // two of six gain at least 1
+    EXPECT_NEAR(chance.probability(Channel::balance, "drag", 1), 2.0 / 7, 1e-12);
+    EXPECT_EQ(chance.campaigns(Channel::windows), 0u);
+}
+
 TEST(ChanceGains, TailOfAnExponentialSampleIsContinued)
 {
     // gains with P(> g) = exp(-g / 3): the tail is known far beyond the sample
@@ -171,6 +192,11 @@ TEST(Decision, ImpossibleSizesAreNotJudged)
 {
     EXPECT_TRUE(decide_on({fit_of("drag", {20, 20}, -1)}).decided.judged.empty());
     EXPECT_TRUE(decide_on({fit_of("stribeck", {20, 20}, 1.2)}).decided.judged.empty());
+    CauseFit worn = fit_of("friction_wear", {20, 20}, 12);
+    worn.cause.fixed = 0.08; // 0.96 of the friction is gone when it ends
+    EXPECT_EQ(decide_on({worn}).decided.judged.size(), 1u);
+    worn.size = 13; // more than all of it
+    EXPECT_TRUE(decide_on({worn}).decided.judged.empty());
 }
 
 TEST(Decision, WhatExplainsAlikeIsInTheSet)
@@ -186,15 +212,29 @@ TEST(Decision, ASecondCauseIsJudgedBesideTheFirst)
 {
     const Told told =
         decide_on({fit_of("joint_friction", {30, 30}), fit_of("drag", {20, 20}, 1)}, {fit_of("drag", {18, 18}, 1)});
-    Names both = names(told.decided.named);
-    std::sort(both.begin(), both.end());
-    EXPECT_EQ(both, (Names{"drag", "joint_friction"}));
+    EXPECT_EQ(names(told.decided.named), (Names{"joint_friction", "drag"}));
     EXPECT_EQ(told.rounds, 1); // no third
     // what the first one explains is gone in the second round
     EXPECT_EQ(
         names(decide_on({fit_of("joint_friction", {30, 30}), fit_of("drag", {20, 20}, 1)}, {fit_of("drag", {1, 1}, 1)})
                   .decided.named),
         Names{"joint_friction"});
+}
+
+TEST(Decision, TheSecondCauseStandsBehindTheFirst)
+{
+    // the first one has a rival, the second one, judged beside it, has none
+    DirectResult direct;
+    direct.found = {fit_of("sensor_gain", {50}, 1.1, "base")};
+    const Told told = decide_on(
+        {fit_of("joint_friction", {20, 20}), fit_of("stribeck", {19.9, 19.9}, 0.6), fit_of("drag", {9, 9}, 1)},
+        {fit_of("drag", {18, 18}, 1)}, {}, direct);
+    EXPECT_EQ(names(told.decided.named), (Names{"sensor_gain", "joint_friction", "drag"}));
+    EXPECT_EQ(names(told.decided.in_set), Names{"stribeck"});
+    const std::vector<JudgedCause>& named = told.decided.named;
+    EXPECT_LT(named[1].probability, 0.6); // two that explain alike
+    EXPECT_LE(named[2].probability, named[1].probability);
+    EXPECT_GT(named[2].probability, 0.3);
 }
 
 TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
@@ -217,6 +257,9 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     // one run alone, or no more than chance
     EXPECT_EQ(decide_on({}, {}, {structure({60, 0, 0})}).decided.verdict, Verdict::none);
     EXPECT_EQ(decide_on({}, {}, {structure({5, 5, 5})}).decided.verdict, Verdict::none);
+    // what is left without the best run is beyond chance by itself, or is not
+    EXPECT_EQ(decide_on({}, {}, {structure({20, 8, 0})}).decided.verdict, Verdict::unexplained);
+    EXPECT_EQ(decide_on({}, {}, {structure({20, 6, 0})}).decided.verdict, Verdict::none);
 }
 
 TEST(Decision, DirectFindingsAreNamedAndExplainWhatTheyDo)

@@ -14,7 +14,18 @@ struct Wrong {
     double gain = 1, offset_s = 0, second_harmonic = 0, pitch_rad_s2_m = 0, vertical_ratio = 0;
     double wedge_rad = 0;    ///< at joint 1: it carries the blocks 1 and 2
     double placed_off_m = 0; ///< block 1
+    double rocks_rad = 0;    ///< block 0 rocks on the table, up to this
+    double own_m_s2 = 0;     ///< the table moves up and down by itself, with 9 Hz
 };
+
+/// How much higher the centre of a block lies that stands on its lowest corner.
+double lifted_m(double half_width, double half_height, double theta)
+{
+    double lowest = 0;
+    for (const double x : {-half_width, half_width})
+        lowest = std::min(lowest, x * std::sin(theta) - half_height * std::cos(theta));
+    return -lowest - half_height;
+}
 
 /// Harmonic with ramps, from rest to rest.
 struct RampedSine {
@@ -72,12 +83,16 @@ Campaign campaign_with(const Wrong& wrong, unsigned seed, bool table)
             const double a = (moved(t + h) - 2 * x + moved(t - h)) / (h * h);
             run.time_s.push_back(t);
             run.base_displacement_m.values.push_back(motion.displacement_m(t) + 2e-5 * normal(random));
-            const double lean = wrong.pitch_rad_s2_m * a, rise = wrong.vertical_ratio * x;
+            const double own = 2 * std::numbers::pi * 9;
+            const double lean = wrong.pitch_rad_s2_m * a,
+                         rise = wrong.vertical_ratio * x - wrong.own_m_s2 / (own * own) * std::sin(own * t);
+            const double rocked = wrong.rocks_rad * RampedSine::envelope(t) * std::sin(11 * t + r);
             if (table)
                 seen(run.table, x, rise, lean);
             for (std::size_t b = 0; b < 3; ++b)
-                seen(run.blocks, s.rest_x_m[b] + placed[b] + x - s.rest_y_m[b] * lean, s.rest_y_m[b] + rise,
-                     lean + (b >= 1 ? wrong.wedge_rad : 0));
+                seen(run.blocks, s.rest_x_m[b] + placed[b] + x - s.rest_y_m[b] * lean,
+                     s.rest_y_m[b] + rise + lifted_m(s.half_width_m[0], s.half_height_m[0], rocked),
+                     lean + (b >= 1 ? wrong.wedge_rad : 0) + (b == 0 ? rocked : 0));
         }
         if (table) {
             run.table.x_m.noise_sd = run.table.y_m.noise_sd = 5e-5;
@@ -196,6 +211,23 @@ TEST_P(DirectTests, VerticalMotion)
     expect_found({.vertical_ratio = 0.1}, "vertical_motion", "base", 0.1, 0.003);
 }
 
+TEST_P(DirectTests, VerticalMotionUnderABlockThatRocks)
+{
+    for (const double ratio : {0.04, -0.04})
+        expect_found({.vertical_ratio = ratio, .rocks_rad = 0.06}, "vertical_motion", "base", ratio, 0.004);
+    const DirectResult healthy = tested(campaign_with({.rocks_rad = 0.06}, 7, GetParam()));
+    EXPECT_TRUE(healthy.found.empty()) << found_in(healthy);
+}
+
+TEST_P(DirectTests, VerticalMotionOfTheTablesOwn)
+{
+    // 31 um, less than the cameras' noise
+    expect_found({.rocks_rad = 0.06, .own_m_s2 = 0.1}, "vertical_motion", "base", 0.1, 0.02);
+    const DirectResult result = tested(campaign_with({.rocks_rad = 0.06, .own_m_s2 = 0.1}, 7, GetParam()));
+    EXPECT_EQ(result.found.front().cause.parameter, "peak_m_s2");
+    EXPECT_NE(test_of(result, "vertical_motion")->sentence.find("Hz in all motions"), std::string::npos);
+}
+
 TEST_P(DirectTests, Wedge)
 {
     expect_found({.wedge_rad = 2e-3}, "wedge", "joint 1", 2e-3, 5e-4); // 3 sd of 4 runs of 20 samples
@@ -205,6 +237,59 @@ TEST_P(DirectTests, Wedge)
 TEST_P(DirectTests, OffsetDrum)
 {
     expect_found({.placed_off_m = 1.5e-3}, "drum_offset", "block 1", 1.5e-3, 4e-4);
+}
+
+/// Runs in which nothing but the placing of the blocks happens, 24 of them.
+Campaign resting_campaign(unsigned seed, bool table, double off_m)
+{
+    Campaign campaign;
+    campaign.specimen = sample_specimen();
+    const Specimen& s = campaign.specimen;
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (int r = 0; r < 24; ++r) {
+        MeasuredRun run;
+        run.name = std::to_string(r);
+        run.collapsed = false;
+        run.blocks.x_m.noise_sd = run.blocks.y_m.noise_sd = 5e-5;
+        run.blocks.theta_rad.noise_sd = 1e-3;
+        const double zero = 1e-3 * normal(random); // of the cameras
+        double placed[3];
+        for (double& x : placed)
+            x = zero + s.placement_tolerance_m * normal(random);
+        placed[1] += off_m;
+        for (int i = 0; i < 40; ++i) {
+            run.time_s.push_back(i / 500.0);
+            for (std::size_t b = 0; b < 3; ++b) {
+                run.blocks.x_m.values.push_back(placed[b] + 5e-5 * normal(random));
+                run.blocks.y_m.values.push_back(s.rest_y_m[b] + 5e-5 * normal(random));
+                run.blocks.theta_rad.values.push_back(1e-3 * normal(random));
+            }
+            if (table) {
+                run.table.x_m.values.push_back(zero + 5e-5 * normal(random));
+                run.table.y_m.values.push_back(5e-5 * normal(random));
+                run.table.theta_rad.values.push_back(1e-3 * normal(random));
+            }
+        }
+        campaign.runs.push_back(std::move(run));
+    }
+    return campaign;
+}
+
+TEST_P(DirectTests, AnOffsetThatManyRunsTellFromThePlacing)
+{
+    // 1.3 tolerances: 5.2 standard deviations of the mean of 24 runs, or 6.4 where the table is seen; 3.2 are asked for
+    const double off = 1.3 * sample_specimen().placement_tolerance_m;
+    int found = 0, false_alarms = 0;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        const DirectResult result = tested(resting_campaign(seed, GetParam(), off));
+        if (result.found.size() == 1 && result.found.front().cause.block == 1 &&
+            std::fabs(result.found.front().size - off) < 4 * result.found.front().sd)
+            ++found;
+        false_alarms += tested(resting_campaign(1000 + seed, GetParam(), 0)).found.empty() ? 0 : 1;
+    }
+    EXPECT_GE(found, 55);
+    EXPECT_LE(false_alarms, 2); // 4 in 1000 are meant: more than 2 of 60 with a probability of 0.002
 }
 
 TEST_P(DirectTests, TwoAtOnce)

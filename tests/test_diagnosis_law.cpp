@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace stylobate {
 namespace {
 
@@ -176,7 +178,7 @@ TEST(LawSamples, BlocksAtRestGiveNone)
     EXPECT_TRUE(samples_of(campaign_of(s, 500, [&](int b, int) { return at_rest(s, b); }), 0.5).empty());
 }
 
-TEST(LawSamples, OfTwoColumnsUnderAnEpistyleOnlyTheSumIsKnown)
+Specimen two_columns_and_an_epistyle()
 {
     Specimen s = one_block();
     s.half_width_m = {0.03, 0.03, 0.09};
@@ -186,6 +188,12 @@ TEST(LawSamples, OfTwoColumnsUnderAnEpistyleOnlyTheSumIsKnown)
     s.rest_x_m = {-0.06, 0.06, 0};
     s.rest_y_m = {0.05, 0.05, 0.13};
     s.joints = {{-1, 0}, {-1, 1}, {0, 2}, {1, 2}};
+    return s;
+}
+
+TEST(LawSamples, OfTwoColumnsUnderAnEpistyleOnlyTheSumIsKnown)
+{
+    const Specimen s = two_columns_and_an_epistyle();
     const std::vector<double> weights = rest_weights(s);
     ASSERT_EQ(weights.size(), 4u);
     EXPECT_NEAR(weights[0], 1.7 * 9.81, 1e-12); // half of the epistyle on each
@@ -206,6 +214,29 @@ TEST(LawSamples, OfTwoColumnsUnderAnEpistyleOnlyTheSumIsKnown)
         // both weights w: w (mu - assumed) (N_0 + N_1) / W, and N_0 + N_1 = 2 W
         EXPECT_NEAR(sample.value, sample.terms[0].weight * 2 * (mu - assumed), 1e-9);
         EXPECT_NEAR(sample.terms[0].normal + sample.terms[1].normal, 2, 1e-9);
+    }
+}
+
+TEST(LawSamples, AJointThatBeginsAloneDoesNotHideWhatFollows)
+{
+    // One column slides first, under an epistyle that stays: both its joints carry what nobody knows.
+    const Specimen s = two_columns_and_an_epistyle();
+    const double mu = 0.4, assumed = 0.5;
+    for (int later = 1; later < 60; later += 4) {
+        const Campaign campaign = campaign_of(s, 400, [&](int b, int i) {
+            Pose pose = at_rest(s, b);
+            pose.x += b == 0 ? slid(1.4, mu, i) : slid(1.4, mu, std::max(i, later)) - slid(1.4, mu, later);
+            return pose;
+        });
+        int both = 0;
+        for (const LawSample& sample : samples_of(campaign, assumed)) {
+            if (sample.terms.size() != 2 || sample.terms[0].joint != 0 || sample.terms[1].joint != 1 ||
+                sample.time_s < 0.15) // the smoothing has left the jolts behind
+                continue;
+            ++both;
+            EXPECT_NEAR(sample.value, sample.terms[0].weight * 2 * (mu - assumed), 1e-9) << later;
+        }
+        EXPECT_GE(both, 3) << later;
     }
 }
 

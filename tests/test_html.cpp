@@ -166,7 +166,7 @@ TEST(DiagnosisPage, OfAnEmptyDiagnosisIsAPageToo)
     const std::string page = diagnosis_page(Diagnosis{}, "d.h5").text();
     expect_self_contained(page);
     expect_balanced(page);
-    EXPECT_NE(page.find("Nothing is wrong beyond what chance explains"), std::string::npos);
+    EXPECT_NE(page.find("No cause is found beyond what chance explains"), std::string::npos);
     EXPECT_EQ(page.find("not known"), std::string::npos);
 }
 

@@ -98,7 +98,9 @@ bool compute(const LoadedStudy& loaded, const fs::path& results, bool resume, co
 /// Where the record of a study lies; nothing if the study has none or it is found without help.
 std::vector<std::string> record_setting(const Study& study, const RunPlace& place)
 {
-    if (study.excitation.kind != ExcitationKind::record || fs::path(study.excitation.file).is_absolute())
+    const ExcitationKind kind = study.excitation.kind;
+    const bool in_file = kind == ExcitationKind::record || kind == ExcitationKind::table;
+    if (!in_file || fs::path(study.excitation.file).is_absolute())
         return {};
     return {"excitation.file=" + fs::absolute(place.data / study.excitation.file).lexically_normal().string()};
 }

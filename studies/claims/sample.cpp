@@ -3,6 +3,7 @@
 #include "ensemble/base_motion.hpp"
 #include "ensemble/scales.hpp"
 #include "ensemble/step_bound.hpp"
+#include "ensemble/synthetic_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,16 +17,38 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// The path of the base is summed over so many pieces of each period: the error is (pi / pieces)2 / 6 of it.
 constexpr int pieces_per_cycle = 200;
 
+/// When a motion first reaches half its PGA.
+double half_peak_s(const ExcitationSpec& e, const Realization& r, const Motion* record)
+{
+    if (SyntheticMotion::covers(e.kind) && !r.motion) {
+        const SyntheticMotion motion(e, r);
+        const double dt = 1 / (motion.fastest_hz() * pieces_per_cycle);
+        double t = 0;
+        while (t < motion.duration_s() && std::fabs(motion.acceleration_m_s2(t)) < r.pga_m_s2 / 2)
+            t += dt;
+        return t;
+    }
+    const Motion& motion = r.motion ? *r.motion : *record;
+    const auto& a = motion.acceleration_m_s2;
+    const auto first = std::find_if(a.begin(), a.end(), [&](double v) { return std::fabs(v) >= motion.pga_m_s2 / 2; });
+    // what each realization has of its own is in its own time
+    const bool stretched = e.kind == ExcitationKind::record || e.kind == ExcitationKind::table;
+    const double stretch = stretched ? record->predominant_frequency_hz / r.frequency_hz : 1;
+    return static_cast<double>(first - a.begin()) * motion.dt_s * stretch;
+}
+
 double strong_start_s(const ExcitationSpec& e, const Realization& r, const Motion* record)
 {
-    if (e.kind == ExcitationKind::harmonic)
+    switch (e.kind) {
+    case ExcitationKind::harmonic:
         return e.start == HarmonicEdge::smooth ? e.ramp_cycles / r.frequency_hz : 0;
-    if (e.kind != ExcitationKind::record)
+    case ExcitationKind::none:
+    case ExcitationKind::half_sine:
+    case ExcitationKind::full_sine:
         return 0;
-    const auto& a = record->acceleration_m_s2;
-    const auto first = std::find_if(a.begin(), a.end(), [&](double v) { return std::fabs(v) >= record->pga_m_s2 / 2; });
-    const double stretch = record->predominant_frequency_hz / r.frequency_hz;
-    return static_cast<double>(first - a.begin()) * record->dt_s * stretch;
+    default:
+        return half_peak_s(e, r, record);
+    }
 }
 
 double base_path_m(const ExcitationSpec& e, const Realization& r, const Motion* record, double until_s)
@@ -47,6 +70,8 @@ Realization nominal_realization(const Study& study, const Motion* record)
 {
     Study plain = study;
     plain.perturbations.clear();
+    plain.mechanism_perturbations.clear();
+    plain.vertical.reset(); // nothing that is asked of it moves
     return Sampler(plain, record).realization(0);
 }
 

@@ -19,7 +19,8 @@ namespace stylobate::claims {
 struct Observation {
     bool rocked = false, slid = false, collapsed = false, unseated = false;
     /// Cycles from the start of the strong shaking to the collapse; NaN without one. Strong shaking starts where a
-    /// smooth start ends, at once where the start is abrupt, and in a record where it first reaches half its PGA.
+    /// harmonic motion's smooth start ends, at once where the start is abrupt and in a half or full sine, and in all
+    /// other motions (records, tables, noise, wavelets, tapered ones, sweeps) where they first reach half their PGA.
     double cycles_to_collapse = 0;
     std::array<double, amount_count> amount{}; ///< by `Amount`; NaN where it means nothing
 

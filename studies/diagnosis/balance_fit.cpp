@@ -14,6 +14,10 @@ namespace {
 // What smoothing, finite contacts and small rotations leave out, over the weight: samples of wide windows would else
 // count as exact.
 constexpr double least_sd = 0.01;
+// What the path costs after which wear ends, in nats: half of ln(samples) for some fifty of them.
+constexpr double price_of_an_end = 2;
+// A sample shows wear that ends if it has this part of it still before it.
+constexpr double worn_enough = 0.75;
 
 double dead_zone(double value, double gap)
 {
@@ -95,7 +99,9 @@ BalanceFit::Column BalanceFit::column(const Cause& cause) const
                 return mu * t.normal * std::exp(-std::fabs(t.slip_m_s) / cause.fixed);
             });
         else if (cause.mechanism == "friction_wear")
-            v = sum_of(s, Law::sliding, cause.joint, [&](const LawTerm& t) { return -mu * t.normal * t.slip_path_m; });
+            v = sum_of(s, Law::sliding, cause.joint, [&](const LawTerm& t) {
+                return -mu * t.normal * (cause.fixed > 0 ? std::min(t.slip_path_m, cause.fixed) : t.slip_path_m);
+            });
         else if (cause.mechanism == "dowel")
             v = sum_of(s, Law::sliding, cause.joint,
                        [&](const LawTerm& t) { return t.sign * dead_zone(t.slip_m, cause.fixed) / t.rest_weight_n; });
@@ -211,6 +217,8 @@ CauseFit BalanceFit::fit(const Cause& cause, const std::vector<Cause>& given) co
     const Column tried = column(cause);
     if (std::all_of(tried.begin(), tried.end(), [](double v) { return v == 0; }))
         return out; // the joint never slid, or never rocked
+    if (cause.mechanism == "friction_wear" && cause.fixed > 0 && !seen_wearing(cause))
+        return out; // worn from the first sample on: a joint of less friction
     std::vector<Column> columns;
     for (const Cause& other : given)
         columns.push_back(column(other));
@@ -228,8 +236,23 @@ CauseFit BalanceFit::fit(const Cause& cause, const std::vector<Cause>& given) co
     } else if (cause.mechanism == "stribeck") {
         out.size = mean / (mean + after.size);
         out.sd = after.sd * out.size / (mean + after.size);
+    } else if (cause.mechanism == "friction_wear") {
+        out.size = after.size / mean;
+        out.sd = after.sd / mean;
+        // friction that was less all along explains nearly as much with one parameter less
+        if (cause.fixed > 0)
+            out.gain = std::max(0.0, out.gain - price_of_an_end);
     }
     return out;
+}
+
+bool BalanceFit::seen_wearing(const Cause& cause) const
+{
+    return std::any_of(samples_.begin(), samples_.end(), [&](const LawSample& s) {
+        return std::any_of(s.terms.begin(), s.terms.end(), [&](const LawTerm& t) {
+            return t.law == Law::sliding && at_joint(t, cause.joint) && t.slip_path_m < worn_enough * cause.fixed;
+        });
+    });
 }
 
 int BalanceFit::samples_of(Law law, int joint) const
@@ -333,7 +356,15 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
         stribeck.fixed = part * speed;
         causes.push_back(stribeck);
     }
-    causes.push_back({"friction_wear", "all", "wear_per_m", "1/m", 0});
+    // Wear goes on for ever, or ends after a path. Where one joint alone slides, that joint is named, not all of them.
+    for (int j = 0; j <= joints; ++j)
+        for (const double part : {0.0, 0.1, 0.2, 0.4, 0.8}) {
+            const bool all = j == joints;
+            Cause worn{"friction_wear", all ? "all" : fmt::format("joint {}", j), "wear_per_m", "1/m", 0};
+            worn.joint = all ? -1 : j;
+            worn.fixed = part * length;
+            causes.push_back(worn);
+        }
     for (int j = 0; j < joints; ++j) {
         for (const char* side : {"", "left", "right"}) {
             Cause chip{"corner_loss", fmt::format("joint {}", j), "loss_m", "m", 0};
@@ -341,9 +372,6 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
             chip.side = side;
             causes.push_back(chip);
         }
-        Cause worn{"friction_wear", fmt::format("joint {}", j), "wear_per_m", "1/m", 0};
-        worn.joint = j;
-        causes.push_back(worn);
         Cause wear{"corner_wear", fmt::format("joint {}", j), "wear_m_rad", "m/rad", 0};
         wear.joint = j;
         causes.push_back(wear);

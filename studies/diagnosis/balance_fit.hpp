@@ -24,7 +24,8 @@ struct Cause {
     double neutral = 0;
     int joint = -1;        ///< -1: all
     int block = -1;        ///< -1: all
-    double fixed = 0;      ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel
+    double fixed = 0;      ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel,
+                           ///< path after which friction wears no more (0: never)
     std::string side = {}; ///< of a corner: "left" or "right"
     std::string label() const { return mechanism + " at " + place + (side.empty() ? "" : " " + side); }
 };
@@ -96,6 +97,8 @@ private:
     };
     using Column = std::vector<double>;
     Column column(const Cause& cause) const;
+    /// Whether a joint slides before its wear has ended, too.
+    bool seen_wearing(const Cause& cause) const;
     Result regress(const std::vector<Column>& given, const Column* tried) const;
 
     const Specimen& specimen_;

@@ -19,6 +19,8 @@ namespace stylobate {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double friction_method_deviation = 0.01;
 
 constexpr const char* name = "the study to be calibrated";
@@ -35,15 +37,30 @@ void check(const Study& study, const FitKey& key)
     with_values(study, {key.key}, {key.to});
 }
 
+/// What the units of the evidence belong to: a run of a campaign, a row of a table.
+struct CalibrationRun {
+    std::string name;
+    int motion_id = 0;
+};
+
 /// Units whose motions are left out together: motions in the order in which they come, dealt to at most six folds.
-std::vector<std::size_t> folds_of(const Campaign& campaign, const std::vector<std::size_t>& runs, std::size_t& folds)
+std::vector<std::size_t> folds_of(const std::vector<CalibrationRun>& all, const std::vector<std::size_t>& runs,
+                                  std::size_t& folds)
 {
     std::map<int, std::size_t> motions;
     std::vector<std::size_t> fold;
     for (const std::size_t run : runs)
-        fold.push_back(motions.try_emplace(campaign.runs[run].motion_id, motions.size() % most_folds).first->second);
+        fold.push_back(motions.try_emplace(all[run].motion_id, motions.size() % most_folds).first->second);
     folds = std::min(motions.size(), most_folds);
     return fold;
+}
+
+/// A vertical record is no number that can be fitted, and the measured motions would have to be its own.
+void refuse_vertical_record(const Study& study)
+{
+    if (study.vertical)
+        throw InputError("mechanisms.vertical_motion.file: a calibration has no vertical record of each test. Leave it "
+                         "out, or give mechanisms.vertical_motion.ratio.");
 }
 
 /// Progress of the whole calibration, from that of its parts.
@@ -61,13 +78,13 @@ public:
 private:
     void tell()
     {
-        progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        progress_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
         progress_.rate = static_cast<double>(progress_.done) / std::max(progress_.seconds, 1e-9);
         outer_.progress(progress_);
     }
     Observer& outer_;
     Progress progress_;
-    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    const Clock::time_point start_ = Clock::now();
 };
 
 } // namespace
@@ -171,42 +188,23 @@ Study default_study(const Campaign& campaign)
     return study;
 }
 
-Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
-                      const RunOptions& run, Observer& observer)
+namespace {
+
+/// Searches with each contact form, by one evidence.
+/// @param base what the search begins from
+/// @param all what the runs of the evidence are
+/// @param begin when the calibration did
+void search_forms(Calibration& result, const Study& base, std::vector<FitKey> keys, const CalibrationOptions& options,
+                  CalibrationEvidence& evidence, const std::vector<CalibrationRun>& all, const RunOptions& run,
+                  Observer& observer, Clock::time_point begin)
 {
-    const auto begin = std::chrono::steady_clock::now();
-    Calibration result;
-    result.measured = campaign.source;
-    Study base = start;
-    base.structure = structure_of(campaign.specimen);
-    base.text = study_text(base);
-    const std::vector<FitKey> keys = options.keys.empty() ? contact_keys(base) : options.keys;
-    if (keys.size() > most_keys)
-        throw InputError(fmt::format("--fit: {} parameters at once are too many; at most {}", keys.size(), most_keys));
-    for (const FitKey& key : keys)
-        check(base, key);
+    if (result.from_outcomes)
+        for (FitKey& key : keys)
+            key.method_deviation = 0; // nothing is followed
     const std::vector<ContactForm> forms =
         options.forms.empty() ? std::vector<ContactForm>{base.contact.form} : options.forms;
-
-    std::unique_ptr<CalibrationEvidence> evidence;
-    if (!options.outcomes)
-        evidence = history_evidence(campaign, options.runs, options.window_s);
-    if (!evidence) {
-        evidence = outcome_evidence(campaign, options.runs, base, options.ensemble);
-        result.from_outcomes = true;
-    }
-    if (!evidence)
-        throw InputError(fmt::format("{}: no run has both a base motion and either histories of the blocks or an "
-                                     "outcome (collapsed): nothing can be calibrated. Give base/acceleration_m_s2 and "
-                                     "blocks/x_m, blocks/theta_rad, or collapsed.",
-                                     campaign.source));
     std::size_t folds = 0;
-    const std::vector<std::size_t> fold = folds_of(campaign, evidence->runs(), folds);
-    const std::set<std::size_t> used(evidence->runs().begin(), evidence->runs().end());
-    if (used.size() < campaign.runs.size() && options.runs.empty())
-        result.notes.push_back(fmt::format("{} of {} runs are used: the others lack a base motion, or {}", used.size(),
-                                           campaign.runs.size(),
-                                           result.from_outcomes ? "an outcome" : "histories of the blocks"));
+    const std::vector<std::size_t> fold = folds_of(all, evidence.runs(), folds);
     if (folds < 2)
         result.notes.emplace_back("all runs are of one motion: no motion can be left out and predicted by the others");
 
@@ -215,13 +213,13 @@ Calibration calibrate(const Campaign& campaign, const Study& start, const Calibr
         Study with_form = base;
         with_form.contact.form = form;
         with_form.text = study_text(with_form);
-        CalibrationSearch search(with_form, keys, options, *evidence, run, counting,
+        CalibrationSearch search(with_form, keys, options, evidence, run, counting,
                                  [&](std::size_t done) { counting.advance(done); });
         std::optional<FormCalibration> found = search.run(fold, folds);
         if (!found)
-            return result;
+            return;
         for (std::size_t r = 0, u = 0; r < found->runs.size(); u += found->runs[r++].units) {
-            const MeasuredRun& measured = campaign.runs[evidence->runs()[u]];
+            const CalibrationRun& measured = all[evidence.runs()[u]];
             found->runs[r].run = measured.name;
             found->runs[r].motion_id = measured.motion_id;
         }
@@ -236,12 +234,96 @@ Calibration calibrate(const Campaign& campaign, const Study& start, const Calibr
     for (std::size_t f = 1; f < result.forms.size(); ++f)
         if (merit(result.forms[f]) > merit(result.forms[result.best]))
             result.best = f;
-    result.parameter_sets = evidence->candidates();
-    result.simulations = evidence->simulations();
-    result.window_simulations = evidence->window_simulations();
-    result.block_steps = evidence->block_steps();
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.parameter_sets = evidence.candidates();
+    result.simulations = evidence.simulations();
+    result.window_simulations = evidence.window_simulations();
+    result.block_steps = evidence.block_steps();
+    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     result.complete = true;
+}
+
+/// The keys to be fitted, all of them ones that the study can have.
+std::vector<FitKey> checked_keys(const Study& base, const CalibrationOptions& options)
+{
+    std::vector<FitKey> keys = options.keys.empty() ? contact_keys(base) : options.keys;
+    if (keys.size() > most_keys)
+        throw InputError(fmt::format("--fit: {} parameters at once are too many; at most {}", keys.size(), most_keys));
+    for (const FitKey& key : keys)
+        check(base, key);
+    return keys;
+}
+
+} // namespace
+
+Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
+                      const RunOptions& run, Observer& observer)
+{
+    const Clock::time_point begin = Clock::now();
+    Calibration result;
+    result.measured = campaign.source;
+    refuse_vertical_record(start);
+    Study base = start;
+    base.structure = structure_of(campaign.specimen);
+    base.text = study_text(base);
+    const std::vector<FitKey> keys = checked_keys(base, options);
+
+    std::unique_ptr<CalibrationEvidence> evidence;
+    if (!options.outcomes)
+        evidence = history_evidence(campaign, options.runs, options.window_s);
+    if (!evidence) {
+        evidence = outcome_evidence(outcome_tests(campaign, options.runs),
+                                    start.perturbations.empty() ? tolerances(campaign.specimen) : start.perturbations,
+                                    options.ensemble);
+        result.from_outcomes = true;
+    }
+    if (!evidence)
+        throw InputError(fmt::format("{}: no run has both a base motion and either histories of the blocks or an "
+                                     "outcome (collapsed): nothing can be calibrated. Give base/acceleration_m_s2 and "
+                                     "blocks/x_m, blocks/theta_rad, or collapsed.",
+                                     campaign.source));
+    const std::set<std::size_t> used(evidence->runs().begin(), evidence->runs().end());
+    if (used.size() < campaign.runs.size() && options.runs.empty())
+        result.notes.push_back(fmt::format("{} of {} runs are used: the others lack a base motion, or {}", used.size(),
+                                           campaign.runs.size(),
+                                           result.from_outcomes ? "an outcome" : "histories of the blocks"));
+    std::vector<CalibrationRun> all;
+    for (const MeasuredRun& measured : campaign.runs)
+        all.push_back({measured.name, measured.motion_id});
+    search_forms(result, base, keys, options, *evidence, all, run, observer, begin);
+    return result;
+}
+
+Calibration calibrate(const OutcomeTable& table, const Study& start, const CalibrationOptions& options,
+                      const RunOptions& run, Observer& observer)
+{
+    const Clock::time_point begin = Clock::now();
+    Calibration result;
+    result.measured = table.source;
+    result.from_outcomes = true;
+    for (const Finding& finding : table.findings)
+        result.notes.push_back(finding.place + ": " + finding.text);
+    refuse_vertical_record(start);
+    Study base = start;
+    base.text = study_text(base);
+    const std::vector<FitKey> keys = checked_keys(base, options);
+    const std::unique_ptr<CalibrationEvidence> evidence =
+        outcome_evidence(outcome_tests(table, start),
+                         start.perturbations.empty() ? tolerances(Specimen{}) : start.perturbations, options.ensemble);
+    if (!evidence)
+        throw InputError(table.source, 0,
+                         "has no test that says what shook the specimen and whether it fell: nothing can be "
+                         "calibrated.\n  io/FORMAT.md has the layout.");
+    std::vector<CalibrationRun> all;
+    std::size_t fell = 0;
+    for (const MeasuredOutcome& row : table.rows) {
+        all.push_back({fmt::format("line {}", row.line), row.motion_id});
+        fell += row.fell;
+    }
+    if (fell == 0 || fell == all.size())
+        result.notes.push_back(fmt::format("all tests ended alike (all {}): they can bound a parameter to one side "
+                                           "alone",
+                                           fell == 0 ? "stood" : "fell"));
+    search_forms(result, base, keys, options, *evidence, all, run, observer, begin);
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
 #include "ensemble/observer.hpp"
+#include "ensemble/outcome_table.hpp"
 #include "ensemble/study.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 
@@ -124,6 +125,14 @@ double number_in(const Study& study, const std::string& key);
 /// @param start  contacts and mechanisms; its structure is replaced by the specimen's
 /// @throws InputError if the campaign has neither histories nor outcomes, or a key cannot be fitted
 Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
+                      const RunOptions& run, Observer& observer);
+
+/// The same from a table of outcomes, which says nothing of the specimen.
+///
+/// @param start the structure too, and the excitation, for whatever the table leaves open (`outcome_tests.hpp`); its
+///              perturbations are drawn (none: friction by 5 % from joint to joint, and a specimen's usual tolerances)
+/// @throws InputError if a row cannot be used, there is none, or a key cannot be fitted
+Calibration calibrate(const OutcomeTable& table, const Study& start, const CalibrationOptions& options,
                       const RunOptions& run, Observer& observer);
 
 } // namespace stylobate

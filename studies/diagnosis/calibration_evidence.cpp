@@ -1,8 +1,6 @@
 #include "studies/diagnosis/calibration_evidence.hpp"
 
 #include "ensemble/sampler.hpp"
-#include "ensemble/specimen.hpp"
-#include "io/measured_motion.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 
 #include <algorithm>
@@ -73,35 +71,11 @@ private:
 
 class OutcomeEvidence : public CalibrationEvidence {
 public:
-    struct Run {
-        std::size_t index;
-        Motion motion;
-        bool collapsed;
-    };
-
-    OutcomeEvidence(const Campaign& campaign, std::vector<Run> tests, const Study& start, std::uint64_t ensemble)
-        : tests_(std::move(tests)), structure_(structure_of(campaign.specimen)), ensemble_(ensemble),
-          perturbations_(start.perturbations)
+    OutcomeEvidence(OutcomeTests tests, std::vector<Perturbation> perturbations, std::uint64_t ensemble)
+        : tests_(std::move(tests)), perturbations_(std::move(perturbations)), ensemble_(ensemble)
     {
-        for (const Run& test : tests_)
-            runs_.push_back(test.index);
-        if (!perturbations_.empty())
-            return;
-        // what is known of how a specimen differs from its plan
-        const Specimen& s = campaign.specimen;
-        const auto add = [&](Quantity quantity, Per per, double sd, double cov) {
-            Perturbation p;
-            p.quantity = quantity;
-            p.per = per;
-            p.sd = sd;
-            p.cov = cov;
-            if (sd > 0 || cov > 0)
-                perturbations_.push_back(p);
-        };
-        add(Quantity::friction, Per::joint, 0, 0.05);
-        add(Quantity::drum_width, Per::block, 0, s.width_tolerance);
-        add(Quantity::drum_offset, Per::block, s.placement_tolerance_m, 0);
-        add(Quantity::density, Per::block, 0, s.mass_tolerance);
+        for (const OutcomeTest& test : tests_.tests)
+            runs_.push_back(test.run);
     }
 
     const std::vector<std::size_t>& runs() const override { return runs_; }
@@ -112,20 +86,18 @@ public:
         std::vector<std::vector<double>> all;
         Quietly quietly(observer);
         for (const Study& candidate : candidates) {
-            std::vector<double> scores;
-            for (const Run& test : tests_) {
+            std::vector<double> share; // of falls, by shaking
+            for (const TestShaking& shaking : tests_.shakings) {
                 Study study = candidate;
                 study.kind = StudyKind::single;
                 study.surface.reset();
                 study.realizations = ensemble_;
-                study.structure = structure_;
                 study.perturbations = perturbations_;
-                study.excitation = ExcitationSpec{};
-                study.excitation.kind = ExcitationKind::record;
+                study.excitation = shaking.excitation;
                 study.outcome.follow = Follow::collapse;
                 // the same draws for every candidate: what differs is the parameters' doing
-                study.seed = candidate.seed + test.index;
-                const Sampler sampler(study, &test.motion);
+                study.seed = candidate.seed + share.size();
+                const Sampler sampler(study, shaking.motion.get());
                 RunPlan plan;
                 plan.total = ensemble_;
                 std::uint64_t collapsed = 0, valid = 0;
@@ -135,14 +107,16 @@ public:
                     for (const Block& block : r.blocks)
                         block_steps_ += block.fixed ? 0 : o.steps;
                 };
-                const Progress p = run_ensemble(study, sampler, &test.motion, options, plan, quietly);
+                const Progress p = run_ensemble(study, sampler, shaking.motion.get(), options, plan, quietly);
                 if (p.done < plan.total)
                     return false;
                 simulations_ += plan.total;
                 // the mean of the posterior of Jeffreys' prior: a small ensemble never excludes an outcome
-                const double share = (static_cast<double>(collapsed) + 0.5) / (static_cast<double>(valid) + 1);
-                scores.push_back(std::log(test.collapsed ? share : 1 - share));
+                share.push_back((static_cast<double>(collapsed) + 0.5) / (static_cast<double>(valid) + 1));
             }
+            std::vector<double> scores;
+            for (const OutcomeTest& test : tests_.tests)
+                scores.push_back(std::log(test.collapsed ? share[test.shaking] : 1 - share[test.shaking]));
             all.push_back(std::move(scores));
         }
         std::move(all.begin(), all.end(), std::back_inserter(scores_));
@@ -158,19 +132,13 @@ public:
     std::uint64_t block_steps() const override { return block_steps_; }
 
 private:
-    const std::vector<Run> tests_;
-    const StructureSpec structure_;
+    const OutcomeTests tests_;
+    const std::vector<Perturbation> perturbations_;
     const std::uint64_t ensemble_;
-    std::vector<Perturbation> perturbations_;
     std::vector<std::size_t> runs_;           ///< (tests)
     std::vector<std::vector<double>> scores_; ///< (candidates x tests)
     std::uint64_t simulations_ = 0, block_steps_ = 0;
 };
-
-bool wanted(const std::vector<std::size_t>& runs, std::size_t run)
-{
-    return runs.empty() || std::find(runs.begin(), runs.end(), run) != runs.end();
-}
 
 } // namespace
 
@@ -186,20 +154,32 @@ std::unique_ptr<CalibrationEvidence> history_evidence(const Campaign& campaign, 
     return std::make_unique<HistoryEvidence>(std::move(comparison));
 }
 
-std::unique_ptr<CalibrationEvidence> outcome_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
-                                                      const Study& start, std::uint64_t ensemble)
+std::vector<Perturbation> tolerances(const Specimen& specimen)
 {
-    std::vector<OutcomeEvidence::Run> tests;
-    for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-        const MeasuredRun& run = campaign.runs[i];
-        if (!wanted(runs, i) || !run.collapsed ||
-            (run.base_acceleration_m_s2.empty() && run.base_displacement_m.empty()))
-            continue;
-        tests.push_back({i, base_motion_of(run), *run.collapsed});
-    }
-    if (tests.empty())
+    constexpr double friction_cov = 0.05;
+    std::vector<Perturbation> perturbations;
+    const auto add = [&](Quantity quantity, Per per, double sd, double cov) {
+        Perturbation p;
+        p.quantity = quantity;
+        p.per = per;
+        p.sd = sd;
+        p.cov = cov;
+        if (sd > 0 || cov > 0)
+            perturbations.push_back(p);
+    };
+    add(Quantity::friction, Per::joint, 0, friction_cov);
+    add(Quantity::drum_width, Per::block, 0, specimen.width_tolerance);
+    add(Quantity::drum_offset, Per::block, specimen.placement_tolerance_m, 0);
+    add(Quantity::density, Per::block, 0, specimen.mass_tolerance);
+    return perturbations;
+}
+
+std::unique_ptr<CalibrationEvidence> outcome_evidence(OutcomeTests tests, std::vector<Perturbation> perturbations,
+                                                      std::uint64_t ensemble)
+{
+    if (tests.tests.empty())
         return nullptr;
-    return std::make_unique<OutcomeEvidence>(campaign, std::move(tests), start, ensemble);
+    return std::make_unique<OutcomeEvidence>(std::move(tests), std::move(perturbations), ensemble);
 }
 
 } // namespace stylobate

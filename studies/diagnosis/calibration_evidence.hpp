@@ -5,6 +5,7 @@
 #include "ensemble/executor.hpp"
 #include "ensemble/observer.hpp"
 #include "ensemble/study.hpp"
+#include "studies/diagnosis/outcome_tests.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -40,10 +41,12 @@ public:
 /// Null where no run has a history that a model could follow.
 std::unique_ptr<CalibrationEvidence> history_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
                                                       double window_s);
-/// Null where no run says whether it collapsed under a base motion that is known.
-/// @param start     its perturbations are drawn; without any, the specimen's tolerances are
-/// @param ensemble  realizations of each run and candidate
-std::unique_ptr<CalibrationEvidence> outcome_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
-                                                      const Study& start, std::uint64_t ensemble);
+/// How a specimen differs from its plan, as far as that is known: what is drawn where a study draws nothing.
+std::vector<Perturbation> tolerances(const Specimen& specimen);
+
+/// Null where there are no tests.
+/// @param ensemble realizations of each shaking and candidate
+std::unique_ptr<CalibrationEvidence> outcome_evidence(OutcomeTests tests, std::vector<Perturbation> perturbations,
+                                                      std::uint64_t ensemble);
 
 } // namespace stylobate

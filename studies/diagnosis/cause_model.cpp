@@ -26,6 +26,14 @@ void set(MechanismSpec& spec, const char* name, double value)
             spec.values[p] = value;
 }
 
+/// [mechanisms] are in the order of their list.
+void add(const MechanismSpec& spec, Study& study)
+{
+    study.mechanisms.push_back(spec);
+    std::sort(study.mechanisms.begin(), study.mechanisms.end(),
+              [](const MechanismSpec& a, const MechanismSpec& b) { return a.mechanism < b.mechanism; });
+}
+
 } // namespace
 
 void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realization& r)
@@ -112,9 +120,23 @@ void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Stud
                 break;
             }
     }
-    study.mechanisms.push_back(spec);
-    std::sort(study.mechanisms.begin(), study.mechanisms.end(),
-              [](const MechanismSpec& a, const MechanismSpec& b) { return a.mechanism < b.mechanism; });
+    add(spec, study);
+}
+
+void add_distortion(const TableDistortion& distortion, double gain, Study& study)
+{
+    MechanismSpec spec = neutral_spec(Mechanism::harmonic_distortion, study.contact.friction);
+    const std::vector<double>& size = distortion.size;
+    if (distortion.polynomial) {
+        set(spec, "second_quadrature", -size[0] / 2 / gain);
+        set(spec, "third", -size[1] / 4 / gain);
+    } else {
+        set(spec, "second", size[0] / gain);
+        set(spec, "second_quadrature", size[1] / gain);
+        set(spec, "third", size[2] / gain);
+        set(spec, "third_quadrature", size[3] / gain);
+    }
+    add(spec, study);
 }
 
 } // namespace stylobate

@@ -5,6 +5,7 @@
 #include "ensemble/specimen.hpp"
 #include "ensemble/study.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
+#include "studies/diagnosis/direct_tests.hpp"
 
 #include <vector>
 
@@ -21,6 +22,13 @@ struct SizedCause {
 void apply_cause(const SizedCause& cause, const SpecimenStructure& built, Realization& realization);
 
 /// Adds a cause to a study's [mechanisms], as `apply_cause` and the correction of the base do to a realization.
+/// @pre the cause has one size: no harmonic distortion, and no vertical motion that does not follow the horizontal one
 void add_mechanism(const SizedCause& cause, const SpecimenStructure& built, Study& study);
+
+/// Adds the overtones of the base to a study's [mechanisms]. Those of a polynomial are the ones that it makes of a
+/// sine: z2 = (1 - cos 2 psi) / 2 and z3 - 3 z / 4 = -sin(3 psi) / 4 of z = sin psi.
+/// @param gain of the base beside them: the distortion is that of the file's motion, the mechanism's that of the true
+/// one
+void add_distortion(const TableDistortion& distortion, double gain, Study& study);
 
 } // namespace stylobate

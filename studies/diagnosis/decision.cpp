@@ -27,7 +27,7 @@ JudgedCause judged_cause(const CauseFit& fit, Channel channel, const ChanceGains
     j.chance = chance.probability(channel, mechanism, fit.gain);
     j.surprise = std::min(fit.gain - j.chance95, -std::log(std::max(j.chance, 1e-30)) - 3);
     const double left = fit.gain_without_best();
-    if (chance.campaigns(channel) == 0)
+    if (!chance.tell_of(channel, mechanism))
         j.why_not = "what chance gives is not known";
     else if (fit.gain - j.chance95 < rule.clear)
         j.why_not = fmt::format("gains {:.1f} nats; chance gives up to {:.1f} (95 %)", fit.gain, j.chance95);
@@ -166,9 +166,11 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
     const double chance95 = chance.quantile95_of_structures();
     if (!balance.structures.empty()) {
         const StructureFit& best = balance.structures.front();
+        const double left = best.gain_by_run.empty()
+                                ? 0
+                                : best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end());
         const bool clear = best.gain > chance95 + rule.structure_clear && best.gain_by_run.size() > 1 &&
-                           best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end()) >
-                               rule.without_best * best.gain;
+                           (left > rule.without_best * best.gain || left > chance95 + rule.clear);
         double listed = explained;
         for (const CauseFit& fit : balance.causes)
             listed = std::max(listed, fit.gain);
@@ -180,6 +182,12 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
         }
     }
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;
+    // Most probable first. The second cause of the joints was judged with the first one given, among fewer rivals: it
+    // is no surer than that.
+    const auto of_joints = std::find_if(out.named.begin(), out.named.end(),
+                                        [](const JudgedCause& j) { return j.channel != Channel::direct; });
+    for (auto j = of_joints; j != out.named.end(); ++j)
+        j->probability = std::min(j->probability, of_joints->probability);
     std::stable_sort(out.named.begin(), out.named.end(),
                      [](const JudgedCause& a, const JudgedCause& b) { return a.probability > b.probability; });
     return out;

@@ -99,10 +99,11 @@ std::string wrong_words(const Diagnosis& diagnosis)
 {
     std::string text = "Excess: how far the calibrated baseline is off in short windows that start from the measured "
                        "state, in units of what noise and a lag of some milliseconds of the motion make (root mean "
-                       "square of the worst window; listed from 2 on).";
+                       "square of the worst window; listed are the worst, from 2 on).";
     if (diagnosis.verdict == Verdict::none)
-        text += " It is what its contacts and the scatter of specimens leave: no cause that was looked for explains it "
-                "clearly better than chance would.";
+        text +=
+            " Contacts and the scatter of specimens leave some of it; no cause that was looked for explains the rest "
+            "clearly better than chance would.";
     return text;
 }
 
@@ -110,7 +111,7 @@ std::string verdict_heading(const Diagnosis& diagnosis)
 {
     switch (diagnosis.verdict) {
     case Verdict::none:
-        return "Nothing is wrong beyond what chance explains";
+        return "No cause is found beyond what chance explains";
     case Verdict::named: {
         std::vector<std::string> names;
         for (const Candidate* cause : named_causes(diagnosis))

@@ -3,22 +3,17 @@
 #include "studies/diagnosis/direct_findings.hpp"
 #include "studies/diagnosis/rest_tests.hpp"
 #include "studies/diagnosis/ride.hpp"
-#include "studies/diagnosis/robust_fit.hpp"
+#include "studies/diagnosis/vertical_test.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <set>
 
 namespace stylobate {
 
 namespace {
-
-// More than so many standard deviations of noise is leaning.
-constexpr double most_leans = 2.5;
 
 /// A sample of a series that this run may lack: then NaN.
 double sample_of(const std::vector<double>& series, std::size_t i)
@@ -46,38 +41,6 @@ double harmonic_term(double u, double quadrature, int order, bool sine)
         return 0;
     const double phase = std::atan2(u, quadrature); // u = A sin(phase)
     return amplitude * (sine ? std::sin(order * phase) : std::cos(order * phase));
-}
-
-/// The same fit with standard deviations that also hold what differs from run to run (the jackknife's): soft contacts
-/// and what else rides along is alike within a run, and no noise.
-template <class Value, class Column>
-RideFit fit_over_runs(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)
-{
-    RideFit fit = fit_rides(rides, regressors, value, column);
-    std::set<std::size_t> runs;
-    for (const Ride& ride : rides)
-        runs.insert(ride.run);
-    if (runs.size() < 3)
-        return fit;
-    std::vector<double> sum(fit.size.size(), 0), squares(fit.size.size(), 0);
-    for (const std::size_t left_out : runs) {
-        std::vector<Ride> others;
-        for (const Ride& ride : rides)
-            if (ride.run != left_out)
-                others.push_back(ride);
-        const RideFit without = fit_rides(others, regressors, value, column);
-        for (std::size_t k = 0; k < sum.size(); ++k) {
-            sum[k] += without.size[k];
-            squares[k] += without.size[k] * without.size[k];
-        }
-    }
-    const auto n = static_cast<double>(runs.size());
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-        const double variance = std::max(0.0, squares[k] / n - std::pow(sum[k] / n, 2)) * (n - 1);
-        fit.sd[k] = std::max(fit.sd[k], std::sqrt(variance));
-        fit.gain[k] = 0.5 * std::pow(fit.size[k] / fit.sd[k], 2);
-    }
-    return fit;
 }
 
 int distortion_terms(bool polynomial)
@@ -127,65 +90,40 @@ TableDistortion distortion_of(bool polynomial, const RideFit& fit)
     return d;
 }
 
-/// The common vertical motion of all blocks while everything rides.
-struct VerticalMotion {
-    double rms_over_noise = 0; ///< beyond what noise makes
-    double ratio = 0, ratio_sd = 0;
-    double peak_m_s2 = 0;
-    std::size_t samples = 0;
-};
-
-VerticalMotion vertical_motion(const Prepared& prepared, const TrackScales& scales)
+void test_height(const VerticalMotion& vertical, const std::string& what, const DirectThresholds& limits,
+                 DirectResult& out)
 {
-    VerticalMotion out;
-    double square = 0, noise = 0;
-    for (const Ride& ride : prepared.rides) {
-        if (ride.y.empty())
-            continue;
-        // what was not seen spoils the smoothing of its neighbours, too
-        const std::vector<double> smooth = scales.rates.apply(0, ride.y), rise = scales.widths.back().apply(2, ride.y);
-        std::vector<double> turned = ride.theta;
-        for (double& v : turned)
-            v = std::isfinite(v) ? v : 0;
-        const std::vector<double> angle = scales.rates.apply(0, turned);
-        for (const auto& [from, to] : ride.parts) {
-            // a block that leans is lifted by it
-            std::vector<std::size_t> upright;
-            const double straight = ride.theta.empty() ? 0 : mean_of(angle, from, to);
-            for (std::size_t i = from; i < to; ++i)
-                if (std::isfinite(smooth[i]) &&
-                    (ride.theta.empty() ||
-                     std::fabs(angle[i] - straight) < most_leans * ride.noise_theta * scales.rates.noise(0)))
-                    upright.push_back(i);
-            double mean = 0;
-            for (const std::size_t i : upright)
-                mean += smooth[i] / static_cast<double>(upright.size());
-            for (const std::size_t i : upright) {
-                square += std::pow(smooth[i] - mean, 2);
-                noise += std::pow(ride.noise_y * scales.rates.noise(0), 2);
-                if (std::isfinite(rise[i]))
-                    out.peak_m_s2 = std::max(out.peak_m_s2, std::fabs(rise[i]));
-                ++out.samples;
-            }
-        }
+    if (vertical.samples == 0) {
+        out.base_tests.push_back(cannot("vertical_motion", "Heights were not measured."));
+        return;
     }
-    if (out.samples == 0)
-        return out;
-    const double n = static_cast<double>(out.samples);
-    const double per_noise = prepared.rides.front().noise_y;
-    out.rms_over_noise = std::sqrt(std::max(0.0, square / n - noise / n)) / per_noise;
-    const RideFit fit = fit_rides(
-        prepared.rides, 1,
-        [](const Ride& r, std::size_t i) {
-            return std::pair{sample_of(r.y, i), r.noise_y};
-        },
-        [](const Ride& r, std::size_t i, int) { return r.base[i]; });
-    out.ratio = fit.size[0];
-    out.ratio_sd = fit.sd[0];
-    return out;
+    const bool follows = beyond(vertical.ratio, vertical.ratio_sd, limits.vertical_ratio, limits.sds);
+    const bool rings = vertical.line > limits.vertical_line;
+    const bool found = vertical.rms_over_noise > limits.vertical || follows || rings;
+    std::string how;
+    if (follows)
+        how = fmt::format(", {:.3f} times the horizontal motion", vertical.ratio);
+    else if (rings)
+        how = fmt::format(", with {:.2f} Hz in all motions", vertical.line_hz);
+    out.base_tests.push_back(told("vertical_motion", "base", vertical.rms_over_noise,
+                                  std::numeric_limits<double>::quiet_NaN(), limits.vertical, "of the noise", found,
+                                  fmt::format("{} moves up and down by {:.2f} of the cameras' noise (rms){}.", what,
+                                              vertical.rms_over_noise, how)));
+    if (!found)
+        return;
+    if (follows)
+        out.found.push_back(cause_of("vertical_motion", "base", "ratio", "", 0, vertical.ratio, vertical.ratio_sd,
+                                     0.5 * std::pow(vertical.ratio / vertical.ratio_sd, 2)));
+    else if (vertical.rms_over_noise > limits.vertical) // seen as it is, of which a line may be a part
+        out.found.push_back(cause_of("vertical_motion", "base", "peak_m_s2", "m/s2", 0, vertical.peak_m_s2,
+                                     0.1 * vertical.peak_m_s2, 100));
+    else
+        out.found.push_back(cause_of("vertical_motion", "base", "peak_m_s2", "m/s2", 0, vertical.line_m_s2,
+                                     vertical.line_sd_m_s2, vertical.line));
 }
 
-void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared, DirectResult& out)
+void test_base(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared,
+               DirectResult& out)
 {
     const std::string place = "base";
     std::size_t samples = 0;
@@ -271,26 +209,7 @@ void test_base(const TrackScales& scales, const DirectThresholds& limits, Prepar
     } else {
         out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
     }
-    const VerticalMotion vertical = vertical_motion(prepared, scales);
-    if (vertical.samples > 0) {
-        const bool found = vertical.rms_over_noise > limits.vertical;
-        const bool follows =
-            std::fabs(vertical.ratio) > limits.sds * vertical.ratio_sd && std::fabs(vertical.ratio) > 0.02;
-        out.base_tests.push_back(told(
-            "vertical_motion", place, vertical.rms_over_noise, std::numeric_limits<double>::quiet_NaN(),
-            limits.vertical, "of the noise", found,
-            fmt::format("{} moves up and down by {:.2f} of the cameras' noise (rms){}.", prepared.what,
-                        vertical.rms_over_noise,
-                        found && follows ? fmt::format(", {:.3f} times the horizontal motion", vertical.ratio) : "")));
-        if (found)
-            out.found.push_back(follows
-                                    ? cause_of("vertical_motion", place, "ratio", "", 0, vertical.ratio,
-                                               vertical.ratio_sd, 0.5 * std::pow(vertical.ratio / vertical.ratio_sd, 2))
-                                    : cause_of("vertical_motion", place, "peak_m_s2", "m/s2", 0, vertical.peak_m_s2,
-                                               0.1 * vertical.peak_m_s2, 100));
-    } else {
-        out.base_tests.push_back(cannot("vertical_motion", "Heights were not measured."));
-    }
+    test_height(vertical_motion(campaign, prepared, scales, pitches ? slope : 0), prepared.what, limits, out);
     const bool late = beyond(offset, offset_sd, narrower * limits.offset_s, limits.sds);
     out.base_tests.push_back(
         told("time_offset", place, offset, offset_sd, narrower * limits.offset_s, "s", late,
@@ -382,7 +301,7 @@ DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, c
 {
     DirectResult out = uncorrected(campaign);
     Prepared prepared = prepare_rides(campaign, scales);
-    test_base(scales, limits, prepared, out);
+    test_base(campaign, scales, limits, prepared, out);
     correct_bases(campaign, scales, out);
     align_bases(campaign, out);
     test_rest(campaign, scales, limits, out);

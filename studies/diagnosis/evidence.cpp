@@ -42,6 +42,8 @@ bool possible(const CauseFit& fit)
         return fit.size > 0.05 && fit.size < 3;
     if (m == "stribeck")
         return fit.size > 0.05 && fit.size < 1;
+    if (m == "friction_wear" && fit.size * fit.cause.fixed > 1)
+        return false; // no friction is left
     if (m == "drag" || m == "dowel" || m == "corner_loss" || m == "corner_wear" || m == "friction_wear")
         return fit.size > 0;
     return true;
@@ -87,16 +89,15 @@ void ChanceGains::add(Channel channel, const std::vector<CauseFit>& fits)
     std::map<std::string, double> most;
     for (const CauseFit& fit : fits)
         most[fit.cause.mechanism] = std::max(most[fit.cause.mechanism], fit.gain);
-    const std::size_t before = campaigns(channel);
-    // mechanisms that only some campaigns name
+    // one that this campaign does not name, or those before it did not, had 0 there
+    const std::size_t before = campaigns_[channel]++;
+    for (const auto& [mechanism, gain] : most)
+        gains_[{channel, mechanism}].resize(before, 0);
     for (auto& [key, gains] : gains_)
-        if (key.first == channel && key.second != structure)
-            most.emplace(key.second, 0);
-    for (const auto& [mechanism, gain] : most) {
-        std::vector<double>& gains = gains_[{channel, mechanism}];
-        gains.resize(before, 0);
-        gains.push_back(gain);
-    }
+        if (key.first == channel && key.second != structure) {
+            const auto found = most.find(key.second);
+            gains.push_back(found == most.end() ? 0 : found->second);
+        }
 }
 
 void ChanceGains::add(const std::vector<StructureFit>& structures)
@@ -106,11 +107,13 @@ void ChanceGains::add(const std::vector<StructureFit>& structures)
 
 std::size_t ChanceGains::campaigns(Channel channel) const
 {
-    std::size_t most = 0;
-    for (const auto& [key, gains] : gains_)
-        if (key.first == channel && key.second != structure)
-            most = std::max(most, gains.size());
-    return most;
+    const auto found = campaigns_.find(channel);
+    return found == campaigns_.end() ? 0 : found->second;
+}
+
+bool ChanceGains::tell_of(Channel channel, const std::string& mechanism) const
+{
+    return gains_.contains({channel, mechanism});
 }
 
 const std::vector<double>& ChanceGains::of(Channel channel, const std::string& mechanism) const
@@ -166,6 +169,8 @@ double ChanceGains::probability_of_structure(double gain) const
 
 void ChanceGains::set(Channel channel, const std::string& mechanism, std::vector<double> gains)
 {
+    if (mechanism != structure)
+        campaigns_[channel] = std::max(campaigns_[channel], gains.size());
     gains_[{channel, mechanism}] = std::move(gains);
 }
 

@@ -50,8 +50,12 @@ public:
     /// The most telling structure of one campaign.
     void add(const std::vector<StructureFit>& structures);
 
+    /// How many were taken, also those that name no mechanism.
     std::size_t campaigns(Channel channel) const;
-    /// 95 % quantile; 0 where there are no campaigns.
+    /// Whether any campaign names the mechanism. Where none does, it may be that it cannot show in them (nothing
+    /// slides), so that they say nothing of what chance gives it.
+    bool tell_of(Channel channel, const std::string& mechanism) const;
+    /// 95 % quantile; 0 where no campaign tells of the mechanism.
     double quantile95(Channel channel, const std::string& mechanism) const;
     double quantile95_of_structures() const;
     /// Probability of a gain at least as large by chance: the share of the campaigns, beyond their upper tenth
@@ -66,6 +70,7 @@ public:
 private:
     const std::vector<double>& of(Channel channel, const std::string& mechanism) const;
     std::map<std::pair<Channel, std::string>, std::vector<double>> gains_;
+    std::map<Channel, std::size_t> campaigns_;
 };
 
 } // namespace stylobate

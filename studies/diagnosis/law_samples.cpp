@@ -57,10 +57,13 @@ public:
                 const std::vector<LawTerm> laws = laws_of(i, half, covered);
                 if (laws.empty())
                     continue;
+                const std::size_t before = found.size();
                 balance(laws, w, i, run, found);
-                for (const LawTerm& law : laws)
-                    for (std::size_t k = i - half / 2; k <= i + half / 2; ++k)
-                        covered[slot(law.joint, law.law)][k] = 1;
+                // what gave no sample, because too many forces stayed unknown, may give one a little later
+                for (std::size_t f = before; f < found.size(); ++f)
+                    for (const LawTerm& law : found[f].terms)
+                        for (std::size_t k = i - half / 2; k <= i + half / 2; ++k)
+                            covered[slot(law.joint, law.law)][k] = 1;
             }
         }
         std::sort(found.begin(), found.end(),

@@ -89,8 +89,8 @@ Figure candidates_figure(const std::vector<Candidate>& candidates)
     figure.place = FigurePlace::candidates;
     figure.title = "What each cause would explain, and what chance would";
     figure.caption =
-        "Gain in log likelihood over the baseline; the line is what 95 % of simulated campaigns with nothing "
-        "hidden stay below.";
+        "Gain in log likelihood over the baseline; the dot is what 95 % of simulated campaigns with nothing "
+        "hidden stay below (of fewer than 20 campaigns: half as much again as their largest, and 1).";
     figure.x_label = "cause";
     figure.y_label = "gain [nats]";
     FigureSeries gain{"gain", SeriesKind::bars, {}, {}, {}, {}},
@@ -216,11 +216,10 @@ std::vector<std::string> finding_texts(const std::vector<Finding>& findings)
 std::string verdict_text(const Diagnosis& d)
 {
     if (d.verdict == Verdict::none)
-        return d.missing.empty()
-                   ? "Nothing was found that the simulation gets wrong beyond noise, scatter and its contact law."
-                   : fmt::format("Nothing was found that the simulation gets wrong beyond noise, scatter and its "
-                                 "contact law, in what could be judged. Not judged: {}.",
-                                 missing_words(d));
+        return "Nothing was found that explains what the simulation gets wrong better than noise, scatter and its "
+               "contact law do" +
+               (d.missing.empty() ? std::string(".")
+                                  : fmt::format(", in what could be judged. Not judged: {}.", missing_words(d)));
     std::vector<std::string> names;
     for (const Candidate* c : named_causes(d))
         names.push_back(fmt::format("{} {}, {}{}", c->mechanism, place_words(c->place), mechanism_words(c->mechanism),
@@ -437,7 +436,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                 continue;
             }
             if (j.fit.cause.mechanism == "harmonic_distortion") {
-                left_out.push_back("harmonic_distortion (give the corrected motion as a table instead)");
+                add_distortion(direct.distortion, direct.gain, extended);
                 continue;
             }
             add_mechanism({j.fit.cause, j.fit.size}, built, extended);

@@ -5,9 +5,11 @@
 #include "studies/diagnosis/robust_fit.hpp"
 #include "studies/diagnosis/track.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -144,6 +146,38 @@ RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value,
         out.gain[c] = 0.5 * std::pow(out.size[c] / out.sd[c], 2);
     }
     return out;
+}
+
+/// The same fit with standard deviations that also hold what differs from run to run (the jackknife's): soft contacts
+/// and what else rides along is alike within a run, and no noise.
+template <class Value, class Column>
+RideFit fit_over_runs(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)
+{
+    RideFit fit = fit_rides(rides, regressors, value, column);
+    std::set<std::size_t> runs;
+    for (const Ride& ride : rides)
+        runs.insert(ride.run);
+    if (runs.size() < 3)
+        return fit;
+    std::vector<double> sum(fit.size.size(), 0), squares(fit.size.size(), 0);
+    for (const std::size_t left_out : runs) {
+        std::vector<Ride> others;
+        for (const Ride& ride : rides)
+            if (ride.run != left_out)
+                others.push_back(ride);
+        const RideFit without = fit_rides(others, regressors, value, column);
+        for (std::size_t k = 0; k < sum.size(); ++k) {
+            sum[k] += without.size[k];
+            squares[k] += without.size[k] * without.size[k];
+        }
+    }
+    const auto n = static_cast<double>(runs.size());
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+        const double variance = std::max(0.0, squares[k] / n - std::pow(sum[k] / n, 2)) * (n - 1);
+        fit.sd[k] = std::max(fit.sd[k], std::sqrt(variance));
+        fit.gain[k] = 0.5 * std::pow(fit.size[k] / fit.sd[k], 2);
+    }
+    return fit;
 }
 
 } // namespace stylobate
