@@ -18,7 +18,7 @@ std::vector<Contender> contenders(const Engine& engine)
         c.setting = engine.settings[s];
         c.first = s == 0;
         c.customary = engine.customary_step_s;
-        for (int k = -8; k < 40; ++k)
+        for (int k = -8; k <= 28; ++k) // to 1/128 of the customary step
             c.dials.push_back(c.customary * std::pow(2, -0.25 * k));
         c.step_s = [](double step) { return step; };
         c.quarter_period_s = [engine, s](double step) { return quarter_period(engine, s, step); };

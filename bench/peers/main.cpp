@@ -1,12 +1,13 @@
 /// Stylobate and general engines of rigid bodies, at equal error: `peers --help`.
 
 #include "bench/peers/table.hpp"
-#include "ensemble/input_error.hpp"
+#include "bench/processor.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -15,14 +16,13 @@ using namespace stylobate::peers;
 
 namespace {
 
-std::string processor()
-{
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name"))
-            return line.substr(line.find(':') + 2);
-    return "unknown";
-}
+/// What is to be written after long work is looked at before it.
+const CLI::Validator in_folder(
+    [](std::string& path) {
+        const auto folder = std::filesystem::absolute(path).parent_path();
+        return std::filesystem::is_directory(folder) ? "" : "there is no folder " + folder.string();
+    },
+    "FILE");
 
 void write(const std::string& path, const std::string& text)
 {
@@ -39,10 +39,10 @@ int main(int argc, char** argv)
     CLI::App app("Accuracy and speed of the engines that were found, on one thread.");
     std::vector<std::string> names;
     std::string json_path, markdown_path;
-    double seconds = 3, patience_s = 90;
+    double seconds = 2, patience_s = 20;
     app.add_option("--engine", names, "only these (repeatable)");
-    app.add_option("--json", json_path, "write all measurements there");
-    app.add_option("--markdown", markdown_path, "write the table there");
+    app.add_option("--json", json_path, "write all measurements there")->check(in_folder);
+    app.add_option("--markdown", markdown_path, "write the table there")->check(in_folder);
     app.add_option("--seconds", seconds, "for each timing")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_option("--patience", patience_s, "a step whose tests take longer [s] ends an engine's scan")
         ->check(CLI::PositiveNumber)
