@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs general engines of rigid bodies, builds the comparison with them, runs it, and writes
-# bench/results/peers-PROCESSOR.json and the same as a table beside it (.md). Half an hour on one core.
+# bench/results/peers-PROCESSOR.json and the same as a table beside it (.md). A quarter of an hour on one core.
 #
 #   scripts/bench_peers.sh [--engine NAME] [--seconds 1]      a trial: with any option of bench/peers/peers the
 #                                                             results go to the terminal alone

@@ -39,12 +39,12 @@ int main(int argc, char** argv)
     CLI::App app("Accuracy and speed of the engines that were found, on one thread.");
     std::vector<std::string> names;
     std::string json_path, markdown_path;
-    double seconds = 2, patience_s = 20;
+    double seconds = 1, patience_s = 10;
     app.add_option("--engine", names, "only these (repeatable)");
     app.add_option("--json", json_path, "write all measurements there")->check(in_folder);
     app.add_option("--markdown", markdown_path, "write the table there")->check(in_folder);
     app.add_option("--seconds", seconds, "for each timing")->check(CLI::PositiveNumber)->capture_default_str();
-    app.add_option("--patience", patience_s, "a step whose tests take longer [s] ends an engine's scan")
+    app.add_option("--patience", patience_s, "a step that takes longer [s] and reaches nothing ends a setting's scan")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace stylobate::peers {
 
@@ -29,24 +30,30 @@ Result scan(const Contender& contender, double seconds, double patience_s)
                      contender.columns(errors.dial, false, seconds)};
     };
     result.customary = timed_at(errors_at(contender.customary));
-    std::map<std::size_t, Timed> timed; // of the scanned dials that were within a target
+    std::map<std::size_t, Timed> timed; // of the scanned dials that were within a target, and at which columns stand
+    std::set<std::size_t> fallen;       // those at which they do not
     for (const double dial : contender.dials) {
         const double begin = processor_seconds();
         result.scanned.push_back(errors_at(dial));
-        const double took = processor_seconds() - begin;
         const std::size_t n = result.scanned.size();
         for (std::size_t t = 0; n > confirmed_by && t < targets.size(); ++t) {
             const std::size_t i = n - 1 - confirmed_by;
-            if (result.reached[t] ||
+            if (result.reached[t] || fallen.count(i) ||
                 std::any_of(result.scanned.begin() + static_cast<std::ptrdiff_t>(i), result.scanned.end(),
                             [&](const Errors& e) { return !(e.worst() <= targets[t]); }))
                 continue;
-            if (!timed.count(i))
+            // the few that are run at the least show most of those that do not stand
+            if (!timed.count(i) && contender.columns(result.scanned[i].dial, false, 0).moved == 0)
                 timed[i] = timed_at(result.scanned[i]);
-            if (timed[i].stands())
+            if (timed.count(i) && timed[i].stands())
                 result.reached[t] = timed[i];
+            else
+                fallen.insert(i);
         }
-        if (result.reached.back() || took > patience_s)
+        const bool found = std::any_of(result.reached.begin(), result.reached.end(), [&](const auto& reached) {
+            return reached && n > confirmed_by && reached->errors.dial == result.scanned[n - 1 - confirmed_by].dial;
+        });
+        if (result.reached.back() || (!found && processor_seconds() - begin > patience_s))
             break;
     }
     return result;

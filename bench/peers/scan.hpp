@@ -39,7 +39,7 @@ struct Result {
 };
 
 /// @param seconds for each timing, about
-/// @param patience_s a dial whose two tests take longer than this ends the scan
+/// @param patience_s a dial that takes longer than this and reaches nothing ends the scan
 Result scan(const Contender& contender, double seconds, double patience_s);
 
 /// The fastest at a target, of Stylobate or of the others; null: none.
