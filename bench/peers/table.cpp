@@ -32,9 +32,10 @@ std::string rate_text(double rate)
 
 std::string line(const Contender& c, const std::string& at, const Timed& t)
 {
-    return fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} of {} | {} |\n", c.engine, c.own ? "" : c.version,
-                       c.setting, at, dial_text(c, t), percent(t.errors.quarter_period), percent(t.errors.overturning),
-                       rate_text(t.shaken.realizations_per_second), t.shaken.collapsed, t.shaken.count,
+    return fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} of {} | {} |\n", c.engine,
+                       c.own ? "" : " " + c.version, c.setting, at, dial_text(c, t), percent(t.errors.quarter_period),
+                       percent(t.errors.overturning), rate_text(t.shaken.realizations_per_second), t.shaken.collapsed,
+                       t.shaken.count,
                        t.resting.moved == 0 ? "yes" : fmt::format("{} of {} do not", t.resting.moved, t.resting.count));
 }
 
@@ -90,14 +91,17 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
                                    processor, code_version());
     for (std::size_t i = 0; i < results.size();) {
         const std::vector<Result> of = of_engine(results, i);
-        text += line(of.front().contender, "customary", of.front().customary);
+        const Contender& first = of.front().contender;
+        text += line(first, "customary", of.front().customary);
         for (std::size_t t = 0; t < targets.size(); ++t) {
-            const Result* best = fastest(of, of.front().contender.own, t);
-            if (best != nullptr) {
-                text += line(best->contender, target_text(t), *best->reached[t]);
-                continue;
-            }
-            text += fmt::format("| {} | not reached | {} | | | | | | |\n", of.front().contender.engine, target_text(t));
+            bool any = false;
+            for (const Result& r : of)
+                if (r.reached[t] && (first.own || &r == fastest(of, false, t))) {
+                    text += line(r.contender, target_text(t), *r.reached[t]);
+                    any = true;
+                }
+            if (!any)
+                text += fmt::format("| {} | not reached | {} | | | | | | |\n", first.engine, target_text(t));
         }
         i += of.size();
     }

@@ -7,7 +7,8 @@
 
 namespace stylobate::peers {
 
-/// Each engine's customary setting, and its fastest setting at each target; then the ratios.
+/// Each engine's customary setting, and at each target its fastest one (of Stylobate all contact forms); then the
+/// ratios.
 std::string markdown(const std::vector<Result>& results, const std::string& processor);
 
 /// All settings with all that was measured.
