@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that Stylobate is built from, run and tested with: the one list of them.
 # Does nothing where all are there already; needs no more rights than apt does.
+#
+#   scripts/install_packages.sh [PACKAGE...]     instead of that list
 set -euo pipefail
 
 packages=(
@@ -12,6 +14,7 @@ packages=(
     gnuplot-nox fonts-dejavu-core                       # pictures
     libgtest-dev libbenchmark-dev                       # tests, benchmarks
 )
+[[ $# -eq 0 ]] || packages=("$@")
 
 missing=()
 for package in "${packages[@]}"; do

@@ -1,0 +1,33 @@
+#pragma once
+/// The columns that are timed: the small-scale specimen (7 drums, the lowest one fixed) for 10 s, under a harmonic of
+/// 5 Hz and 2.15 m/s2 or at rest, each drum off its axis by a draw of 1e-6 m.
+
+#include "bench/peers/engine.hpp"
+#include "ensemble/study.hpp"
+
+namespace stylobate::peers {
+
+inline constexpr double column_seconds = 10;
+inline constexpr int most_columns = 64;
+
+/// The study of such columns, from which every engine gets the same realizations.
+Study column_study(bool shaken, double normal_stiffness_n_m2 = 1e8);
+
+/// How columns fared. Rigid ones do not even lift off: that takes g B / H = 2.706 m/s2, statics without a choice. So
+/// any that collapses is an error of the engine, or of a compliant contact.
+struct Columns {
+    int count = 0;
+    int collapsed = 0; ///< a drum below .6 of its height, as the study says
+    int moved = 0;     ///< the top drum is at the end off its place by more than 1 % of its width, or has fallen
+    /// On one core: the best of several timings of every simulated second, and 10 such seconds for each realization,
+    /// even where one ends sooner.
+    double realizations_per_second = 0;
+};
+
+/// Time that this process has had of the processor [s]: neighbours on a shared machine do not count.
+double processor_seconds();
+
+/// @param seconds about as long it takes; 3 columns at the least, 64 at the most
+Columns run_columns(const Engine& engine, std::size_t setting, double step_s, bool shaken, double seconds);
+
+} // namespace stylobate::peers

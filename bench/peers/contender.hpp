@@ -1,0 +1,27 @@
+#pragma once
+/// Who takes part: an engine in one setting of its solver, with one dial that makes it more accurate and slower. Of the
+/// others the dial is the time step; of Stylobate, whose error is that of a compliant contact, it is K_N.
+
+#include "bench/peers/column.hpp"
+
+namespace stylobate::peers {
+
+struct Contender {
+    std::string engine, version, planar, setting;
+    bool own = false;          ///< Stylobate
+    bool first = true;         ///< the engine's customary setting
+    std::vector<double> dials; ///< coarse to fine, each about 2^(-1/4) as fast as the one before
+    double customary = 0;      ///< one of them
+    std::function<double(double dial)> step_s;
+    std::function<double(double dial)> quarter_period_s;
+    std::function<double(double dial)> overturning_eta;
+    std::function<Columns(double dial, bool shaken, double seconds)> columns;
+};
+
+/// An engine in all of its settings.
+std::vector<Contender> contenders(const Engine& engine);
+
+/// Stylobate in all contact forms, one thread, widest instruction set.
+std::vector<Contender> own_contenders();
+
+} // namespace stylobate::peers

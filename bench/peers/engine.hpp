@@ -1,0 +1,67 @@
+#pragma once
+/// What all engines are asked to do: rectangles on shaken ground, in a plane. One file for each engine makes its
+/// worlds.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate::peers {
+
+/// Place of a rectangle: its centre [m], y up, and its rotation [rad], counter-clockwise.
+struct Pose {
+    double x_m = 0, y_m = 0, theta_rad = 0;
+};
+
+struct Body {
+    double half_width_m = 0, half_height_m = 0, depth_m = 0;
+    double mass_kg = 0; ///< spread evenly; of a fixed one without meaning
+    Pose start;         ///< at rest
+    bool fixed = false; ///< to the ground
+};
+
+struct Scene {
+    std::vector<Body> bodies;
+    double friction = 0; ///< mu of every pair
+    double gravity_m_s2 = 9.81;
+};
+
+/// One scene in motion, in the frame of the ground: shaking comes as a horizontal acceleration of all bodies, which is
+/// the same as moving the ground and keeps every engine's coordinates small.
+class World {
+public:
+    virtual ~World() = default;
+    World() = default;
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    /// One time step of the length for which the world was made, the ground being accelerated all along it [m/s2].
+    virtual void step(double ground_acceleration) = 0;
+    virtual Pose pose(std::size_t body) const = 0;
+};
+
+/// An engine as it is installed. Nothing bounces (restitution 0) and nothing is put to sleep in any of them.
+struct Engine {
+    std::string name;
+    std::string version;
+    std::string planar;          ///< how it is kept in a plane
+    double customary_step_s = 0; ///< of its documentation's first example
+    /// By how many steps its clock is ahead of its motion after a start from rest: half a step where it moves bodies
+    /// with their new velocities, minus half a step where with their old ones. No error of its physics.
+    double ahead_steps = 0;
+    std::vector<std::string> settings; ///< of its solver; the first one is customary
+    std::function<std::unique_ptr<World>(const Scene&, std::size_t setting, double step_s)> make;
+};
+
+/// The engines that were found when this was built.
+std::vector<Engine> engines();
+
+Engine box2d_engine();
+Engine chipmunk_engine();
+Engine ode_engine();
+Engine bullet_engine();
+Engine mujoco_engine();
+
+} // namespace stylobate::peers

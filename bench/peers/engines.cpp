@@ -1,0 +1,26 @@
+#include "bench/peers/engine.hpp"
+
+namespace stylobate::peers {
+
+std::vector<Engine> engines()
+{
+    std::vector<Engine> found;
+#ifdef STYLOBATE_PEER_BOX2D
+    found.push_back(box2d_engine());
+#endif
+#ifdef STYLOBATE_PEER_CHIPMUNK
+    found.push_back(chipmunk_engine());
+#endif
+#ifdef STYLOBATE_PEER_BULLET
+    found.push_back(bullet_engine());
+#endif
+#ifdef STYLOBATE_PEER_MUJOCO
+    found.push_back(mujoco_engine());
+#endif
+#ifdef STYLOBATE_PEER_ODE
+    found.push_back(ode_engine());
+#endif
+    return found;
+}
+
+} // namespace stylobate::peers

@@ -1,0 +1,123 @@
+/// MuJoCo: spatial in joint coordinates, double precision, soft contacts by convex optimisation.
+
+#include "bench/peers/engine.hpp"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+namespace stylobate::peers {
+
+namespace {
+
+/// How soft its contacts are: the time constant of what corrects them [s], and the impedance. The shortest constant
+/// that it allows is two steps.
+struct Setting {
+    const char* name;
+    double time_constant_s; ///< 0: two steps
+    const char* impedance;
+};
+constexpr std::array settings{Setting{"contacts as by default", 0.02, "0.9 0.95 0.001"},
+                              Setting{"stiff contacts", 0, "0.9 0.95 0.001"},
+                              Setting{"stiff contacts, impedance .999", 0, "0.999 0.9999 0.0001"}};
+
+/// x to the right and z up are the plane; the hinge's axis is -y, so that its angle is counter-clockwise.
+std::string model_text(const Scene& scene, const Setting& setting, double step_s)
+{
+    std::string bodies;
+    for (const Body& body : scene.bodies) {
+        const std::string box = fmt::format(
+            "<geom type='box' size='{} {} {}' mass='{}' friction='{} 0 0' solref='{} 1' solimp='{}'", body.half_width_m,
+            body.depth_m / 2, body.half_height_m, body.fixed ? 1 : body.mass_kg, scene.friction,
+            setting.time_constant_s > 0 ? setting.time_constant_s : 2 * step_s, setting.impedance);
+        if (body.fixed)
+            bodies += fmt::format("{} pos='{} 0 {}'/>", box, body.start.x_m, body.start.y_m);
+        else
+            bodies += fmt::format("<body pos='{} 0 {}'><joint type='slide' axis='1 0 0'/><joint type='slide' "
+                                  "axis='0 0 1'/><joint type='hinge' axis='0 -1 0'/>{}/></body>",
+                                  body.start.x_m, body.start.y_m, box);
+    }
+    return fmt::format("<mujoco><compiler boundmass='0' boundinertia='0'/>"
+                       "<option timestep='{}' cone='elliptic'/><size njmax='500' nconmax='100'/>"
+                       "<worldbody>{}</worldbody></mujoco>",
+                       step_s, bodies);
+}
+
+class MujocoWorld final : public World {
+public:
+    MujocoWorld(const Scene& scene, const Setting& setting, double step_s) : scene_(scene)
+    {
+        const std::string text = model_text(scene, setting, step_s);
+        const auto files = std::make_unique<mjVFS>();
+        mj_defaultVFS(files.get());
+        mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(text.size()));
+        std::memcpy(files->filedata[mj_findFileVFS(files.get(), "scene.xml")], text.data(), text.size());
+        char error[1000] = "";
+        model_ = mj_loadXML("scene.xml", files.get(), error, sizeof error);
+        mj_deleteVFS(files.get());
+        if (model_ == nullptr)
+            throw std::runtime_error(std::string("MuJoCo does not take the scene: ") + error);
+        data_ = mj_makeData(model_);
+        int joint = 0;
+        for (const Body& body : scene.bodies) {
+            joints_.push_back(body.fixed ? -1 : joint);
+            if (body.fixed)
+                continue;
+            data_->qpos[joint + 2] = body.start.theta_rad;
+            joint += 3;
+        }
+    }
+
+    ~MujocoWorld() override
+    {
+        mj_deleteData(data_);
+        mj_deleteModel(model_);
+    }
+
+    void step(double ground_acceleration) override
+    {
+        model_->opt.gravity[0] = -ground_acceleration;
+        model_->opt.gravity[2] = -scene_.gravity_m_s2;
+        mj_step(model_, data_);
+    }
+
+    Pose pose(std::size_t body) const override
+    {
+        Pose at = scene_.bodies[body].start;
+        if (const int joint = joints_[body]; joint >= 0) {
+            at.x_m += data_->qpos[joint];
+            at.y_m += data_->qpos[joint + 1];
+            at.theta_rad = data_->qpos[joint + 2];
+        }
+        return at;
+    }
+
+private:
+    Scene scene_;
+    mjModel* model_ = nullptr;
+    mjData* data_ = nullptr;
+    std::vector<int> joints_; ///< first of each body's three; -1: fixed
+};
+
+} // namespace
+
+Engine mujoco_engine()
+{
+    Engine engine{"MuJoCo",
+                  mj_versionString(),
+                  "two slides and one hinge for every body",
+                  0.002,
+                  0.5,
+                  {},
+                  [](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
+                      return std::make_unique<MujocoWorld>(scene, settings.at(setting), step_s);
+                  }};
+    for (const Setting& s : settings)
+        engine.settings.emplace_back(s.name);
+    return engine;
+}
+
+} // namespace stylobate::peers

@@ -1,0 +1,128 @@
+/// Stylobate among the others: the library as a study uses it, its step at .9 of each realization's safe bound.
+
+#include "bench/peers/contender.hpp"
+#include "bench/peers/overturning.hpp"
+#include "bench/peers/rocking.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/step_bound.hpp"
+#include "studies/verification/model.hpp"
+#include "studies/verification/rocking_block.hpp"
+#include "studies/version.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate::peers {
+
+namespace {
+
+constexpr double customary_stiffness = 1e8;
+
+/// The monolith in a contact form, at the step that a study would take.
+Realization block(ContactForm form, double K_n, double lean)
+{
+    Realization r = verification::leaned_block(model::mono_stone, K_n, lean, 1);
+    r.form = form;
+    r.step_s = RunSpec{}.step_fraction * step_bound(r).dt_s;
+    return r;
+}
+
+double eta_of(ContactForm form, double K_n)
+{
+    const Realization upright = block(form, K_n, 0);
+    const double weight = model::gravity * Monolith::width_m / Monolith::height_m;
+    try {
+        return model::least_overturning(
+            model::pulse(ExcitationKind::half_sine),
+            [&](double eta) {
+                Realization r = upright;
+                r.frequency_hz = pulse_rate * model::rocking_rate(model::mono_stone) / (2 * model::pi);
+                r.pga_m_s2 = eta * weight;
+                return r;
+            },
+            eta_low, eta_high, eta_tolerance);
+    } catch (const std::runtime_error&) { // the ends do not bracket it
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
+double upright_s(ContactForm form, double K_n)
+{
+    try {
+        return verification::upright_time(block(form, K_n, Monolith::lean));
+    } catch (const std::runtime_error&) { // it does not come upright in time
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
+Study study_of(ContactForm form, double K_n, bool shaken)
+{
+    Study study = column_study(shaken, K_n);
+    study.contact.form = form;
+    return study;
+}
+
+Columns run_own(ContactForm form, double K_n, bool shaken, double seconds)
+{
+    const Study study = study_of(form, K_n, shaken);
+    const Sampler sampler(study, nullptr);
+    const RunOptions options{best_isa(), 1};
+    Columns columns;
+    double spent = 0;
+    RunPlan plan;
+    const double lanes = kernels(options.isa).lanes;
+    plan.total = static_cast<std::uint64_t>(lanes);
+    for (int run = 0; run < 3 || spent < seconds; ++run) {
+        columns.count = columns.collapsed = columns.moved = 0;
+        double simulated = 0;
+        plan.sink = [&](const Realization& r, const Outcome& o) {
+            ++columns.count;
+            const bool fell = o.state == State::collapsed || o.state == State::invalid;
+            columns.collapsed += fell;
+            columns.moved += fell || std::fabs(o.residual_top_displacement_m) > 0.02 * r.blocks.back().half_width_m;
+            simulated += o.end_time_s;
+        };
+        Observer quiet;
+        const double begin = processor_seconds();
+        run_ensemble(study, sampler, nullptr, options, plan, quiet);
+        const double took = processor_seconds() - begin;
+        spent += took;
+        columns.realizations_per_second = std::max(columns.realizations_per_second, simulated / column_seconds / took);
+        if (run == 0) // it says how many registers fill a quarter of the time
+            plan.total = static_cast<std::uint64_t>(
+                lanes * std::clamp(std::floor(seconds / 4 / took), 1.0, most_columns / lanes));
+    }
+    return columns;
+}
+
+} // namespace
+
+std::vector<Contender> own_contenders()
+{
+    std::vector<Contender> all;
+    for (const auto& [form, name] : {std::pair{ContactForm::area, "contact by area (as published)"},
+                                     {ContactForm::two_corner, "contact at two corners"},
+                                     {ContactForm::points, "contact at five points"}}) {
+        Contender c;
+        c.engine = "Stylobate";
+        c.version = code_version();
+        c.planar = "planar by itself";
+        c.setting = name;
+        c.own = true;
+        c.first = form == ContactForm::area;
+        c.customary = customary_stiffness;
+        // the step goes with 1 / sqrt(K_N)
+        for (int k = -12; k < 40; ++k)
+            c.dials.push_back(c.customary * std::pow(2, 0.5 * k));
+        const ContactForm f = form;
+        c.step_s = [f](double K_n) { return Sampler(study_of(f, K_n, true), nullptr).realization(0).step_s; };
+        c.quarter_period_s = [f](double K_n) { return upright_s(f, K_n); };
+        c.overturning_eta = [f](double K_n) { return eta_of(f, K_n); };
+        c.columns = [f](double K_n, bool shaken, double seconds) { return run_own(f, K_n, shaken, seconds); };
+        all.push_back(std::move(c));
+    }
+    return all;
+}
+
+} // namespace stylobate::peers

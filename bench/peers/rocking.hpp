@@ -1,0 +1,25 @@
+#pragma once
+/// Test (a): a block leaned by half its slenderness and let go; the time until it is upright.
+
+#include "bench/peers/engine.hpp"
+
+namespace stylobate::peers {
+
+/// The specimen's drums as one block: 48 x 174 mm, 0.813 kg.
+struct Monolith {
+    static constexpr double width_m = 0.048, height_m = 0.174, depth_m = 0.048, mass_kg = 0.813;
+    static constexpr double friction = 5; ///< none of the tests is one of sliding
+    static constexpr double lean = 0.5;   ///< of its slenderness
+};
+
+/// The monolith on a wide ground, leaned counter-clockwise about its lower left corner; bodies: ground, monolith.
+Scene monolith_scene(double lean_rad);
+
+/// @return [s], on the straight line between the two steps around it, by a clock that is set right
+///         (`Engine::ahead_steps`); NaN if it takes more than 5 / p
+double quarter_period(const Engine& engine, std::size_t setting, double step_s);
+
+/// Housner's, exactly: the integral over the rigid block's energy [s].
+double exact_quarter_period();
+
+} // namespace stylobate::peers
