@@ -97,6 +97,46 @@ double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
     return block_steps;
 }
 
+/// The steps alone, without base motion and looks: what of `chunks` is the kernel's.
+void kernel(benchmark::State& state, Isa isa, int blocks)
+{
+    static Topology topology;
+    static Bundle bundle;
+    static const KernelTable* table;
+    table = &kernels(isa);
+    KernelTable seen = *table;
+    seen.run = [](const Topology& t, const Bundle& b, int first, int last) {
+        topology = t;
+        bundle = b;
+        table->run(t, b, first, last);
+    };
+    const Study study = rocking_column(blocks);
+    const Sampler sampler(study, nullptr);
+    LaneSet lanes(study, nullptr, seen, sampler.realization(0));
+    for (int lane = 0; lane < lanes.lanes(); ++lane)
+        lanes.load(lane, sampler.realization(static_cast<std::uint64_t>(lane)));
+    for (int chunk = 0; chunk < 100; ++chunk)
+        lanes.advance();
+    const std::size_t size = bundle_registers(topology) * static_cast<std::size_t>(bundle.lanes);
+    const std::vector<double> start(bundle.blocks, bundle.blocks + size);
+    int left = 500; // the same chunk of base motion again and again: not for long
+    for (auto _ : state) {
+        table->run(topology, bundle, 0, chunk_steps);
+        if (--left == 0) {
+            state.PauseTiming();
+            std::copy(start.begin(), start.end(), bundle.blocks);
+            left = 500;
+            state.ResumeTiming();
+        }
+    }
+    const double block_steps = static_cast<double>(lanes.lanes()) * (blocks - 1) * chunk_steps;
+    const OperationCounts per = operations_per_block_step(blocks);
+    using benchmark::Counter;
+    state.counters["block_steps_per_second"] = Counter(block_steps, Counter::kIsIterationInvariantRate);
+    state.counters["flops_per_second"] =
+        Counter(block_steps * static_cast<double>(per.flops()), Counter::kIsIterationInvariantRate);
+}
+
 void step(benchmark::State& state, Isa isa, int blocks)
 {
     const double block_steps = chunks(state, isa, rocking_column(blocks), 100);
@@ -112,8 +152,11 @@ const bool registered = [] {
     for (const Isa isa : usable_isas()) {
         const std::string name = to_string(isa);
         benchmark::RegisterBenchmark(("BM_PeakFma/" + name).c_str(), peak_fma, isa);
-        for (const int blocks : {2, 4, 7, 13, 25, 49})
-            benchmark::RegisterBenchmark(("BM_Step/" + name + "/" + std::to_string(blocks)).c_str(), step, isa, blocks);
+        for (const int blocks : {2, 4, 7, 13, 25, 49}) {
+            const std::string tail = "/" + name + "/" + std::to_string(blocks);
+            benchmark::RegisterBenchmark(("BM_Kernel" + tail).c_str(), kernel, isa, blocks);
+            benchmark::RegisterBenchmark(("BM_Step" + tail).c_str(), step, isa, blocks);
+        }
         const std::string structure = "BM_Structure/" + name + "/";
         const auto add = [&](const char* scene, const Study& study, int warm) {
             benchmark::RegisterBenchmark((structure + scene).c_str(), [isa, study, warm](benchmark::State& state) {
@@ -121,6 +164,8 @@ const bool registered = [] {
             });
         };
         add("column", rocking_column(7), 100);
+        add("column_two_corner", formed_column(ContactForm::two_corner), 100);
+        add("column_points", formed_column(ContactForm::points), 100);
         add("column_watched", watched_column(7), 100);
         add("colonnade_2x1", shaken_colonnade(2, 1, 4), 100);
         add("colonnade_2x2", shaken_colonnade(2, 2, 4), 100);

@@ -29,6 +29,14 @@ inline Study rocking_column(int blocks)
     return study;
 }
 
+/// The same with faces that carry in another way.
+inline Study formed_column(ContactForm form)
+{
+    Study study = rocking_column(7);
+    study.contact.form = form;
+    return study;
+}
+
 /// The same, with every pair watched that may meet when it falls.
 inline Study watched_column(int blocks)
 {

@@ -30,13 +30,18 @@ const Block& block_of(const Realization& r, int block)
 
 } // namespace
 
-bool is_extended(const Realization& r)
+bool has_mechanisms(const Realization& r)
 {
-    return r.extended || r.form != ContactForm::area || r.vertical != nullptr || r.base != BaseExtension{} ||
+    return r.extended || r.vertical != nullptr || r.base != BaseExtension{} ||
            std::any_of(r.blocks.begin(), r.blocks.end(),
                        [](const Block& block) { return block.extension != BlockExtension{}; }) ||
            std::any_of(r.joints.begin(), r.joints.end(),
                        [](const Joint& joint) { return joint.extension != JointExtension{}; });
+}
+
+bool is_extended(const Realization& r)
+{
+    return model_of(r).extended();
 }
 
 bool rests_otherwise(const Realization& r)
@@ -52,7 +57,7 @@ bool rests_otherwise(const Realization& r)
 
 Model model_of(const Realization& r)
 {
-    return {is_extended(r), r.form};
+    return {has_mechanisms(r), r.form};
 }
 
 double bed_load_n(const Realization& r, int bed)

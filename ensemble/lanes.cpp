@@ -214,7 +214,7 @@ void LaneSet::load(int lane, Realization realization)
     ++active_;
     place.realization = std::move(realization);
     const Realization& r = place.realization;
-    assert((!is_extended(r) || topology_.model.extended()) && r.form == topology_.model.form &&
+    assert((!model_of(r).mechanisms || topology_.model.mechanisms) && r.form == topology_.model.form &&
            "the realizations of a bundle follow the model of the pattern that it was made from");
     place.scales = scales_of(r);
     place.motion = BaseMotion(study_.excitation, r, record_);
@@ -316,7 +316,7 @@ void LaneSet::fill_extension(int lane)
 
 void LaneSet::pull(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
 {
-    assert(topology_.model.extended() && "only the extended model can be pulled");
+    assert(topology_.model.mechanisms && "only the extended model can be pulled");
     const int k = place_of_[static_cast<std::size_t>(block)];
     const double dt = realization(lane).step_s, dt2 = dt * dt;
     if (k < topology_.fixed)

@@ -28,24 +28,31 @@ double peak_fma(long count)
     return out[0];
 }
 
-/// The extended model as a type of the file that `Here` is of.
-template <class Here, ContactForm form>
-struct ExtendedHere : Extended<form> {
+/// A model as a type of the file that `Here` is of.
+template <class Here, class Mechanism>
+struct OfFile : Mechanism {
 };
+
+template <class Real, class Here, ContactForm form>
+void run_form(const Topology& topology, const Bundle& bundle, int first, int last)
+{
+    if (topology.model.mechanisms)
+        run_steps<Real, OfFile<Here, Extended<form>>>(topology, bundle, first, last);
+    else
+        run_steps<Real, OfFile<Here, Plain<form>>>(topology, bundle, first, last);
+}
 
 /// Runs the step that the bundle's model asks for.
 template <class Real, class Here>
 void run_model(const Topology& topology, const Bundle& bundle, int first, int last)
 {
-    if (!topology.model.extended())
-        return run_steps<Real, Here>(topology, bundle, first, last);
     switch (topology.model.form) {
     case ContactForm::area:
-        return run_steps<Real, ExtendedHere<Here, ContactForm::area>>(topology, bundle, first, last);
+        return run_form<Real, Here, ContactForm::area>(topology, bundle, first, last);
     case ContactForm::two_corner:
-        return run_steps<Real, ExtendedHere<Here, ContactForm::two_corner>>(topology, bundle, first, last);
+        return run_form<Real, Here, ContactForm::two_corner>(topology, bundle, first, last);
     case ContactForm::points:
-        return run_steps<Real, ExtendedHere<Here, ContactForm::points>>(topology, bundle, first, last);
+        return run_form<Real, Here, ContactForm::points>(topology, bundle, first, last);
     }
 }
 

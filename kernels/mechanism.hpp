@@ -1,25 +1,33 @@
 #pragma once
-/// Which model a step follows. The step is a template over this: a study that names no extension runs the baseline's
-/// instructions and no others. `mechanisms/extended.hpp` has the other one.
+/// Which model a step follows. The step is a template over this: a study that names no extension runs the instructions
+/// of its contact form and no others. `mechanisms/extended.hpp` has the extended one.
 
 #include "kernels/model.hpp"
 
 namespace stylobate {
 
-/// The paper's model, and nothing else.
-struct Baseline {
+/// Points along a face, at which a form has springs of its own.
+constexpr int points_of(ContactForm form)
+{
+    return form == ContactForm::two_corner ? 2 : form == ContactForm::points ? 5 : 0;
+}
+
+/// The paper's model with faces that carry in one way, and nothing else.
+template <ContactForm form_>
+struct Plain {
     static constexpr bool extended = false;
-    static constexpr ContactForm form = ContactForm::area;
-    static constexpr int points = 0; ///< along a face, at which a form of its own has springs
+    static constexpr ContactForm form = form_;
+    static constexpr int points = points_of(form);
 };
+using Baseline = Plain<ContactForm::area>;
 
 /// The paper's model with all extensions of `mechanisms/`, each of which may be neutral, realization by realization:
-/// where all are, it gives the baseline's bits.
+/// where all are, it gives the bits of `Plain`.
 template <ContactForm form_>
 struct Extended {
     static constexpr bool extended = true;
     static constexpr ContactForm form = form_;
-    static constexpr int points = form == ContactForm::two_corner ? 2 : form == ContactForm::points ? 5 : 0;
+    static constexpr int points = points_of(form);
 };
 
 } // namespace stylobate

@@ -15,7 +15,7 @@ enum class ContactForm : std::uint8_t {
 struct Model {
     bool mechanisms = false; ///< an extension of a joint, a block or the base may be other than neutral
     ContactForm form = ContactForm::area;
-    /// Whether the bundle has the rows of the extensions, and the extended step runs.
+    /// Whether the bundle has the rows of the extensions: some belong to the forms.
     bool extended() const { return mechanisms || form != ContactForm::area; }
     friend bool operator==(const Model&, const Model&) = default;
 };

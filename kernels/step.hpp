@@ -85,6 +85,8 @@ private:
 
     /// Whether forces act on the blocks besides those of the beds: these are summed up in the blocks' rows.
     static constexpr bool others = watching || Mechanism::extended;
+    /// Whether beds meet as in the paper: by the closed form of their overlap.
+    static constexpr bool paper = !Mechanism::extended && Mechanism::form == ContactForm::area;
 
     using Rows<Real>::get;
     using Rows<Real>::put;
@@ -181,7 +183,7 @@ private:
         const auto [below, above] = ends<Kind>(joint);
         Real x, y;
         const Placement<Real> place = placement<Kind>(joint, lower, upper, x, y);
-        if constexpr (Kind::at_rest && !Mechanism::extended)
+        if constexpr (Kind::at_rest && paper)
             pentagon_frame(place, get(OfBlock::half_width, above), s.frame);
         else
             s.place = place;
@@ -206,6 +208,8 @@ private:
             s.met = general(joint, s.place);
         } else if constexpr (Mechanism::extended) {
             s.met = meet_extended(joint, s);
+        } else if constexpr (!paper) {
+            meet_points(joint, s);
         } else {
             auto fits = s.frame.slope < s.frame.slope;
             pentagon(s.frame, get(OfBlock::half_width, ends<Kind>(joint).lower), get(OfJoint::depth_limit, joint), fits,
@@ -215,6 +219,22 @@ private:
             if (any(!fits)) [[unlikely]]
                 fall_back(joint, fits, s.met);
         }
+    }
+
+    STYLOBATE_INLINE void meet_points(int joint, Scratch& s) const
+    {
+        const auto [lower, upper] = ends<detail::Bed>(joint);
+        const Real bl = get(OfBlock::half_width, lower), bu = get(OfBlock::half_width, upper);
+        const Real limit = get(OfJoint::depth_limit, joint);
+        auto fits = bl < bl;
+        if constexpr (Mechanism::form == ContactForm::two_corner)
+            s.met = two_corner_overlap(s.place, bl, bu, limit, s.points, fits);
+        else
+            s.met =
+                points_overlap(s.place, bl, bu, limit, get(OfJointExtension::per_root_depth, joint), s.points, fits);
+        if (any(!fits)) [[unlikely]]
+            fall_back(s.place, {bl, get(OfBlock::half_height, lower), bu, get(OfBlock::half_height, upper)}, fits,
+                      s.met, s.points);
     }
 
     STYLOBATE_INLINE Overlap<Real> meet_extended(int joint, Scratch& s) const
@@ -354,6 +374,7 @@ private:
                                      get(OfJoint::mu, joint)};
             const Real spring = get(OfJoint::spring, joint);
             constexpr bool extended = Mechanism::extended && Kind::at_rest;
+            constexpr bool coupled = Kind::at_rest && (Mechanism::extended || Mechanism::points > 0);
             ContactForce<Real> f;
             [[maybe_unused]] Real couple(0.0), mu = law.mu;
             [[maybe_unused]] const Real turning = get(OfBlock::dtheta, upper) - get(OfBlock::dtheta, lower);
@@ -368,6 +389,9 @@ private:
                 f = bed.contact;
                 couple = bed.couple;
                 mu = bed.mu;
+            } else if constexpr (coupled) {
+                f = points_force(get(OfJointExtension::face_dashpot, joint), law, s.area, s.chord, s.closing, s.sliding,
+                                 turning, spring, s.points, couple);
             } else {
                 f = contact_force(law, s.area, s.chord, s.closing, s.sliding, spring);
             }
@@ -378,7 +402,7 @@ private:
             const Real upper_arm_x = s.arm_x - s.apart_x, upper_arm_y = s.arm_y - s.apart_y;
             Real upper_moment = fms(upper_arm_x, fy, upper_arm_y * fx);
             Real lower_moment = fms(s.arm_x, fy, s.arm_y * fx);
-            if constexpr (extended) {
+            if constexpr (coupled) {
                 upper_moment = upper_moment + couple;
                 lower_moment = lower_moment + couple;
             }
@@ -404,10 +428,11 @@ private:
             // energy: the work of this step is its displacement times the mean of the forces at its two ends
             const Real dashpot = fnma(law.K_n, s.area, f.normal);
             dashpot_energy = fma(dashpot + get(OfJoint::dashpot_force, joint), s.closing, dashpot_energy);
+            if constexpr (coupled) {
+                dashpot_energy = fnma(couple + get(OfJointExtension::couple, joint), turning, dashpot_energy);
+                put(OfJointExtension::couple, joint, couple);
+            }
             if constexpr (extended) {
-                using J = OfJointExtension;
-                dashpot_energy = fnma(couple + get(J::couple, joint), turning, dashpot_energy);
-                put(J::couple, joint, couple);
                 joint_energy = joint_energy + after_force(joint, s, f, turning);
             }
             put(OfJoint::dashpot_force, joint, dashpot);

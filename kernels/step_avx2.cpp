@@ -4,7 +4,7 @@
 namespace stylobate {
 
 namespace {
-struct Here : Baseline {};
+struct Here {};
 } // namespace
 
 extern const KernelTable avx2_kernels = kernel_table<Wide<xsimd::fma3<xsimd::avx2>>, Here>(Isa::avx2);

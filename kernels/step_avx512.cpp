@@ -4,7 +4,7 @@
 namespace stylobate {
 
 namespace {
-struct Here : Baseline {};
+struct Here {};
 } // namespace
 
 extern const KernelTable avx512_kernels = kernel_table<Wide<xsimd::avx512dq>, Here>(Isa::avx512);

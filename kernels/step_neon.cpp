@@ -4,7 +4,7 @@
 namespace stylobate {
 
 namespace {
-struct Here : Baseline {};
+struct Here {};
 } // namespace
 
 extern const KernelTable neon_kernels = kernel_table<Wide<xsimd::neon64>, Here>(Isa::neon);

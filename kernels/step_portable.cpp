@@ -3,7 +3,7 @@
 namespace stylobate {
 
 namespace {
-struct Here : Baseline {};
+struct Here {};
 } // namespace
 
 // For processors without a fused multiply-add: the C library's, slow, with the same bits.

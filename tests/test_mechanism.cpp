@@ -80,20 +80,26 @@ std::vector<Case> cases()
 
 } // namespace
 
-TEST(Mechanism, NeutralOnesGiveTheBaselinesBits)
+TEST(Mechanism, NeutralOnesGiveTheBitsOfTheFormWithoutThem)
 {
     const Study study = harmonic(8, 1);
-    std::vector<Realization> baseline;
-    for (unsigned seed = 1; seed <= 8; ++seed)
-        baseline.push_back(shaken_drums(seed, 1.5 + 0.5 * seed));
-    std::vector<Realization> neutral = baseline;
-    for (Realization& r : neutral)
-        r.extended = true;
-    const std::vector<Bits> want = run_bits(Isa::scalar, study, baseline, 300);
-    for (const Isa isa : usable_isas()) {
-        const std::vector<Bits> got = run_bits(isa, study, neutral, 300);
-        for (std::size_t i = 0; i < got.size(); ++i)
-            EXPECT_EQ(got[i], want[i]) << to_string(isa) << ' ' << i;
+    for (const ContactForm form : {ContactForm::area, ContactForm::two_corner, ContactForm::points}) {
+        std::vector<Realization> plain;
+        for (unsigned seed = 1; seed <= 8; ++seed) {
+            plain.push_back(shaken_drums(seed, 1.5 + 0.5 * seed));
+            plain.back().form = form;
+            if (form != ContactForm::area)
+                plain.back().step_s = 3e-5;
+        }
+        std::vector<Realization> neutral = plain;
+        for (Realization& r : neutral)
+            r.extended = true;
+        const std::vector<Bits> want = run_bits(Isa::scalar, study, plain, 300);
+        EXPECT_NE(want[0], want[7]);
+        for (const Isa isa : usable_isas()) {
+            EXPECT_EQ(run_bits(isa, study, plain, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
+            EXPECT_EQ(run_bits(isa, study, neutral, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
+        }
     }
 }
 

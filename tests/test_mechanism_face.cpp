@@ -64,9 +64,10 @@ double frequency_near(const Realization& r, const std::vector<double>& history, 
 enum class Along { x, y };
 
 /// Free vibration after a small pull for one chunk: the top block's displacement, step by step.
-std::vector<double> vibration(const Realization& r, Along along, double pull_m_s2, int chunks)
+std::vector<double> vibration(Realization r, Along along, double pull_m_s2, int chunks)
 {
     const Study study = still(10);
+    r.extended = true; // to be pulled
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
     const int top = static_cast<int>(r.blocks.size()) - 1;

@@ -110,6 +110,39 @@ struct BedForce {
     Real mu;     ///< in this step
 };
 
+/// Normal force of a form with points of its own.
+/// @param points shares and arms of the form's springs, in `FormPoints::area` and `x`
+/// @param bed elastic force and what is left of the dashpot at the centroid [N]
+template <class Real, int count, class Mask>
+STYLOBATE_INLINE FaceForce<Real> form_force(const FormPoints<Real, count>& points, Real dashpot, Mask pressed, Real bed,
+                                            Real closing, Real turning)
+{
+    FacePoints<Real, count> face;
+    for (int i = 0; i < count; ++i) {
+        face.share[i] = points.area[i];
+        face.arm[i] = points.x[i];
+        face.dashpot[i] = select(pressed, points.weight[i] * dashpot, Real(0.0));
+    }
+    return face_force(face, bed, closing, turning);
+}
+
+/// The contact law of a bed of such a form without mechanisms. Arguments as those of `contact_force` and `form_force`.
+/// @param couple on the upper block [N m]
+template <class Real, int count>
+STYLOBATE_INLINE ContactForce<Real> points_force(Real dashpot, const JointLaw<Real>& law, Real area, Real chord,
+                                                 Real closing, Real sliding, Real turning, Real spring,
+                                                 const FormPoints<Real, count>& points, Real& couple)
+{
+    const auto pressed = area > Real(0.0);
+    const Real bed = fma(fma(law.C_n_chord, chord, law.C_n_per_dt), closing, law.K_n * area);
+    const FaceForce<Real> normal = form_force(points, dashpot, pressed, bed, closing, turning);
+    couple = normal.couple;
+    ContactForce<Real> contact =
+        friction_force(law, select(pressed, law.mu * normal.normal, Real(0.0)), chord, sliding, spring);
+    contact.normal = normal.normal;
+    return contact;
+}
+
 /// The contact law of a bed with its mechanisms.
 /// @param points shares and arms of the form's springs, in `FormPoints::area` and `x`
 template <class Real, int count>
@@ -131,13 +164,7 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real>& rows, int joint, con
     Real F_n = max_of(bed, zero), couple = zero;
     const Real dashpot = rows.get(J::face_dashpot, joint);
     if constexpr (count > 0) {
-        FacePoints<Real, count> face;
-        for (int i = 0; i < count; ++i) {
-            face.share[i] = points.area[i];
-            face.arm[i] = points.x[i];
-            face.dashpot[i] = select(pressed, points.weight[i] * dashpot, zero);
-        }
-        const FaceForce<Real> f = face_force(face, bed, m.closing, m.turning);
+        const FaceForce<Real> f = form_force(points, dashpot, pressed, bed, m.closing, m.turning);
         F_n = f.normal;
         couple = f.couple;
     } else if (any(dashpot != zero)) {
