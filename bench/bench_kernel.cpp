@@ -119,13 +119,13 @@ void kernel(benchmark::State& state, Isa isa, int blocks)
         lanes.advance();
     const std::size_t size = bundle_registers(topology) * static_cast<std::size_t>(bundle.lanes);
     const std::vector<double> start(bundle.blocks, bundle.blocks + size);
-    int left = 500; // the same chunk of base motion again and again: not for long
+    int left = 50; // the same chunk of base motion again and again: not for long
     for (auto _ : state) {
         table->run(topology, bundle, 0, chunk_steps);
         if (--left == 0) {
             state.PauseTiming();
             std::copy(start.begin(), start.end(), bundle.blocks);
-            left = 500;
+            left = 50;
             state.ResumeTiming();
         }
     }

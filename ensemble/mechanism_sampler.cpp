@@ -52,7 +52,7 @@ Stream stream_of(Mechanism mechanism, std::size_t parameter)
 MechanismSampler::MechanismSampler(const Study& study, const Layout& layout)
     : seed_(study.seed), friction_(study.contact.friction), damping_(study.contact.damping), form_(study.contact.form)
 {
-    extended_ = damping_ == DampingAt::ends || form_ != ContactForm::area || study.vertical.has_value();
+    extended_ = (damping_ == DampingAt::ends && form_ == ContactForm::area) || study.vertical.has_value();
     for (const MechanismSpec& spec : study.mechanisms)
         add(spec, layout);
     for (const MechanismPerturbation& perturbation : study.mechanism_perturbations)
