@@ -124,9 +124,21 @@ struct Axis {
     double value(int i) const;
 };
 
+/// Confidence of the intervals of an adaptive surface.
+inline constexpr double adaptive_level = 0.95;
+
+/// Realizations where they are needed (ensemble/adaptive.hpp), instead of as many in each cell.
+struct AdaptiveSpec {
+    std::uint64_t budget = 0;  ///< realizations of the whole surface, at most
+    std::uint64_t minimum = 8; ///< of each cell
+    double half_width = 0.05;  ///< that each cell's interval is to have
+    bool borrow = true;        ///< from neighbouring cells
+};
+
 struct SurfaceSpec {
     Axis frequency_hz; ///< nf rows
     Axis pga_m_s2;     ///< np columns
+    std::optional<AdaptiveSpec> adaptive;
     int cells() const { return frequency_hz.count * pga_m_s2.count; }
 };
 
