@@ -7,11 +7,6 @@
 
 namespace stylobate {
 
-const char* to_string(IntervalMethod method)
-{
-    return method == IntervalMethod::own ? "own" : "surface";
-}
-
 AdaptiveAllocation::AdaptiveAllocation(const AdaptiveSpec& spec, std::size_t rows, std::size_t columns,
                                        std::uint64_t most)
     : spec_(spec), looks_(spec.minimum, most, spec.half_width, adaptive_level), model_(adaptive_level),

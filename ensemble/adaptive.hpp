@@ -24,13 +24,6 @@
 
 namespace stylobate {
 
-/// Where a cell's interval comes from.
-enum class IntervalMethod : std::uint8_t {
-    own,    ///< its own trials
-    surface ///< these, and what its neighbours say
-};
-const char* to_string(IntervalMethod method);
-
 /// What is known of a cell.
 struct CellEstimate {
     double probability = 0; ///< of its own trials their share, NaN without any; of the surface the posterior mean
