@@ -121,7 +121,8 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
         }
         if (o.total_collapse_time_s >= 0)
             fmt::print("  total collapse at {:.4f} s\n", o.total_collapse_time_s);
-        fmt::print("  {}\n", !known ? "not in the results yet"
+        fmt::print("  {}\n", !known ? (reader.complete() ? "not in the results: the run did not need it"
+                                                         : "not in the results yet")
                              : same ? "the same bits as in the results"
                                     : "NOT the bits of the results");
         if (!trajectory.empty())
