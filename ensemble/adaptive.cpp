@@ -23,12 +23,14 @@ std::vector<CellEstimate> AdaptiveAllocation::estimate(const SurfaceTrials& data
     std::vector<CellEstimate> estimates;
     for (std::size_t cell = 0; cell < data.cells(); ++cell) {
         const std::uint64_t n = data.trials[cell];
-        if (spec_.borrow && surface[cell].believed)
+        const BinomialInterval own = looks_.interval(n, data.collapses[cell]);
+        // a rough surface can make it wider: then it does not keep a cell going that its own trials have finished
+        if (spec_.borrow && surface[cell].believed && (looks_.narrow(surface[cell].interval) || !looks_.narrow(own)))
             estimates.push_back({surface[cell].probability, surface[cell].interval, IntervalMethod::surface});
         else
             estimates.push_back({n > 0 ? static_cast<double>(data.collapses[cell]) / static_cast<double>(n)
                                        : std::numeric_limits<double>::quiet_NaN(),
-                                 looks_.interval(n, data.collapses[cell]), IntervalMethod::own});
+                                 own, IntervalMethod::own});
     }
     return estimates;
 }

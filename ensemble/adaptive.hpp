@@ -8,10 +8,11 @@
 /// the lanes full.
 ///
 /// A cell's interval is that of its own trials, valid under this rule (`adaptive_looks.hpp`); or, with `borrow`, where
-/// a cell agrees with its neighbours, that of the surface model (`surface_model.hpp`). The intervals of all cells are
-/// computed from all trials after every round, so a cell that was narrow enough goes on if what its neighbours have
-/// shown since has made it too wide. An interval that begins with what is known beforehand (a posterior) is not bent
-/// by the rule of stopping; that it is right is a matter of the surface's smoothness, and measured.
+/// a cell agrees with its neighbours, that of the surface model (`surface_model.hpp`) unless only its own is narrow
+/// enough. The intervals of all cells are computed from all trials after every round, so a cell that was narrow enough
+/// goes on if what its neighbours have shown since has made it too wide. An interval that begins with what is known
+/// beforehand (a posterior) is not bent by the rule of stopping; that it is right is a matter of the surface's
+/// smoothness, and measured.
 ///
 /// Where the budget does not reach, the widest cells come first; their intervals stay right, and wider than asked for.
 

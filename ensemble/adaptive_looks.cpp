@@ -127,4 +127,15 @@ AdaptiveLooks::Expected AdaptiveLooks::expected(double p, std::size_t looks) con
     return expected_by_looks(rule_, p)[looks - 1];
 }
 
+std::uint64_t uniform_trials(double half_width, double level)
+{
+    std::uint64_t n = 1;
+    while (true) {
+        const BinomialInterval interval = jeffreys(n, n / 2, level);
+        if (interval.upper - interval.lower <= 2 * half_width)
+            return n;
+        ++n;
+    }
+}
+
 } // namespace stylobate

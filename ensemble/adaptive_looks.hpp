@@ -76,4 +76,8 @@ private:
     Rule rule_;
 };
 
+/// Trials that a cell needs if their number is fixed beforehand and nothing is known of p: Jeffreys' interval of p = 1/2
+/// at the level is just narrow enough.
+std::uint64_t uniform_trials(double half_width, double level);
+
 } // namespace stylobate

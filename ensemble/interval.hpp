@@ -15,7 +15,7 @@
 
 namespace stylobate {
 
-/// Where a cell's interval comes from.
+/// Where the interval of a cell of an adaptive surface comes from.
 enum class IntervalMethod : std::uint8_t {
     own,    ///< its own trials
     surface ///< these, and what its neighbours say (surface_model.hpp)

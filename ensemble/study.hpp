@@ -20,6 +20,12 @@ namespace stylobate {
 
 enum class StudyKind { single, surface };
 
+/// What the uniform numbers of a cell's realizations are (point_set.hpp).
+enum class Sampling {
+    independent,
+    sobol ///< scrambled Sobol points
+};
+
 /// How the dashpot coefficients C_N and C_T of Eqs. 1 and 2 depend on the contact.
 enum class DampingPer {
     contact, ///< a constant for each pressed contact: Eq. 1 as it stands
@@ -138,7 +144,7 @@ struct AdaptiveSpec {
 struct SurfaceSpec {
     Axis frequency_hz; ///< nf rows
     Axis pga_m_s2;     ///< np columns
-    std::optional<AdaptiveSpec> adaptive;
+    std::optional<AdaptiveSpec> adaptive = {};
     int cells() const { return frequency_hz.count * pga_m_s2.count; }
 };
 
@@ -238,6 +244,7 @@ struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
     std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all
+    Sampling sampling = Sampling::independent;
 
     StructureSpec structure;
     ContactSpec contact;

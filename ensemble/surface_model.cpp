@@ -166,7 +166,10 @@ struct Prediction {
 /// Newton's steps for the mode f = K a of the posterior, halved where they overshoot; with W the curvature of the
 /// likelihood, B = 1 + W^1/2 K W^1/2, and k the covariances with the middle:
 ///   mean = k a,   variance = k(0) + misfit2 - k W^1/2 B^-1 W^1/2 k
-Prediction predict(const Setting& setting, const Window& window, const SurfaceTrials& data)
+///
+/// @param a begins the search, where it is better than zeros, and is the mode's afterwards: one setting's mode is near
+///          the next one's
+Prediction predict(const Setting& setting, const Window& window, const SurfaceTrials& data, Vector& a)
 {
     const Eigen::Index size = window.size;
     Matrix K(size, size);
@@ -183,7 +186,7 @@ Prediction predict(const Setting& setting, const Window& window, const SurfaceTr
         K(i, i) += setting.misfit2;
     }
 
-    Vector a = Vector::Zero(size), f = Vector::Zero(size), W(size), root(size), p(size);
+    Vector f = K * a, W(size), root(size), p(size);
     const auto objective = [&](const Vector& with_a, const Vector& with_f) {
         double sum = -0.5 * with_a.dot(with_f);
         for (Eigen::Index i = 0; i < size; ++i) {
@@ -195,6 +198,11 @@ Prediction predict(const Setting& setting, const Window& window, const SurfaceTr
     };
     Eigen::LLT<Matrix> B;
     double reached = objective(a, f);
+    if (const double at_zero = -std::numbers::ln2 * n.sum(); !(reached > at_zero)) {
+        a.setZero();
+        f.setZero();
+        reached = at_zero;
+    }
     const auto curve = [&] {
         for (Eigen::Index i = 0; i < size; ++i) {
             const double e = exp_of(-std::min(std::abs(f[i]), 700.0));
@@ -221,7 +229,7 @@ Prediction predict(const Setting& setting, const Window& window, const SurfaceTr
             break;
         a += part * step;
         f += part * change;
-        const bool settled = now - reached < 1e-3;
+        const bool settled = now - reached < 1e-5;
         reached = now;
         if (settled)
             break;
@@ -271,8 +279,9 @@ std::vector<SurfaceEstimate> SurfaceModel::estimate(const SurfaceTrials& data)
         if (around || said.mean.empty()) {
             said.mean.clear();
             said.variance.clear();
+            Vector a = Vector::Zero(window.size);
             for (const Setting& setting : settings()) {
-                const Prediction prediction = predict(setting, window, data);
+                const Prediction prediction = predict(setting, window, data, a);
                 said.mean.push_back(prediction.mean);
                 said.variance.push_back(prediction.variance);
             }

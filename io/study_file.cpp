@@ -170,12 +170,13 @@ Study read_tree(const TomlValue& root)
 
     Study study;
     const KeyReader keys = top.table("study");
-    keys.allow_only({"kind", "seed", "realizations"});
+    keys.allow_only({"kind", "seed", "realizations", "sampling"});
     study.kind = keys.choice("kind", study_kind_names);
     const bool is_surface = study.kind == StudyKind::surface;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
     study.realizations = is_surface ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
                                     : keys.whole_or("realizations", 1, most_realizations, study.realizations);
+    study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
 
     study.structure = read_structure(top.table("structure"));
     study.contact = read_contact(top.table("contact"), study.structure);

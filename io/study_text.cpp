@@ -275,6 +275,7 @@ std::string study_text(const Study& study)
     out.word("kind", word_for(study_kind_names, study.kind));
     out.whole("seed", study.seed);
     out.whole("realizations", study.realizations);
+    out.word("sampling", word_for(sampling_names, study.sampling));
     write(out, study.structure);
     write(out, study.contact);
     write(out, study.excitation, study.surface.has_value());

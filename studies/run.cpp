@@ -186,7 +186,7 @@ Json adaptive_json(const SurfaceTable& table)
         .member("rounds", table.rounds)
         .member("borrowing_cells", static_cast<std::uint64_t>(
                                        std::count(table.method.begin(), table.method.end(), IntervalMethod::surface)))
-        .member("uniform_realizations", uniform_need(table.lower.size(), table.half_width));
+        .member("uniform_realizations", table.lower.size() * uniform_trials(table.half_width, adaptive_level));
 }
 
 /// @param adaptive the table of a complete adaptive surface, else null

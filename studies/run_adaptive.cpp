@@ -1,6 +1,5 @@
 #include "studies/run_adaptive.hpp"
 
-#include "studies/limit_state.hpp"
 #include "studies/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +20,7 @@ public:
     void warn(const std::string& text) override { whole_.warn(text); }
     bool stop_requested() override { return whole_.stop_requested(); }
 
-    /// What had been done before, and the round; what was counted as done before the round is in both.
+    /// What had been done before the round, and the round.
     Progress joined(const Progress& round) const
     {
         Progress all = before_;
@@ -139,17 +138,6 @@ AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, C
     return run;
 }
 
-std::uint64_t uniform_need(std::uint64_t cells, double half_width)
-{
-    std::uint64_t n = 2;
-    while (true) {
-        const BinomialInterval interval = jeffreys(n, n / 2, interval_level);
-        if (interval.upper - interval.lower <= 2 * half_width)
-            return n * cells;
-        n += std::max<std::uint64_t>(2, n / 1000 * 2);
-    }
-}
-
 std::string describe_adaptive(const SurfaceTable& table)
 {
     std::uint64_t wide = 0;
@@ -161,7 +149,7 @@ std::string describe_adaptive(const SurfaceTable& table)
     }
     const auto borrowed = std::count(table.method.begin(), table.method.end(), IntervalMethod::surface);
     const std::uint64_t all = std::accumulate(table.trials.begin(), table.trials.end(), std::uint64_t{0});
-    const std::uint64_t uniform = uniform_need(table.lower.size(), table.half_width);
+    const std::uint64_t uniform = table.lower.size() * uniform_trials(table.half_width, adaptive_level);
     std::string text = wide == 0 ? fmt::format("every cell is known to ±{:.3g} (95 %)", table.half_width)
                                  : fmt::format("{} of {} cells are not known to ±{:.3g} (95 %), the worst to ±{:.3g}",
                                                wide, table.lower.size(), table.half_width, widest);

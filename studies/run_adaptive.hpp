@@ -49,7 +49,4 @@ AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, C
 /// What was reached with how many realizations, as a sentence.
 std::string describe_adaptive(const SurfaceTable& table);
 
-/// Realizations that a surface needs in all if each cell gets what a probability of 1/2 needs.
-std::uint64_t uniform_need(std::uint64_t cells, double half_width);
-
 } // namespace stylobate

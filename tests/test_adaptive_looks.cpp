@@ -106,6 +106,14 @@ TEST(AdaptiveLooks, CoverageIsRightWhereverTheLooksEnd)
     }
 }
 
+TEST(AdaptiveLooks, AUniformGridNeedsWhatTheNormalDistributionSays)
+{
+    // 1.96^2 / (4 h^2) = 384 and 96, less the one trial that Jeffreys' prior stands for, and a few
+    EXPECT_EQ(uniform_trials(0.05, 0.95), 381U);
+    EXPECT_NEAR(static_cast<double>(uniform_trials(0.1, 0.95)), 96, 4);
+    EXPECT_NEAR(static_cast<double>(uniform_trials(0.02, 0.95)), 2401, 5);
+}
+
 TEST(AdaptiveLooks, ThePlainIntervalIsNotRightUnderTheRule)
 {
     const AdaptiveLooks looks(8, 512, 0.05, 0.95);
