@@ -257,7 +257,8 @@ int report(const std::string& file, const std::vector<std::string>& runs, const 
     if (!runs.empty()) {
         fmt::print(
             "\nThe study itself, run adaptively:\n\n| seed | realizations | times fewer | rounds | widest ± | cells "
-            "that hold the reference's share | expected, by its error |\n|---|---|---|---|---|---|---|\n");
+            "that hold the reference's share | exact 95 % intervals would, given its error "
+            "|\n|---|---|---|---|---|---|---|\n");
         for (const std::string& run : runs)
             print_run(run, reference);
     }

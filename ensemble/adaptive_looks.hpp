@@ -14,7 +14,7 @@
 /// average of C over p is at least the level that is asked for, also when the looks end early (budget) at any of them.
 /// Looks from 8 on with h = 0.05 and 0.95: level 0.953, average 0.951, and the worst p has 0.880, no worse than Jeffreys'
 /// with a fixed number (0.878). With a count of 1/2 the cell is finished after 408 trials, without a collapse after 28;
-/// all cells with the trials of the worst one would need 381. A confidence sequence, which holds for every way to stop
+/// all cells with the trials of the worst one would need 382. A confidence sequence, which holds for every way to stop
 /// at once, would need about twice as many.
 ///
 /// Group-sequential sampling: Jennison & Turnbull, "Group Sequential Methods" (2000), chapter 12; fixed-width intervals

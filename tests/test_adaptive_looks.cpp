@@ -108,10 +108,9 @@ TEST(AdaptiveLooks, CoverageIsRightWhereverTheLooksEnd)
 
 TEST(AdaptiveLooks, AUniformGridNeedsWhatTheNormalDistributionSays)
 {
-    // 1.96^2 / (4 h^2) = 384 and 96, less the one trial that Jeffreys' prior stands for, and a few
-    EXPECT_EQ(uniform_trials(0.05, 0.95), 381U);
-    EXPECT_NEAR(static_cast<double>(uniform_trials(0.1, 0.95)), 96, 4);
-    EXPECT_NEAR(static_cast<double>(uniform_trials(0.02, 0.95)), 2401, 5);
+    // the posterior Beta(n/2 + 1/2, n/2 + 1/2) has the variance 1 / (4 (n + 2)): n = (1.96 / 2 h)^2 - 2
+    for (const double h : {0.02, 0.05, 0.1})
+        EXPECT_NEAR(static_cast<double>(uniform_trials(h, 0.95)), std::pow(1.96 / (2 * h), 2) - 2, 2) << h;
 }
 
 TEST(AdaptiveLooks, ThePlainIntervalIsNotRightUnderTheRule)
