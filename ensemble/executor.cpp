@@ -80,12 +80,14 @@ private:
     std::optional<std::uint64_t> next()
     {
         const std::lock_guard lock(mutex_);
-        while (next_ < plan_.total && plan_.done && plan_.done(next_))
+        while (next_ < plan_.total && plan_.done && plan_.done(index(next_)))
             ++next_;
         if (next_ >= plan_.total || stopped_)
             return std::nullopt;
-        return next_++;
+        return index(next_++);
     }
+
+    std::uint64_t index(std::uint64_t place) const { return plan_.indices.empty() ? place : plan_.indices[place]; }
 
     void deliver(const Realization& realization, const Outcome& outcome)
     {
@@ -129,7 +131,7 @@ private:
     const Clock::time_point start_ = Clock::now();
     std::mutex mutex_; ///< guards the sink, the observer and what follows
     Progress progress_;
-    std::uint64_t next_ = 0;
+    std::uint64_t next_ = 0; ///< place in the plan
     std::uint64_t delivered_ = 0;
     std::exception_ptr error_;
     std::atomic<double> next_report_ = 0;

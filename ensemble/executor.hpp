@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 namespace stylobate {
 
@@ -19,7 +20,8 @@ struct RunOptions {
 
 /// What is left to do, and where results go.
 struct RunPlan {
-    std::uint64_t total = 0; ///< realizations 0 .. total - 1
+    std::uint64_t total = 0;                     ///< realizations 0 .. total - 1, or as many as `indices`
+    std::span<const std::uint64_t> indices = {}; ///< those to run, in this order; empty: 0 .. total - 1
     /// True for a realization that has been done before. Called from one thread at a time, in index order; empty: none.
     std::function<bool(std::uint64_t index)> done;
     /// Takes the results. Called from one thread at a time, in any order of the indices.

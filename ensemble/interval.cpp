@@ -9,6 +9,11 @@
 
 namespace stylobate {
 
+const char* to_string(IntervalMethod method)
+{
+    return method == IntervalMethod::own ? "own" : "surface";
+}
+
 BinomialInterval wilson(std::uint64_t trials, std::uint64_t successes, double level)
 {
     assert(successes <= trials && level > 0 && level < 1);

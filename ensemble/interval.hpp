@@ -15,6 +15,13 @@
 
 namespace stylobate {
 
+/// Where the interval of a cell of an adaptive surface comes from.
+enum class IntervalMethod : std::uint8_t {
+    own,    ///< its own trials
+    surface ///< these, and what its neighbours say (surface_model.hpp)
+};
+const char* to_string(IntervalMethod method);
+
 struct BinomialInterval {
     double lower = 0;
     double upper = 1;

@@ -50,7 +50,7 @@ Stream stream_of(Mechanism mechanism, std::size_t parameter)
 }
 
 MechanismSampler::MechanismSampler(const Study& study, const Layout& layout)
-    : seed_(study.seed), friction_(study.contact.friction), damping_(study.contact.damping), form_(study.contact.form)
+    : friction_(study.contact.friction), damping_(study.contact.damping), form_(study.contact.form)
 {
     extended_ = (damping_ == DampingAt::ends && form_ == ContactForm::area) || study.vertical.has_value();
     for (const MechanismSpec& spec : study.mechanisms)
@@ -126,14 +126,24 @@ void MechanismSampler::add(const MechanismPerturbation& perturbation)
     drawn_.push_back(std::move(drawn));
 }
 
-MechanismSampler::Values MechanismSampler::draw(std::uint64_t index, std::vector<double>& inputs) const
+std::vector<PointSet::Place> MechanismSampler::places() const
+{
+    std::vector<PointSet::Place> places;
+    for (const Drawn& drawn : drawn_)
+        for (std::size_t i = 0; i < (drawn.once ? 1 : drawn.places.size()); ++i)
+            places.push_back({drawn.stream, drawn.once ? 0 : drawn.places[i]});
+    return places;
+}
+
+MechanismSampler::Values MechanismSampler::draw(const PointSet& points, std::uint64_t index,
+                                                std::vector<double>& inputs) const
 {
     Values values = nominal_;
     for (const Drawn& drawn : drawn_) {
         std::vector<double>& target = values[drawn.acting][drawn.parameter];
         for (std::size_t i = 0; i < drawn.places.size(); ++i) {
             const std::size_t element = drawn.once ? 0 : drawn.places[i];
-            target[drawn.places[i]] = drawn.distributions[i].value(uniform01(seed_, index, drawn.stream, element));
+            target[drawn.places[i]] = drawn.distributions[i].value(points.uniform(index, drawn.stream, element));
         }
         if (drawn.once || drawn.places.size() == 1)
             inputs.push_back(target[drawn.places.front()]);

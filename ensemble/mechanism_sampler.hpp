@@ -3,6 +3,7 @@
 
 #include "ensemble/distribution.hpp"
 #include "ensemble/mechanism_spec.hpp"
+#include "ensemble/point_set.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
 #include "ensemble/structure.hpp"
@@ -30,8 +31,10 @@ public:
     /// Names of what `draw` appends to the inputs: "stribeck_velocity[0]" and so on for each joint or block if it is
     /// drawn for more than one, where the mechanism does not act with the neutral value; else the name alone.
     const std::vector<std::string>& input_names() const { return input_names_; }
+    /// The numbers that are drawn.
+    std::vector<PointSet::Place> places() const;
     /// The values of a realization: those of the study, or drawn.
-    Values draw(std::uint64_t index, std::vector<double>& inputs) const;
+    Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
 
     /// How far a block is out of its place [m].
     double offset_m(const Values& values, std::size_t block) const;
@@ -61,7 +64,6 @@ private:
     void add(const MechanismPerturbation& perturbation);
     void check_room(const Realization& realization) const;
 
-    std::uint64_t seed_ = 0;
     double friction_ = 0; ///< of [contact]
     DampingAt damping_ = DampingAt::centroid;
     bool extended_ = false;

@@ -12,11 +12,15 @@ std::uint64_t random_bits(std::uint64_t seed, std::uint64_t index, Stream stream
     return Philox()(counter, key)[0];
 }
 
-double uniform01(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element)
+double to_uniform01(std::uint64_t bits)
 {
     // The highest 53 bits with the last one set: with 53 free bits one end of the interval would have to be in it.
-    const std::uint64_t odd = (random_bits(seed, index, stream, element) >> 11) | 1U;
-    return static_cast<double>(odd) * 0x1p-53;
+    return static_cast<double>((bits >> 11) | 1U) * 0x1p-53;
+}
+
+double uniform01(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element)
+{
+    return to_uniform01(random_bits(seed, index, stream, element));
 }
 
 } // namespace stylobate

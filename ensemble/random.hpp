@@ -31,6 +31,7 @@ enum class Stream : std::uint64_t {
     virtual_placement = 67,   ///< where its blocks are put; index = campaign
     camera_noise = 68,        ///< of its cameras; index = campaign x runs + run
     bootstrap = 69,           ///< which runs are drawn again for an interval; index = resample, element = draw
+    scramble = 70, ///< of Sobol points; index = cell, element = dimension x 2^32 + 2^digit + the digits before
     /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
     /// or block, 0 of the base and of what is drawn once.
     mechanisms = 128
@@ -39,8 +40,11 @@ enum class Stream : std::uint64_t {
 /// 64 random bits. What belongs to the structure as a whole uses element 0.
 std::uint64_t random_bits(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element);
 
-/// A number in the open interval (0, 1): an odd multiple of 2^-53, each equally likely. Never 0 or 1, exact in
-/// double, and so is its complement 1 - u, which is on the same grid.
+/// The number in the open interval (0, 1) of 64 random bits: an odd multiple of 2^-53, each equally likely. Never 0 or
+/// 1, exact in double, and so is its complement 1 - u, which is on the same grid.
+double to_uniform01(std::uint64_t bits);
+
+/// Of `random_bits`.
 double uniform01(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element);
 
 } // namespace stylobate

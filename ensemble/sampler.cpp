@@ -10,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -99,6 +100,20 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
         drawn_.push_back(std::move(drawn));
     }
     input_names_.insert(input_names_.end(), mechanisms_.input_names().begin(), mechanisms_.input_names().end());
+
+    // what is drawn once is the structure's as a whole, and so matters most
+    std::vector<PointSet::Place> places;
+    for (const Drawn& drawn : drawn_)
+        for (std::uint64_t element = 0; element < drawn.draws; ++element)
+            places.push_back({drawn.stream, element});
+    const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places();
+    places.insert(places.end(), of_mechanisms.begin(), of_mechanisms.end());
+    std::map<Stream, int> draws;
+    for (const PointSet::Place& place : places)
+        ++draws[place.stream];
+    std::stable_partition(places.begin(), places.end(),
+                          [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
+    points_ = PointSet(study_, places);
 }
 
 Realization Sampler::realization(std::uint64_t index) const
@@ -110,7 +125,7 @@ Realization Sampler::realization(std::uint64_t index) const
     realization.initial_tilt_rad = study_.initial.tilt_rad;
     realization.initial_tilt_block = study_.initial.tilt_from_block;
     Values values = draw(index, realization.inputs);
-    const MechanismSampler::Values mechanisms = mechanisms_.draw(index, realization.inputs);
+    const MechanismSampler::Values mechanisms = mechanisms_.draw(points_, index, realization.inputs);
     for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
         values.of[static_cast<std::size_t>(Quantity::drum_offset)][i] += mechanisms_.offset_m(mechanisms, i);
     stack(values, realization);
@@ -150,7 +165,7 @@ Sampler::Values Sampler::draw(std::uint64_t index, std::vector<double>& inputs) 
         std::vector<double>& target = values.of[static_cast<std::size_t>(drawn.quantity)];
         for (std::size_t i = 0; i < drawn.distributions.size(); ++i) {
             const std::size_t element = std::min(i, drawn.draws - 1);
-            target[i] = drawn.distributions[i].value(uniform01(study_.seed, index, drawn.stream, element));
+            target[i] = drawn.distributions[i].value(points_.uniform(index, drawn.stream, element));
             if (i < drawn.draws)
                 inputs.push_back(target[i]);
         }

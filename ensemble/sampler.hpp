@@ -4,6 +4,7 @@
 #include "ensemble/distribution.hpp"
 #include "ensemble/mechanism_sampler.hpp"
 #include "ensemble/motion.hpp"
+#include "ensemble/point_set.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
 #include "ensemble/shaking.hpp"
@@ -84,6 +85,7 @@ private:
     Shaking shaking_;
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
+    PointSet points_;
 };
 
 } // namespace stylobate

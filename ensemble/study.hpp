@@ -20,6 +20,12 @@ namespace stylobate {
 
 enum class StudyKind { single, surface };
 
+/// What the uniform numbers of a cell's realizations are (point_set.hpp).
+enum class Sampling {
+    independent,
+    sobol ///< scrambled Sobol points
+};
+
 /// How the dashpot coefficients C_N and C_T of Eqs. 1 and 2 depend on the contact.
 enum class DampingPer {
     contact, ///< a constant for each pressed contact: Eq. 1 as it stands
@@ -124,9 +130,21 @@ struct Axis {
     double value(int i) const;
 };
 
+/// Confidence of the intervals of an adaptive surface.
+inline constexpr double adaptive_level = 0.95;
+
+/// Realizations where they are needed (ensemble/adaptive.hpp), instead of as many in each cell.
+struct AdaptiveSpec {
+    std::uint64_t budget = 0;  ///< realizations of the whole surface, at most
+    std::uint64_t minimum = 8; ///< of each cell
+    double half_width = 0.05;  ///< that each cell's interval is to have
+    bool borrow = true;        ///< from neighbouring cells
+};
+
 struct SurfaceSpec {
     Axis frequency_hz; ///< nf rows
     Axis pga_m_s2;     ///< np columns
+    std::optional<AdaptiveSpec> adaptive = {};
     int cells() const { return frequency_hz.count * pga_m_s2.count; }
 };
 
@@ -226,6 +244,7 @@ struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
     std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all
+    Sampling sampling = Sampling::independent;
 
     StructureSpec structure;
     ContactSpec contact;

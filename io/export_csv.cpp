@@ -157,20 +157,30 @@ std::string surface_text(const SurfaceTable& surface)
         throw InputError(fmt::format("the surface has {} x {} cells, but its tables have other sizes: the results are "
                                      "damaged.\n  Run the study again into a new file.",
                                      surface.frequency_hz.size(), columns));
+    const bool adaptive = surface.method.size() == cells;
     std::string text;
-    Line(text) << "cell"
-               << "frequency_hz"
-               << "pga_m_s2"
-               << "trials"
-               << "collapses"
-               << "probability"
-               << "lower"
-               << "upper"
-               << "interval";
-    for (std::size_t cell = 0; cell < cells; ++cell)
-        Line(text) << cell << surface.frequency_hz[cell / columns] << surface.pga_m_s2[cell % columns]
-                   << surface.trials[cell] << surface.collapses[cell] << surface.probability[cell]
-                   << surface.lower[cell] << surface.upper[cell] << surface.interval;
+    {
+        Line line(text);
+        line << "cell"
+             << "frequency_hz"
+             << "pga_m_s2"
+             << "trials"
+             << "collapses"
+             << "probability"
+             << "lower"
+             << "upper"
+             << "interval";
+        if (adaptive)
+            line << "method";
+    }
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        Line line(text);
+        line << cell << surface.frequency_hz[cell / columns] << surface.pga_m_s2[cell % columns] << surface.trials[cell]
+             << surface.collapses[cell] << surface.probability[cell] << surface.lower[cell] << surface.upper[cell]
+             << surface.interval;
+        if (adaptive)
+            line << to_string(surface.method[cell]);
+    }
     return text;
 }
 

@@ -32,6 +32,7 @@ ResultHeader read_header(hid_t file)
     header.code_version = hdf5::read_text(file, "code_version");
     header.total = hdf5::read_number(file, "realizations");
     header.first = hdf5::read_number(file, "first_realization");
+    header.selected = hdf5::has_attribute(file, names::selected);
     const hdf5::Handle input = hdf5::open_group(file, names::input);
     std::istringstream order(hdf5::read_text(input.id(), names::input_order));
     for (std::string name; order >> name;)
@@ -46,6 +47,15 @@ ResultHeader read_header(hid_t file)
 }
 
 } // namespace
+
+std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
+{
+    if (selected_) {
+        const auto found = number_.find(index);
+        return found == number_.end() ? std::nullopt : std::optional(found->second);
+    }
+    return index >= first_ && index - first_ < rows_ ? std::optional(index - first_) : std::nullopt;
+}
 
 std::vector<Extent> RowPlaces::extents(const ResultLayout& layout) const
 {
@@ -88,6 +98,13 @@ hdf5::Handle role_type()
     return hdf5::byte_enumeration({{"drum", number(BlockRole::drum)},
                                    {"epistyle", number(BlockRole::epistyle)},
                                    {"ground", number(BlockRole::ground)}});
+}
+
+hdf5::Handle method_type()
+{
+    const auto number = [](IntervalMethod method) { return static_cast<std::uint8_t>(method); };
+    return hdf5::byte_enumeration({{to_string(IntervalMethod::own), number(IntervalMethod::own)},
+                                   {to_string(IntervalMethod::surface), number(IntervalMethod::surface)}});
 }
 
 hdf5::Dims column_dims(const ResultLayout& layout, const Column& column)

@@ -7,6 +7,7 @@
 #include "io/result_seal.hpp"
 
 #include <optional>
+#include <unordered_map>
 
 namespace stylobate {
 
@@ -23,11 +24,33 @@ struct RowPlaces {
 hdf5::Handle file_type(Stored stored);
 /// That of a block's role.
 hdf5::Handle role_type();
+/// That of a cell's interval.
+hdf5::Handle method_type();
 /// Shape of a column.
 hdf5::Dims column_dims(const ResultLayout& layout, const Column& column);
 
 /// Finds the columns. @throws hdf5::Error if one is missing or has another type or shape
 RowPlaces find_rows(hid_t file, const ResultLayout& layout);
+
+/// Which row is a realization's, among those that are known.
+class RowNumbers {
+public:
+    RowNumbers() = default;
+    explicit RowNumbers(const ResultHeader& header)
+        : selected_(header.selected), first_(header.first), rows_(header.total)
+    {
+    }
+    /// Where the rows are selected, of those that were added only.
+    std::optional<std::uint64_t> of(std::uint64_t index) const;
+    /// @returns false if the realization has a row already
+    bool add(std::uint64_t index, std::uint64_t number) { return number_.emplace(index, number).second; }
+
+private:
+    bool selected_ = false;
+    std::uint64_t first_ = 0;
+    std::uint64_t rows_ = 0;
+    std::unordered_map<std::uint64_t, std::uint64_t> number_; ///< where the rows are selected
+};
 
 /// An open results file, its seal verified.
 struct ResultFile {

@@ -95,7 +95,8 @@ std::vector<std::string> split_names(const std::string& text)
     return names;
 }
 
-ResultLayout::ResultLayout(const ResultHeader& header) : first_index_(header.first), rows_(header.total)
+ResultLayout::ResultLayout(const ResultHeader& header)
+    : first_index_(header.first), selected_(header.selected), rows_(header.total)
 {
     if (rows_ == 0)
         throw std::invalid_argument("a results file has at least one row");
@@ -136,45 +137,46 @@ ResultLayout::ResultLayout(const ResultHeader& header) : first_index_(header.fir
     }
 }
 
-std::size_t ResultLayout::place(std::size_t column, std::uint64_t index) const
+std::size_t ResultLayout::place(std::size_t column, std::uint64_t number) const
 {
-    const std::uint64_t chunk = chunk_of(index);
-    return begin_in_chunk(column, chunk) + (index - first_index_ - first_row(chunk)) * columns_[column].bytes;
+    const std::uint64_t chunk = chunk_of(number);
+    return begin_in_chunk(column, chunk) + (number - first_row(chunk)) * columns_[column].bytes;
 }
 
-void ResultLayout::encode(const ResultRow& row, std::span<std::byte> chunk_bytes) const
+void ResultLayout::encode(std::uint64_t number, const ResultRow& row, std::span<std::byte> chunk_bytes) const
 {
     std::size_t column = 0;
     visit_fields(row, [&](const char*, const char*, const auto& field) {
-        const std::size_t at = place(column++, row.index);
+        const std::size_t at = place(column++, number);
         std::memcpy(chunk_bytes.subspan(at, sizeof field).data(), &field, sizeof field);
     });
     const std::span falls = std::as_bytes(std::span(row.outcome.fall_time_s));
-    std::memcpy(chunk_bytes.subspan(place(fall_time_, row.index), falls.size()).data(), falls.data(), falls.size());
+    std::memcpy(chunk_bytes.subspan(place(fall_time_, number), falls.size()).data(), falls.data(), falls.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-        const std::size_t at = place(inputs_[i].column, row.index) + inputs_[i].component * sizeof(double);
+        const std::size_t at = place(inputs_[i].column, number) + inputs_[i].component * sizeof(double);
         std::memcpy(chunk_bytes.subspan(at, sizeof(double)).data(), &row.inputs[i], sizeof(double));
     }
 }
 
-ResultRow ResultLayout::decode(std::uint64_t index, std::span<const std::byte> chunk_bytes) const
+ResultRow ResultLayout::decode(std::uint64_t number, std::span<const std::byte> chunk_bytes) const
 {
     ResultRow row;
     std::size_t column = 0;
     visit_fields(row, [&](const char*, const char*, auto& field) {
-        const std::size_t at = place(column++, index);
+        const std::size_t at = place(column++, number);
         std::memcpy(&field, chunk_bytes.subspan(at, sizeof field).data(), sizeof field);
     });
     row.outcome.fall_time_s.resize(blocks());
     const std::span falls = std::as_writable_bytes(std::span(row.outcome.fall_time_s));
-    std::memcpy(falls.data(), chunk_bytes.subspan(place(fall_time_, index), falls.size()).data(), falls.size());
+    std::memcpy(falls.data(), chunk_bytes.subspan(place(fall_time_, number), falls.size()).data(), falls.size());
     row.inputs.resize(inputs_.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-        const std::size_t at = place(inputs_[i].column, index) + inputs_[i].component * sizeof(double);
+        const std::size_t at = place(inputs_[i].column, number) + inputs_[i].component * sizeof(double);
         std::memcpy(&row.inputs[i], chunk_bytes.subspan(at, sizeof(double)).data(), sizeof(double));
     }
-    if (row.index != index || row.outcome.state > State::invalid || row.outcome.invalid_reason > InvalidReason::energy)
-        throw std::invalid_argument("row " + std::to_string(index) + " holds what no run writes");
+    if ((!selected_ && row.index != first_index_ + number) || row.outcome.state > State::invalid ||
+        row.outcome.invalid_reason > InvalidReason::energy)
+        throw std::invalid_argument("row " + std::to_string(number) + " holds what no run writes");
     return row;
 }
 

@@ -27,6 +27,7 @@ inline constexpr char fall_time[] = "outcome/fall_time_s"; ///< below /realizati
 inline constexpr char blocks[] = "blocks"; ///< attribute of groups with values by block: the names, one on each line
 inline constexpr char checksum[] = "realizations/chunk_checksum";
 inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
+inline constexpr char selected[] = "selected"; ///< attribute of / where the rows are some of the realizations
 inline constexpr char surface[] = "surface";
 inline constexpr char surface_frequency[] = "surface/frequency_hz";
 inline constexpr char surface_pga[] = "surface/pga_m_s2";
@@ -117,11 +118,8 @@ public:
 
     const std::vector<Column>& columns() const { return columns_; }
     std::uint64_t rows() const { return rows_; }
-    /// The realizations of the rows are first_index() ... first_index() + rows() - 1.
-    std::uint64_t first_index() const { return first_index_; }
-    bool holds(std::uint64_t index) const { return index >= first_index_ && index - first_index_ < rows_; }
-    /// Chunk of a realization. @pre holds(index)
-    std::uint64_t chunk_of(std::uint64_t index) const { return (index - first_index_) / ResultWriter::rows_per_chunk; }
+    /// Chunk of a row.
+    std::uint64_t chunk_of(std::uint64_t row) const { return row / ResultWriter::rows_per_chunk; }
     std::uint64_t row_bytes() const { return row_bytes_; }
     std::size_t inputs() const { return inputs_.size(); }
     std::size_t blocks() const { return columns_[fall_time_].width; }
@@ -142,21 +140,22 @@ public:
         return columns_[column].bytes * rows_in(chunk);
     }
 
-    /// Puts a row into its place in its chunk's bytes.
-    /// @pre holds(row.index), row.inputs has inputs() values, row.outcome.fall_time_s has blocks() values
-    void encode(const ResultRow& row, std::span<std::byte> chunk_bytes) const;
-    /// Takes a realization's row from its chunk's bytes. @pre holds(index)
+    /// Puts the row of this number into its place in its chunk's bytes.
+    /// @pre number < rows(), row.inputs has inputs() values, row.outcome.fall_time_s has blocks() values
+    void encode(std::uint64_t number, const ResultRow& row, std::span<std::byte> chunk_bytes) const;
+    /// Takes the row of this number from its chunk's bytes. @pre number < rows()
     /// @throws std::invalid_argument if a value is impossible
-    ResultRow decode(std::uint64_t index, std::span<const std::byte> chunk_bytes) const;
+    ResultRow decode(std::uint64_t number, std::span<const std::byte> chunk_bytes) const;
 
 private:
     struct Input {
         std::size_t column = 0;
         std::uint64_t component = 0;
     };
-    std::size_t place(std::size_t column, std::uint64_t index) const;
+    std::size_t place(std::size_t column, std::uint64_t number) const;
 
     std::uint64_t first_index_ = 0;
+    bool selected_ = false;
     std::uint64_t rows_ = 0;
     std::uint64_t row_bytes_ = 0;
     std::vector<Column> columns_;

@@ -11,25 +11,34 @@ namespace names = result_names;
 struct ResultReader::Impl {
     ResultFile file;
     std::vector<bool> there; ///< by chunk
+    RowNumbers numbers;
 
     /// The chunk read last, so that reading row after row is cheap.
     mutable std::uint64_t cached_chunk = 0;
     mutable std::optional<std::vector<std::byte>> cached;
 
-    ResultRow row(std::uint64_t index) const
+    ResultRow row(std::uint64_t number) const
     {
-        const std::uint64_t chunk = file.layout.chunk_of(index);
+        const std::uint64_t chunk = file.layout.chunk_of(number);
         if (!cached || cached_chunk != chunk) {
             cached = file.read_chunk(chunk);
             cached_chunk = chunk;
         }
         if (!cached)
-            file.refuse_damaged("row " + std::to_string(index) + " has changed since the file was opened");
+            file.refuse_damaged("row " + std::to_string(number) + " has changed since the file was opened");
         try {
-            return file.layout.decode(index, *cached);
+            return file.layout.decode(number, *cached);
         } catch (const std::invalid_argument& error) {
             file.refuse_damaged(error.what());
         }
+    }
+
+    /// Where the rows are selected: which realizations they are of.
+    void number_rows()
+    {
+        for (std::uint64_t number = 0; number < file.layout.rows(); ++number)
+            if (there[file.layout.chunk_of(number)] && !numbers.add(row(number).index, number))
+                file.refuse_damaged("two of its rows are of one realization");
     }
 
     /// Runs a part that reads through HDF5; what it finds wrong is damage.
@@ -54,6 +63,9 @@ ResultReader::ResultReader(const std::filesystem::path& file) : impl_(std::make_
             opened.refuse_damaged("the checksum of the rows from " + std::to_string(opened.layout.first_row(chunk)) +
                                   " on is wrong");
     }
+    impl_->numbers = RowNumbers(opened.header);
+    if (opened.header.selected)
+        impl_->number_rows();
 }
 
 ResultReader::~ResultReader() = default;
@@ -70,32 +82,38 @@ bool ResultReader::complete() const
 
 bool ResultReader::has(std::uint64_t index) const
 {
-    const ResultLayout& layout = impl_->file.layout;
-    return layout.holds(index) && impl_->there[layout.chunk_of(index)];
+    const auto number = impl_->numbers.of(index);
+    return number && impl_->there[impl_->file.layout.chunk_of(*number)];
 }
 
 ResultRow ResultReader::row(std::uint64_t index) const
 {
-    const ResultLayout& layout = impl_->file.layout;
-    if (!layout.holds(index))
+    const auto number = impl_->numbers.of(index);
+    const ResultHeader& of = header();
+    if (!number && of.selected)
+        throw InputError(impl_->file.path.string(), 0,
+                         "does not hold realization " + std::to_string(index) +
+                             ": an adaptive run takes of each cell as many as it needs. The index column of "
+                             "'export --to csv' says which there are.");
+    if (!number)
         throw InputError(impl_->file.path.string(), 0,
                          "has no realization " + std::to_string(index) + "; it has those from " +
-                             std::to_string(layout.first_index()) + " to " +
-                             std::to_string(layout.first_index() + layout.rows() - 1));
+                             std::to_string(of.first) + " to " + std::to_string(of.first + of.total - 1));
     if (!has(index))
         throw InputError(impl_->file.path.string(), 0,
                          "does not hold realization " + std::to_string(index) +
                              " yet: the run was interrupted. Continue it with 'run'.");
-    return impl_->row(index);
+    return impl_->row(*number);
 }
 
 std::vector<ResultRow> ResultReader::rows() const
 {
     std::vector<ResultRow> rows;
     const ResultLayout& layout = impl_->file.layout;
-    for (std::uint64_t i = 0; i < layout.rows(); ++i)
-        if (has(layout.first_index() + i))
-            rows.push_back(impl_->row(layout.first_index() + i));
+    for (std::uint64_t number = 0; number < layout.rows(); ++number)
+        if (impl_->there[layout.chunk_of(number)])
+            rows.push_back(impl_->row(number));
+    std::sort(rows.begin(), rows.end(), [](const ResultRow& a, const ResultRow& b) { return a.index < b.index; });
     return rows;
 }
 
@@ -114,7 +132,17 @@ SurfaceTable ResultReader::surface() const
         table.probability = hdf5::read_doubles(file, group + "probability", dims);
         table.lower = hdf5::read_doubles(file, group + "lower", dims);
         table.upper = hdf5::read_doubles(file, group + "upper", dims);
-        table.interval = hdf5::read_text(hdf5::open_group(file, names::surface).id(), "interval");
+        const hdf5::Handle opened = hdf5::open_group(file, names::surface);
+        table.interval = hdf5::read_text(opened.id(), "interval");
+        if (!hdf5::exists(file, group + "method"))
+            return table;
+        for (const std::uint8_t method : hdf5::read_bytes(file, group + "method", method_type().id(), dims)) {
+            if (method > static_cast<std::uint8_t>(IntervalMethod::surface))
+                throw hdf5::Error("'" + group + "method' holds what no run writes");
+            table.method.push_back(static_cast<IntervalMethod>(method));
+        }
+        table.half_width = hdf5::read_any_number(opened.id(), "half_width");
+        table.rounds = hdf5::read_number(opened.id(), "rounds");
         return table;
     });
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
+#include "ensemble/interval.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/realization.hpp"
 
@@ -18,8 +19,10 @@ struct ResultHeader {
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;
-    std::uint64_t first = 0;              ///< index of the first row: 0 but for a replay
-    std::uint64_t total = 0;              ///< rows
+    std::uint64_t first = 0; ///< index of the first row: 0 but for a replay
+    std::uint64_t total = 0; ///< rows
+    bool selected = false; ///< the rows are some of the study's realizations, each row says which: an adaptive surface.
+                           ///< `total` is how many they can become at most, in a finished file how many they are
     std::vector<std::string> input_names; ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
                                           ///< column 3 of the two-dimensional dataset input/friction
     std::vector<std::string> block_names; ///< of the blocks but the ground, in layout order; as many values has
@@ -47,10 +50,13 @@ struct SurfaceTable {
     std::vector<double> pga_m_s2;
     std::vector<std::uint64_t> trials;    ///< valid realizations
     std::vector<std::uint64_t> collapses; ///< those that reached the limit state of the table
-    std::vector<double> probability;      ///< NaN where there is no trial
+    std::vector<double> probability;      ///< NaN where there is no trial; by method `surface` a posterior mean
     std::vector<double> lower;
     std::vector<double> upper;
-    std::string interval; ///< name of the interval and its level, for example "wilson 0.95"
+    std::string interval;               ///< name of the interval and its level, for example "wilson 0.95"
+    std::vector<IntervalMethod> method; ///< of each cell of an adaptive surface, else empty
+    double half_width = 0;              ///< that was asked for, of an adaptive surface
+    std::uint64_t rounds = 0;           ///< that it took
 };
 
 struct Trajectory {
@@ -101,7 +107,8 @@ public:
     /// row.
     void add(const Trajectory& trajectory);
     /// Writes the surface's table and the trajectories, and marks the file complete, in one step: killed meanwhile, the
-    /// file stays as it was. All rows must have been added. Needs the disk space of the file once more.
+    /// file stays as it was. All rows must have been added; where they are selected, those that were added are all, and
+    /// are put in index order. Needs the disk space of the file once more.
     void finish(const SurfaceTable* surface);
     /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
@@ -123,6 +130,7 @@ public:
 
     const ResultHeader& header() const;
     bool complete() const;
+    /// True for a realization whose row is there.
     bool has(std::uint64_t index) const;
     /// @throws InputError if the row is not in the file
     ResultRow row(std::uint64_t index) const;

@@ -2,6 +2,7 @@
 #include "io/result_file.hpp"
 #include "io/result_store.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <sstream>
@@ -69,6 +70,8 @@ void write_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& 
     hdf5::write_text(file, "code_version", header.code_version);
     hdf5::write_number(file, "realizations", H5T_STD_U64LE, header.total);
     hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
+    if (header.selected)
+        hdf5::write_number(file, names::selected, H5T_STD_U8LE, 1);
     hdf5::write_number(file, "complete", H5T_STD_U8LE, 0);
     write_rows_skeleton(file, header, layout);
     if (!header.frequency_hz.empty()) {
@@ -87,7 +90,16 @@ void write_surface(hid_t file, const SurfaceTable& table)
     hdf5::write_array(file, group + "probability", table.probability, dims, "");
     hdf5::write_array(file, group + "lower", table.lower, dims, "");
     hdf5::write_array(file, group + "upper", table.upper, dims, "");
-    hdf5::write_text(hdf5::open_group(file, names::surface).id(), "interval", table.interval);
+    const hdf5::Handle opened = hdf5::open_group(file, names::surface);
+    hdf5::write_text(opened.id(), "interval", table.interval);
+    if (table.method.empty())
+        return;
+    std::vector<std::uint8_t> methods;
+    for (const IntervalMethod method : table.method)
+        methods.push_back(static_cast<std::uint8_t>(method));
+    hdf5::write_bytes(file, group + "method", method_type().id(), methods, dims);
+    hdf5::write_real(opened.id(), "half_width", table.half_width);
+    hdf5::write_number(opened.id(), "rounds", H5T_STD_U64LE, table.rounds);
 }
 
 void write_trajectory(hid_t file, const Trajectory& trajectory)
@@ -110,6 +122,20 @@ void write_trajectory(hid_t file, const Trajectory& trajectory)
         roles.push_back(static_cast<std::uint8_t>(role));
     hdf5::write_bytes(file, group + "/role", role_type().id(), roles, block);
     hdf5::write_array(file, group + "/column", trajectory.column, block, "");
+}
+
+/// A new file without the values of its rows. @param handle holds the path
+RowPlaces write_unfilled(const std::filesystem::path& path, FileHandle& handle, const ResultHeader& header,
+                         const ResultLayout& layout)
+{
+    const std::uint64_t block = seal_bytes(layout.columns().size() + 1);
+    hdf5::Handle made = hdf5::create_file(path, block);
+    write_skeleton(made.id(), header, layout);
+    RowPlaces places = find_rows(made.id(), layout);
+    made.close();
+    handle.reserve();
+    write_seal(handle, block, places.extents(layout));
+    return places;
 }
 
 /// Where two study texts part, for a message; empty if they are the same.
@@ -140,8 +166,11 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
         other = "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
     if (other.empty() && found.seed != asked.seed)
         other = "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
-    if (other.empty() && found.total != asked.total)
+    const bool fewer = file.complete && found.selected; // a finished file has the rows that were needed
+    if (other.empty() && found.total != asked.total && !fewer)
         other = "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
+    if (other.empty() && found.selected != asked.selected)
+        other = "its rows are chosen in another way";
     if (other.empty() && found.first != asked.first)
         other =
             "it begins with realization " + std::to_string(found.first) + " instead of " + std::to_string(asked.first);
@@ -172,23 +201,47 @@ struct ResultWriter::Impl {
 
     ResultFile file;
     std::vector<bool> done; ///< by chunk
+    RowNumbers numbers;
+    std::uint64_t next = 0; ///< where the rows are selected they lie as they come: the number of the next one
     std::uint64_t rows = 0;
     std::array<std::uint64_t, 5> by_state = {};
     std::map<std::uint64_t, Pending> pending;
     std::map<std::uint64_t, Trajectory> trajectories;
     bool finished = false;
 
-    explicit Impl(ResultFile opened) : file(std::move(opened)), done(file.layout.chunks(), false) {}
+    explicit Impl(ResultFile opened) : file(std::move(opened)), done(file.layout.chunks(), false), numbers(file.header)
+    {
+    }
 
     void count(std::uint64_t chunk, std::span<const std::byte> bytes)
     {
         done[chunk] = true;
-        const std::uint64_t first = file.layout.first_index() + file.layout.first_row(chunk);
+        const std::uint64_t first = file.layout.first_row(chunk);
         for (std::uint64_t i = 0; i < file.layout.rows_in(chunk); ++i) {
-            ++by_state[static_cast<std::size_t>(file.layout.decode(first + i, bytes).outcome.state)];
+            const ResultRow row = file.layout.decode(first + i, bytes);
+            if (file.header.selected)
+                numbers.add(row.index, first + i); // a row that was added is known already
+            ++by_state[static_cast<std::size_t>(row.outcome.state)];
             ++rows;
         }
     }
+
+    /// The number of a row that is not there; none if the realization has no place in the file.
+    std::optional<std::uint64_t> number_for(std::uint64_t index)
+    {
+        if (!file.header.selected)
+            return numbers.of(index);
+        const ResultLayout& layout = file.layout;
+        while (next < layout.rows() && done[layout.chunk_of(next)])
+            next = layout.first_row(layout.chunk_of(next) + 1);
+        if (next >= layout.rows())
+            return std::nullopt;
+        numbers.add(index, next);
+        return next++;
+    }
+
+    /// A file of the selected rows alone, in index order. @param handle holds the path
+    void write_selected(const std::filesystem::path& path, FileHandle& handle);
 
     void check_open() const
     {
@@ -207,6 +260,51 @@ void ResultWriter::Impl::check_table(const SurfaceTable& table) const
     if (table.trials.size() != cells || table.collapses.size() != cells || table.probability.size() != cells ||
         table.lower.size() != cells || table.upper.size() != cells)
         throw std::invalid_argument("the surface's table is not (nf x np)");
+}
+
+void ResultWriter::Impl::write_selected(const std::filesystem::path& path, FileHandle& handle)
+{
+    const ResultLayout& from = file.layout;
+    std::vector<ResultRow> selected;
+    for (std::uint64_t chunk = 0; chunk < from.chunks(); ++chunk) {
+        const auto waiting = pending.find(chunk);
+        std::vector<std::byte> bytes;
+        if (waiting != pending.end()) {
+            bytes = waiting->second.bytes;
+        } else if (done[chunk]) {
+            std::optional<std::vector<std::byte>> read = file.read_chunk(chunk);
+            if (!read)
+                file.refuse_damaged("rows from " + std::to_string(from.first_row(chunk)) +
+                                    " on have changed since they were written");
+            bytes = std::move(*read);
+        } else {
+            continue;
+        }
+        for (std::uint64_t i = 0; i < from.rows_in(chunk); ++i)
+            if (done[chunk] || waiting->second.taken[i])
+                selected.push_back(from.decode(from.first_row(chunk) + i, bytes));
+    }
+    std::sort(selected.begin(), selected.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+
+    ResultHeader header = file.header;
+    header.total = selected.size();
+    ResultFile to;
+    to.path = path;
+    to.header = header;
+    to.layout = ResultLayout(header);
+    to.handle = std::move(handle);
+    to.places = write_unfilled(path, to.handle, header, to.layout);
+    for (std::uint64_t chunk = 0; chunk < to.layout.chunks(); ++chunk) {
+        std::vector<std::byte> bytes(to.layout.row_bytes() * to.layout.rows_in(chunk));
+        for (std::uint64_t i = 0; i < to.layout.rows_in(chunk); ++i) {
+            const std::uint64_t number = to.layout.first_row(chunk) + i;
+            to.layout.encode(number, selected[number], bytes);
+        }
+        to.write_chunk(chunk, bytes);
+    }
+    handle = std::move(to.handle);
+    file.header = header;
+    file.layout = to.layout;
 }
 
 ResultWriter::ResultWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -228,13 +326,7 @@ std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& 
     result.handle = FileHandle::claim(unready);
     Temporary temporary(unready);
     try {
-        const std::uint64_t block = seal_bytes(layout.columns().size() + 1);
-        hdf5::Handle made = hdf5::create_file(unready, block);
-        write_skeleton(made.id(), header, layout);
-        result.places = find_rows(made.id(), layout);
-        made.close();
-        result.handle.reserve();
-        write_seal(result.handle, block, result.places.extents(layout));
+        result.places = write_unfilled(unready, result.handle, header, layout);
         result.handle.sync();
     } catch (const hdf5::Error& error) {
         throw InputError(file.string(), 0, std::string("cannot be written: ") + error.what());
@@ -269,7 +361,8 @@ std::unique_ptr<ResultWriter> ResultWriter::resume(const std::filesystem::path& 
 
 bool ResultWriter::has(std::uint64_t index) const
 {
-    return impl_->file.layout.holds(index) && impl_->done[impl_->file.layout.chunk_of(index)];
+    const auto number = impl_->numbers.of(index);
+    return number && impl_->done[impl_->file.layout.chunk_of(*number)];
 }
 
 std::uint64_t ResultWriter::rows() const
@@ -286,12 +379,17 @@ void ResultWriter::add(const ResultRow& row)
 {
     impl_->check_open();
     const ResultLayout& layout = impl_->file.layout;
-    if (!layout.holds(row.index) || row.inputs.size() != layout.inputs() ||
-        row.outcome.fall_time_s.size() != layout.blocks())
+    const auto refuse = [&] {
         throw std::invalid_argument("row " + std::to_string(row.index) + " does not fit into the results file");
-    if (has(row.index))
+    };
+    if (row.inputs.size() != layout.inputs() || row.outcome.fall_time_s.size() != layout.blocks())
+        refuse();
+    if (has(row.index) || (impl_->file.header.selected && impl_->numbers.of(row.index)))
         return;
-    const std::uint64_t chunk = layout.chunk_of(row.index);
+    const std::optional<std::uint64_t> number = impl_->number_for(row.index);
+    if (!number)
+        refuse();
+    const std::uint64_t chunk = layout.chunk_of(*number);
     const auto [at, is_new] = impl_->pending.try_emplace(chunk);
     Impl::Pending& pending = at->second;
     if (is_new) {
@@ -299,10 +397,10 @@ void ResultWriter::add(const ResultRow& row)
         pending.taken.resize(pending.missing);
         pending.bytes.resize(layout.row_bytes() * pending.missing);
     }
-    const std::uint64_t place = row.index - layout.first_index() - layout.first_row(chunk);
+    const std::uint64_t place = *number - layout.first_row(chunk);
     if (pending.taken[place])
         return;
-    layout.encode(row, pending.bytes);
+    layout.encode(*number, row, pending.bytes);
     pending.taken[place] = true;
     if (--pending.missing > 0)
         return;
@@ -334,7 +432,7 @@ void ResultWriter::finish(const SurfaceTable* surface)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
-    if (impl_->rows != file.layout.rows())
+    if (file.header.selected ? impl_->rows == 0 && impl_->pending.empty() : impl_->rows != file.layout.rows())
         throw std::logic_error("only " + std::to_string(impl_->rows) + " of " + std::to_string(file.layout.rows()) +
                                " rows have been added");
     if (surface)
@@ -346,7 +444,10 @@ void ResultWriter::finish(const SurfaceTable* surface)
     std::filesystem::remove(unready);
     FileHandle copy = FileHandle::claim(unready);
     Temporary temporary(unready);
-    copy.copy_from(file.handle);
+    if (file.header.selected)
+        impl_->write_selected(unready, copy);
+    else
+        copy.copy_from(file.handle);
     hdf5::Handle opened = hdf5::open_file(unready, true);
     if (surface)
         write_surface(opened.id(), *surface);

@@ -84,10 +84,33 @@ Axis read_axis(const KeyReader& surface, std::string_view key, const Range& rang
     return axis;
 }
 
-SurfaceSpec read_surface(const KeyReader& keys)
+/// @param most realizations of one cell
+AdaptiveSpec read_adaptive(const KeyReader& keys, std::uint64_t cells, std::uint64_t most)
 {
-    keys.allow_only({"frequency_hz", "pga_m_s2"});
-    return {read_axis(keys, "frequency_hz", frequency_range), read_axis(keys, "pga_m_s2", acceleration_range)};
+    keys.allow_only({"budget", "minimum", "half_width", "borrow"});
+    AdaptiveSpec adaptive;
+    adaptive.minimum = keys.whole_or("minimum", 1, most, std::min(adaptive.minimum, most),
+                                     "Realizations of each cell; at most study.realizations.");
+    adaptive.budget = keys.whole(
+        "budget", adaptive.minimum * cells, most_realizations,
+        fmt::format("Realizations of the whole surface: {} cells have at least {} each.", cells, adaptive.minimum));
+    adaptive.half_width = keys.number_or(
+        "half_width", {0.01, 0.25, false, "Half the width of the 95 % interval of each cell's probability.", 0.01},
+        adaptive.half_width);
+    adaptive.borrow = keys.boolean_or("borrow", adaptive.borrow);
+    return adaptive;
+}
+
+/// @param most realizations of one cell
+SurfaceSpec read_surface(const KeyReader& keys, std::uint64_t most)
+{
+    keys.allow_only({"frequency_hz", "pga_m_s2", "adaptive"});
+    SurfaceSpec surface;
+    surface.frequency_hz = read_axis(keys, "frequency_hz", frequency_range);
+    surface.pga_m_s2 = read_axis(keys, "pga_m_s2", acceleration_range);
+    if (keys.has("adaptive"))
+        surface.adaptive = read_adaptive(keys.table("adaptive"), static_cast<std::uint64_t>(surface.cells()), most);
+    return surface;
 }
 
 /// @param structure must be read: from where it may be leaned
@@ -147,12 +170,13 @@ Study read_tree(const TomlValue& root)
 
     Study study;
     const KeyReader keys = top.table("study");
-    keys.allow_only({"kind", "seed", "realizations"});
+    keys.allow_only({"kind", "seed", "realizations", "sampling"});
     study.kind = keys.choice("kind", study_kind_names);
     const bool is_surface = study.kind == StudyKind::surface;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
     study.realizations = is_surface ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
                                     : keys.whole_or("realizations", 1, most_realizations, study.realizations);
+    study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
 
     study.structure = read_structure(top.table("structure"));
     study.contact = read_contact(top.table("contact"), study.structure);
@@ -160,7 +184,7 @@ Study read_tree(const TomlValue& root)
     if (is_surface) {
         if (!top.has("surface"))
             top.missing("surface", "study.kind = \"surface\" needs the axes frequency_hz and pga_m_s2 in [surface].");
-        study.surface = read_surface(top.table("surface"));
+        study.surface = read_surface(top.table("surface"), study.realizations);
         check_axes(top.table("surface"), study.excitation, *study.surface);
         if (study.total() > most_realizations)
             keys.refuse("realizations",

@@ -15,6 +15,8 @@ struct Name {
 
 inline constexpr std::array study_kind_names = {Name<StudyKind>{"single", StudyKind::single},
                                                 Name<StudyKind>{"surface", StudyKind::surface}};
+inline constexpr std::array sampling_names = {Name<Sampling>{"independent", Sampling::independent},
+                                              Name<Sampling>{"sobol", Sampling::sobol}};
 inline constexpr std::array structure_kind_names = {Name<StructureKind>{"column", StructureKind::column},
                                                     Name<StructureKind>{"colonnade", StructureKind::colonnade}};
 inline constexpr std::array follow_names = {Name<Follow>{"collapse", Follow::collapse},

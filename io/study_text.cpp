@@ -275,6 +275,7 @@ std::string study_text(const Study& study)
     out.word("kind", word_for(study_kind_names, study.kind));
     out.whole("seed", study.seed);
     out.whole("realizations", study.realizations);
+    out.word("sampling", word_for(sampling_names, study.sampling));
     write(out, study.structure);
     write(out, study.contact);
     write(out, study.excitation, study.surface.has_value());
@@ -282,6 +283,11 @@ std::string study_text(const Study& study)
         out.section("surface");
         out.line("frequency_hz", axis(study.surface->frequency_hz));
         out.line("pga_m_s2", axis(study.surface->pga_m_s2));
+        if (const std::optional<AdaptiveSpec>& adaptive = study.surface->adaptive)
+            out.line("adaptive", inline_table({{"budget", std::to_string(adaptive->budget)},
+                                               {"minimum", std::to_string(adaptive->minimum)},
+                                               {"half_width", toml_number(adaptive->half_width)},
+                                               {"borrow", adaptive->borrow ? "true" : "false"}}));
     }
     if (!study.perturbations.empty())
         out.section("perturbation");

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
+
 namespace stylobate {
 
 namespace {
@@ -94,6 +96,10 @@ ResultHeader LoadedStudy::result_header() const
     header.seed = study_->seed;
     header.code_version = code_version();
     header.total = study_->total();
+    if (study_->surface && study_->surface->adaptive) {
+        header.selected = true;
+        header.total = std::min(header.total, study_->surface->adaptive->budget);
+    }
     header.input_names = sampler_->input_names();
     header.block_names = block_names(*study_);
     if (study_->surface) {
@@ -107,6 +113,11 @@ ResultHeader LoadedStudy::result_header() const
         header.pga_m_s2 = values(study_->surface->pga_m_s2);
     }
     return header;
+}
+
+std::uint64_t realizations_end(const ResultHeader& header, const Study& study)
+{
+    return header.selected ? study.total() : header.first + header.total;
 }
 
 } // namespace stylobate

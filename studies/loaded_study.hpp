@@ -41,4 +41,8 @@ private:
     std::string text_;
 };
 
+/// One more than the last realization that a result may be asked for: of an adaptive surface any of its study, run or
+/// not.
+std::uint64_t realizations_end(const ResultHeader& header, const Study& study);
+
 } // namespace stylobate

@@ -45,16 +45,18 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
 {
     const ResultReader reader(results);
     const ResultHeader& header = reader.header();
-    if (realization < 0 || static_cast<std::uint64_t>(realization) >= header.first + header.total ||
-        static_cast<std::uint64_t>(realization) < header.first)
-        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", realization, results,
-                                     header.first, header.first + header.total - 1));
-    const auto index = static_cast<std::uint64_t>(realization);
     const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
+    const std::uint64_t end = realizations_end(header, loaded.study());
+    if (realization < 0 || static_cast<std::uint64_t>(realization) >= end ||
+        static_cast<std::uint64_t>(realization) < header.first)
+        throw InputError(
+            fmt::format("--realization {}: {} has realizations {} to {}", realization, results, header.first, end - 1));
+    const auto index = static_cast<std::uint64_t>(realization);
 
     ResultHeader one = header;
     one.first = index;
     one.total = 1;
+    one.selected = false;
     one.kind = "replay"; // of one realization: there is no surface to it
     one.frequency_hz.clear();
     one.pga_m_s2.clear();
@@ -119,7 +121,8 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
         }
         if (o.total_collapse_time_s >= 0)
             fmt::print("  total collapse at {:.4f} s\n", o.total_collapse_time_s);
-        fmt::print("  {}\n", !known ? "not in the results yet"
+        fmt::print("  {}\n", !known ? (reader.complete() ? "not in the results: the run did not need it"
+                                                         : "not in the results yet")
                              : same ? "the same bits as in the results"
                                     : "NOT the bits of the results");
         if (!trajectory.empty())

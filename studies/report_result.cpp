@@ -9,6 +9,7 @@
 #include "studies/report.hpp"
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"
+#include "studies/run_adaptive.hpp"
 
 #include <fmt/format.h>
 
@@ -146,6 +147,9 @@ private:
         if (surface_)
             text += " The cells differ in their shaking, so that this share describes the choice of cells too; the "
                     "probability of each is below.";
+        if (header_.selected)
+            text += " So it does of how many realizations each cell was given: the more, the nearer its probability "
+                    "is to 1/2.";
         if (collapsed.count > 0)
             text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
         page_.paragraph(text);
@@ -229,6 +233,8 @@ private:
                 plot_slice(surface, {}, describe(LimitState::collapse), "Probability of collapse", png);
             });
         page_.table(table);
+        if (header_.selected)
+            page_.note(describe_adaptive(surface));
         page_.note(describe_realizations(surface) + "; " + describe_interval(surface.interval) +
                    (intervals ? "."
                               : ". The intervals of all cells are in the file, and in the tables of stylobate export "

@@ -114,6 +114,9 @@ std::string excitation_text(const Study& study)
     if (study.surface)
         text += "; frequency: " + axis_text(study.surface->frequency_hz, "Hz") +
                 "; PGA: " + axis_text(study.surface->pga_m_s2, "m/s²");
+    if (study.surface && study.surface->adaptive)
+        text += fmt::format("; adaptive, ± {} with at most {} realizations", study.surface->adaptive->half_width,
+                            study.surface->adaptive->budget);
     else if (e.kind != ExcitationKind::none) {
         if (e.frequency_hz > 0)
             text += fmt::format(", {:.4g} Hz", e.frequency_hz);

@@ -31,10 +31,12 @@ Followed trajectory_of(const CommonOptions& options, const ResultReader& reader,
     if (std::find(stored.begin(), stored.end(), index) != stored.end())
         return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
     const ResultHeader& header = reader.header();
-    if (index < header.first || index >= header.first + header.total)
-        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results, header.first,
-                                     header.first + header.total - 1));
-    FollowedRealization f = follow(LoadedStudy::from_results(header, results, options.set), index, options.isa());
+    const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
+    const std::uint64_t end = realizations_end(header, loaded.study());
+    if (index < header.first || index >= end)
+        throw InputError(
+            fmt::format("--realization {}: {} has realizations {} to {}", index, results, header.first, end - 1));
+    FollowedRealization f = follow(loaded, index, options.isa());
     return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
 }
 

@@ -9,6 +9,7 @@
 #include "studies/json.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
+#include "studies/run_adaptive.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
 
@@ -52,11 +53,15 @@ struct Counts {
 };
 
 /// Counts what an earlier part of the run has done. (Only while no row is being added.)
-void count_done(const std::string& results, Counts& counts)
+/// @param outcomes of an adaptive surface, else null
+void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes)
 {
     const ResultReader reader(results);
-    for (const ResultRow& row : reader.rows())
+    for (const ResultRow& row : reader.rows()) {
         counts.add(row);
+        if (outcomes)
+            outcomes->add(row);
+    }
 }
 
 Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Counts& counts, Observer& observer)
@@ -170,8 +175,23 @@ void print_limits(const LimitCounts& counts, const std::vector<std::string>& nam
         fmt::print("  first to fall: {}\n", list);
 }
 
+Json adaptive_json(const SurfaceTable& table)
+{
+    double widest = 0;
+    for (std::size_t cell = 0; cell < table.lower.size(); ++cell)
+        widest = std::max(widest, (table.upper[cell] - table.lower[cell]) / 2);
+    return Json::object()
+        .member("half_width", table.half_width)
+        .member("widest", widest)
+        .member("rounds", table.rounds)
+        .member("borrowing_cells", static_cast<std::uint64_t>(
+                                       std::count(table.method.begin(), table.method.end(), IntervalMethod::surface)))
+        .member("uniform_realizations", table.lower.size() * uniform_trials(table.half_width, adaptive_level));
+}
+
+/// @param adaptive the table of a complete adaptive surface, else null
 void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
-            const LimitCounts& counts, const RunOptions& run, bool complete)
+            const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive)
 {
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
@@ -192,6 +212,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("occupancy", p.occupancy)
             .member("simd", to_string(run.isa))
             .member("threads", run.threads);
+        if (adaptive)
+            json.member("adaptive", adaptive_json(*adaptive));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
@@ -200,6 +222,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             fmt::print("; {} with {} threads of {}, {:.0f} realizations/s", duration_text(p.seconds), run.threads,
                        to_string(run.isa), p.rate);
         fmt::print("\n");
+        if (adaptive)
+            fmt::print("  {}\n", describe_adaptive(*adaptive));
         if (counts.trials() > 0)
             print_limits(counts, names, to_rest);
         if (!complete)
@@ -219,26 +243,40 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const ResultHeader header = loaded.result_header();
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};
     const bool found = std::filesystem::exists(results);
+    const bool is_surface = loaded.study().surface.has_value();
+    const bool adaptive = is_surface && loaded.study().surface->adaptive;
+    CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
     std::unique_ptr<ResultWriter> writer;
     Progress progress;
+    std::optional<SurfaceTable> table;
+    bool complete = false;
     {
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
         writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
-        if (found && loaded.study().surface)
-            count_done(results, counts); // the file is ours now: no other run adds to it in between
-        progress = loaded.study().surface ? run_surface(loaded, run, *writer, counts, console)
-                                          : run_single(loaded, run.isa, *writer, counts, console);
+        if (found && is_surface) // the file is ours now: no other run adds to it in between
+            count_done(results, counts, adaptive ? &outcomes : nullptr);
+        if (adaptive) {
+            const auto sink = [&](const ResultRow& row) {
+                writer->add(row);
+                counts.add(row);
+            };
+            AdaptiveRun ran = run_adaptive(loaded, run, outcomes, sink, console);
+            progress = ran.progress;
+            table = std::move(ran.table);
+            complete = ran.complete;
+        } else {
+            progress = is_surface ? run_surface(loaded, run, *writer, counts, console)
+                                  : run_single(loaded, run.isa, *writer, counts, console);
+            complete = progress.done == progress.total;
+            if (complete && is_surface)
+                table = counts.cells.table();
+        }
     }
-    const bool complete = progress.done == progress.total;
-    if (!complete) {
+    if (complete)
+        writer->finish(table ? &*table : nullptr);
+    else
         writer->flush();
-    } else if (loaded.study().surface) {
-        const SurfaceTable table = counts.cells.table();
-        writer->finish(&table);
-    } else {
-        writer->finish(nullptr);
-    }
-    report(options, loaded, results, progress, counts.limits, run, complete);
+    report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr);
     if (!complete)
         return exit_interrupted;
     const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);

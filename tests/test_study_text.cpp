@@ -169,6 +169,8 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
     const std::vector<std::function<void(Study&)>> changes = {
         [](Study& s) { s.seed += 1; },
         [](Study& s) { s.realizations += 1; },
+        [](Study& s) { s.sampling = Sampling::sobol; },
+        [](Study& s) { s.surface->adaptive = AdaptiveSpec{}; },
         [](Study& s) { s.structure.kind = StructureKind::colonnade; },
         [](Study& s) { s.structure.columns[0].drums.push_back(s.structure.columns[0].drums[0]); },
         [](Study& s) { s.structure.columns[0].fixed_blocks = 0; },
@@ -219,6 +221,24 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [&](Study& s) { up(s.run.max_invalid_fraction); },
     };
     expect_other_texts(base, changes);
+}
+
+TEST(StudyText, AnAdaptiveSurfaceReadsBackToItself)
+{
+    Study base = all_sorts()[1];
+    base.realizations = 400;
+    base.sampling = Sampling::sobol;
+    base.surface->adaptive = AdaptiveSpec{1000000, 9, 0.037, false};
+    const Study again = parse_study(study_text(base), "again");
+    EXPECT_EQ(again.sampling, Sampling::sobol);
+    ASSERT_TRUE(again.surface->adaptive);
+    EXPECT_EQ(again.surface->adaptive->budget, 1000000U);
+    EXPECT_EQ(again.surface->adaptive->minimum, 9U);
+    EXPECT_EQ(again.surface->adaptive->half_width, 0.037);
+    EXPECT_FALSE(again.surface->adaptive->borrow);
+    EXPECT_EQ(again.text, study_text(base));
+    base.surface->adaptive->borrow = true;
+    EXPECT_NE(again.text, study_text(base));
 }
 
 TEST(StudyText, DiffersWhereverAColonnadeDoes)

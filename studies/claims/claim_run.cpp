@@ -119,6 +119,10 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
         if (place.realizations > 0)
             settings.push_back(fmt::format("study.realizations={}", place.realizations));
         const Study study = read_study(file.file, settings);
+        if (study.surface && study.surface->adaptive)
+            throw InputError(file.file.string(), 0,
+                             "surface.adaptive: a claim is judged on cells with equally many realizations; leave it "
+                             "out");
         const std::vector<std::string> record = record_setting(study, place);
         settings.insert(settings.end(), record.begin(), record.end());
 

@@ -1,0 +1,165 @@
+#include "studies/run_adaptive.hpp"
+
+#include "studies/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+/// Tells of a round as a part of the whole run.
+class RoundObserver : public Observer {
+public:
+    /// @param before all that had been done when the round began
+    RoundObserver(Observer& whole, const Progress& before) : whole_(whole), before_(before) {}
+    void progress(const Progress& round) override { whole_.progress(joined(round)); }
+    void warn(const std::string& text) override { whole_.warn(text); }
+    bool stop_requested() override { return whole_.stop_requested(); }
+
+    /// What had been done before the round, and the round.
+    Progress joined(const Progress& round) const
+    {
+        Progress all = before_;
+        all.done += round.done;
+        all.collapsed += round.collapsed;
+        all.invalid += round.invalid;
+        all.block_steps += round.block_steps;
+        all.seconds += round.seconds;
+        const double before = before_.rate * before_.seconds;
+        all.rate = all.seconds > 0 ? (before + round.rate * round.seconds) / all.seconds : 0;
+        all.occupancy =
+            all.seconds > 0 ? (before_.occupancy * before_.seconds + round.occupancy * round.seconds) / all.seconds : 0;
+        return all;
+    }
+
+private:
+    Observer& whole_;
+    Progress before_;
+};
+
+SurfaceTable table_of(AdaptiveAllocation& allocation, const ResultHeader& header, const SurfaceTrials& data)
+{
+    SurfaceTable table;
+    table.frequency_hz = header.frequency_hz;
+    table.pga_m_s2 = header.pga_m_s2;
+    table.trials = data.trials;
+    table.collapses = data.collapses;
+    for (const CellEstimate& cell : allocation.estimate(data)) {
+        table.probability.push_back(cell.probability);
+        table.lower.push_back(cell.interval.lower);
+        table.upper.push_back(cell.interval.upper);
+        table.method.push_back(cell.method);
+    }
+    table.interval = fmt::format("adaptive {}", adaptive_level);
+    table.half_width = allocation.looks().half_width();
+    table.rounds = allocation.rounds();
+    return table;
+}
+
+} // namespace
+
+void CellOutcomes::add(const ResultRow& row)
+{
+    std::vector<std::optional<State>>& cell = state_.at(row.cell);
+    const std::uint64_t k = row.index % most_;
+    if (cell.size() <= k)
+        cell.resize(k + 1);
+    cell[k] = row.outcome.state;
+}
+
+bool CellOutcomes::has(std::uint64_t index) const
+{
+    const auto& cell = state_.at(index / most_);
+    return index % most_ < cell.size() && cell[index % most_];
+}
+
+SurfaceTrials CellOutcomes::trials(const std::vector<std::uint64_t>& asked) const
+{
+    SurfaceTrials data{rows_, columns_, {}, {}};
+    for (std::size_t cell = 0; cell < asked.size(); ++cell) {
+        const auto first = state_[cell].begin();
+        const auto last = first + static_cast<std::ptrdiff_t>(asked[cell]);
+        data.collapses.push_back(static_cast<std::uint64_t>(std::count(first, last, State::collapsed)));
+        data.trials.push_back(asked[cell] - static_cast<std::uint64_t>(std::count(first, last, State::invalid)));
+    }
+    return data;
+}
+
+AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, CellOutcomes& outcomes,
+                         const std::function<void(const ResultRow&)>& sink, Observer& observer)
+{
+    const Study& study = loaded.study();
+    const SurfaceSpec& surface = *study.surface;
+    const ResultHeader header = loaded.result_header();
+    AdaptiveAllocation allocation(*surface.adaptive, header.frequency_hz.size(), header.pga_m_s2.size(),
+                                  study.realizations);
+    AdaptiveRun run;
+    run.progress.total = surface.adaptive->budget;
+    std::vector<std::uint64_t> before = allocation.asked();
+    while (true) {
+        const std::vector<std::uint64_t>& asked = allocation.next(outcomes.trials(before));
+        std::vector<std::uint64_t> round;
+        for (std::size_t cell = 0; cell < asked.size(); ++cell)
+            for (std::uint64_t k = before[cell]; k < asked[cell]; ++k)
+                round.push_back(cell * study.realizations + k);
+        if (round.empty())
+            break;
+        RunPlan plan;
+        plan.total = round.size();
+        plan.indices = round;
+        plan.done = [&](std::uint64_t index) { return outcomes.has(index); };
+        plan.sink = [&](const Realization& realization, const Outcome& outcome) {
+            const ResultRow row = result_row(study, realization, outcome);
+            outcomes.add(row);
+            sink(row);
+        };
+        for (const std::uint64_t index : round)
+            if (outcomes.has(index)) {
+                ++plan.before.done;
+                plan.before.collapsed += outcomes.state(index) == State::collapsed;
+                plan.before.invalid += outcomes.state(index) == State::invalid;
+            }
+        RoundObserver observed(observer, run.progress);
+        const Progress progress = plan.before.done == plan.total
+                                      ? plan.before
+                                      : run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observed);
+        run.progress = observed.joined(progress);
+        if (progress.done < plan.total)
+            return run;
+        before = asked;
+    }
+    run.progress.total = run.progress.done;
+    run.complete = true;
+    run.table = table_of(allocation, header, outcomes.trials(before));
+    return run;
+}
+
+std::string describe_adaptive(const SurfaceTable& table)
+{
+    std::uint64_t wide = 0;
+    double widest = 0;
+    for (std::size_t cell = 0; cell < table.lower.size(); ++cell) {
+        const double half = (table.upper[cell] - table.lower[cell]) / 2;
+        wide += half > table.half_width;
+        widest = std::max(widest, half);
+    }
+    const auto borrowed = std::count(table.method.begin(), table.method.end(), IntervalMethod::surface);
+    const std::uint64_t all = std::accumulate(table.trials.begin(), table.trials.end(), std::uint64_t{0});
+    const std::uint64_t uniform = table.lower.size() * uniform_trials(table.half_width, adaptive_level);
+    std::string text = wide == 0 ? fmt::format("every cell is known to ±{:.3g} (95 %)", table.half_width)
+                                 : fmt::format("{} of {} cells are not known to ±{:.3g} (95 %), the worst to ±{:.3g}",
+                                               wide, table.lower.size(), table.half_width, widest);
+    text += fmt::format(" after {} rounds, {} of {} by borrowing from their neighbours", table.rounds, borrowed,
+                        table.lower.size());
+    if (wide == 0)
+        text +=
+            fmt::format("; with equally many realizations in each cell it would take {}, {:.1f} times as many", uniform,
+                        static_cast<double>(uniform) / static_cast<double>(std::max<std::uint64_t>(all, 1)));
+    return text;
+}
+
+} // namespace stylobate
