@@ -120,7 +120,7 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
             settings.push_back(fmt::format("study.realizations={}", place.realizations));
         const Study study = read_study(file.file, settings);
         if (study.surface && study.surface->adaptive)
-            throw InputError(file.file.string(), 0,
+            throw InputError(file.file, 0,
                              "surface.adaptive: a claim is judged on cells with equally many realizations; leave it "
                              "out");
         const std::vector<std::string> record = record_setting(study, place);

@@ -1,0 +1,129 @@
+/// Writes the tables of docs/performance.md from a file of results: no figure on that page is typed.
+
+#include "bench/results_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+using namespace stylobate;
+
+namespace {
+
+const char* const isas[] = {"scalar", "avx2", "avx512"};
+
+std::string millions(double rate)
+{
+    return rate > 0 ? fmt::format("{:.0f}", rate / 1e6) : "";
+}
+
+std::string times(double a, double b)
+{
+    return a > 0 && b > 0 ? fmt::format("{:.1f}", a / b) : "";
+}
+
+void kernel(const ResultsFile& file)
+{
+    const auto best = [&](const char* family, const std::string& isa, int blocks, const char* counter) {
+        return file.best(fmt::format("{}/{}/{}", family, isa, blocks), counter);
+    };
+    fmt::print("Million block-steps per second of one core: the steps alone, and with base motion and looks as the "
+               "ensemble runs them; best of the repetitions.\n\n"
+               "| free blocks | steps: scalar | AVX2 | AVX-512 | with all: scalar | AVX2 | AVX-512 |\n"
+               "|---:|---:|---:|---:|---:|---:|---:|\n");
+    for (const int blocks : {2, 4, 7, 13, 25, 49}) {
+        fmt::print("| {} |", blocks - 1);
+        for (const char* family : {"BM_Kernel", "BM_Step"})
+            for (const char* isa : isas)
+                fmt::print(" {} |", millions(best(family, isa, blocks, "block_steps_per_second")));
+        fmt::print("\n");
+    }
+    fmt::print(
+        "\nThe seven-block specimen (six of them free): operations counted by running the kernel's template on a "
+        "number that counts, a multiply-add is two; peak: multiply-adds on registers, same run.\n\n"
+        "| | scalar | AVX2 | AVX-512 |\n|---|---:|---:|---:|\n");
+    const auto row = [&](const char* name, const auto& value) {
+        fmt::print("| {} |", name);
+        for (const char* isa : isas)
+            fmt::print(" {} |", value(isa));
+        fmt::print("\n");
+    };
+    const auto peak = [&](const char* isa) { return file.best(fmt::format("BM_PeakFma/{}", isa), "flops_per_second"); };
+    row("operations of a block-step",
+        [&](const char* isa) { return fmt::format("{:.0f}", best("BM_Step", isa, 7, "flops_per_block_step")); });
+    row("of these divisions and roots",
+        [&](const char* isa) { return fmt::format("{:.0f}", best("BM_Step", isa, 7, "divisions_per_block_step")); });
+    row("peak, GFLOP/s", [&](const char* isa) { return fmt::format("{:.1f}", peak(isa) / 1e9); });
+    for (const char* family : {"BM_Kernel", "BM_Step"}) {
+        const bool alone = std::string(family) == "BM_Kernel";
+        row(alone ? "steps, GFLOP/s" : "with all, GFLOP/s",
+            [&](const char* isa) { return fmt::format("{:.1f}", best(family, isa, 7, "flops_per_second") / 1e9); });
+        row("part of the peak", [&](const char* isa) {
+            return peak(isa) > 0 ? fmt::format("{:.0f} %", 100 * best(family, isa, 7, "flops_per_second") / peak(isa))
+                                 : "";
+        });
+        row("times the scalar rate", [&](const char* isa) {
+            return times(best(family, isa, 7, "block_steps_per_second"),
+                         best(family, "scalar", 7, "block_steps_per_second"));
+        });
+    }
+}
+
+void structures(const ResultsFile& file)
+{
+    fmt::print("\n| structure, million block-steps/s | scalar | AVX2 | AVX-512 |\n|---|---:|---:|---:|\n");
+    const std::pair<const char*, const char*> scenes[] = {{"column", "the specimen"},
+                                                          {"column_two_corner", "the same, contact at two corners"},
+                                                          {"column_points", "the same, contact at five points"},
+                                                          {"column_watched", "the same, all pairs watched"},
+                                                          {"colonnade_2x1", "two columns of one drum"},
+                                                          {"colonnade_2x2", "two columns of two drums"},
+                                                          {"colonnade_4x4", "four columns of four drums"},
+                                                          {"heap_2x2", "two columns of two drums, fallen"},
+                                                          {"heap_4x4", "four columns of four drums, fallen"}};
+    for (const auto& [scene, name] : scenes) {
+        fmt::print("| {} |", name);
+        for (const char* isa : isas)
+            fmt::print(" {} |",
+                       millions(file.best(fmt::format("BM_Structure/{}/{}", isa, scene), "block_steps_per_second")));
+        fmt::print("\n");
+    }
+}
+
+void ensembles(const ResultsFile& file)
+{
+    fmt::print("\n| ensemble (small surface, realizations/s) | 1 thread | 2 threads | times | occupancy of lanes |\n"
+               "|---|---:|---:|---:|---:|\n");
+    for (const char* isa : isas) {
+        const auto at = [&](int threads, const char* counter) {
+            double best = 0;
+            for (const char* tail : {"", "/real_time"})
+                best = std::max(best, file.best(fmt::format("BM_Ensemble/{}/{}{}", isa, threads, tail), counter));
+            return best;
+        };
+        const double one = at(1, "realizations_per_second"), two = at(2, "realizations_per_second");
+        fmt::print("| {} | {:.0f} | {:.0f} | {} | {:.2f} |\n", isa, one, two, times(two, one), at(1, "occupancy"));
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 2) {
+        fmt::print(stderr, "performance_page: give one file of results, as scripts/bench.sh writes it\n");
+        return 2;
+    }
+    try {
+        const ResultsFile file = read_results(argv[1]);
+        fmt::print("{}; Stylobate {}.\n\n", file.processor, file.commit);
+        kernel(file);
+        structures(file);
+        ensembles(file);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "performance_page: {}\n", error.what());
+        return 2;
+    }
+    return 0;
+}

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Runs the benchmarks and writes their tables into docs/performance.md. Ten minutes; on an idle machine.
+#
+#   scripts/performance.sh [RESULTS.json]      from results that are there, without running them again
+set -euo pipefail
+
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+if [[ $# -eq 0 ]]; then
+    results=$(scripts/bench.sh --benchmark_repetitions=3 --benchmark_min_time=0.2 | tail -n 1)
+else
+    results=$1
+fi
+[[ -n ${STYLOBATE_BUILD:-} ]] || cmake --build build/release --target performance_page >/dev/null
+
+page=docs/performance.md
+tables=$(mktemp)
+trap 'rm -f "$tables" "$tables.page"' EXIT
+"${STYLOBATE_BUILD:-build/release}/bench/performance_page" "$results" >"$tables"
+awk -v tables="$tables" '
+    /<!-- end of what scripts\/performance.sh writes -->/ { inside = 0 }
+    !inside { print }
+    /<!-- scripts\/performance.sh writes what follows -->/ { inside = 1; print ""; while ((getline line < tables) > 0) print line }
+' "$page" >"$tables.page"
+cat "$tables.page" >"$page"
+echo "$page"
