@@ -1,5 +1,6 @@
 #include "ensemble/following_score.hpp"
 
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
@@ -28,6 +29,11 @@ double log_student(double t, double degrees)
 double student_quantile(double probability, double degrees)
 {
     return boost::math::quantile(boost::math::students_t(degrees), probability);
+}
+
+double normal_quantile(double probability)
+{
+    return boost::math::quantile(boost::math::normal(), probability);
 }
 
 double student_scale(const std::vector<double>& z, double degrees)

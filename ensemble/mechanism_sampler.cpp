@@ -165,7 +165,7 @@ void MechanismSampler::apply(const Values& values, Realization& realization) con
 {
     realization.extended = extended_;
     realization.form = form_;
-    if (damping_ == DampingAt::ends)
+    if (damping_ == DampingAt::ends && form_ == ContactForm::area) // the other forms have theirs there anyway
         for (Joint& joint : realization.joints)
             joint.extension.face_damping = 1;
     for (std::size_t i = 0; i < acting_.size(); ++i) {

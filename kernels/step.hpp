@@ -433,7 +433,7 @@ private:
                 put(OfJointExtension::couple, joint, couple);
             }
             if constexpr (extended) {
-                joint_energy = joint_energy + after_force(joint, s, f, turning);
+                joint_energy = joint_energy + after_force<Real>(*this, topology_.joint[joint], joint, s, f, turning);
             }
             put(OfJoint::dashpot_force, joint, dashpot);
             shear_energy = fma(f.tangential + get(OfJoint::shear_force, joint), s.sliding, shear_energy);
@@ -454,24 +454,6 @@ private:
         put(OfRealization::rocking_path, rocking_path);
         if constexpr (Mechanism::extended && Kind::at_rest)
             put(OfRealizationExtension::joint_energy, get(OfRealizationExtension::joint_energy) + joint_energy);
-    }
-
-    /// What follows the contact force of a bed: its dowel, and what its slip and its rocking wear off.
-    /// @return 2 x the energy that these took [J]
-    STYLOBATE_INLINE Real after_force(int joint, const Scratch& s, const ContactForce<Real>& f, Real turning) const
-    {
-        using J = OfJointExtension;
-        const auto [lower, upper] = topology_.joint[joint];
-        Real energy = add_dowel<Real>(*this, joint, lower, upper, s.place, s.apart_x, s.apart_y);
-        put(J::slip, joint, fma(f.excess, get(OfJoint::per_K_t, joint), get(J::slip, joint)));
-        const Real wear = get(J::corner_wear, joint);
-        if (any(wear != Real(0.0))) {
-            const Real path = abs_of(turning);
-            put(J::turned, joint, get(J::turned, joint) + path);
-            energy =
-                energy + Real(2.0) * worn_energy(get(OfJoint::K_n, joint), s.area, s.chord, s.place.sine, wear * path);
-        }
-        return energy;
     }
 
     /// The watched pairs that meet, in the order of the list. Kept out of the way of the beds.

@@ -55,7 +55,7 @@ TEST_F(AdaptiveProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
         ProgramRun part = words(adaptive, "parts.h5", parts % 2 == 0 ? "1" : "3", parts % 2 == 0 ? "scalar" : "auto");
         if (parts < 6) {
             part.signal = parts % 2 == 0 ? SIGINT : SIGKILL;
-            part.after_s = whole.seconds * (0.3 + 0.15 * parts);
+            part.after_s = whole.seconds * (0.1 + 0.15 * parts);
         }
         ended = run(part);
         ++parts;

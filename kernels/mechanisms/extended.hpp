@@ -230,6 +230,26 @@ STYLOBATE_INLINE Real add_dowel(const Rows<Real>& rows, int joint, int lower, in
     return work;
 }
 
+/// What follows the contact force of a bed: its dowel, and what its slip and its rocking wear off.
+/// @param s what the step knows of the bed (`JointScratch`);  @param turning as in `BedMotion`
+/// @return 2 x the energy that these took [J]
+template <class Real, class Scratch>
+STYLOBATE_INLINE Real after_force(const Rows<Real>& rows, TopologyJoint blocks, int joint, const Scratch& s,
+                                  const ContactForce<Real>& f, Real turning)
+{
+    using J = OfJointExtension;
+    Real energy = add_dowel<Real>(rows, joint, blocks.lower, blocks.upper, s.place, s.apart_x, s.apart_y);
+    rows.put(J::slip, joint, fma(f.excess, rows.get(OfJoint::per_K_t, joint), rows.get(J::slip, joint)));
+    const Real wear = rows.get(J::corner_wear, joint);
+    if (any(wear != Real(0.0))) {
+        const Real path = abs_of(turning);
+        rows.put(J::turned, joint, rows.get(J::turned, joint) + path);
+        energy =
+            energy + Real(2.0) * worn_energy(rows.get(OfJoint::K_n, joint), s.area, s.chord, s.place.sine, wear * path);
+    }
+    return energy;
+}
+
 /// What moves the blocks in one step besides the contacts, times dt2.
 template <class Real>
 class ExtendedPull {

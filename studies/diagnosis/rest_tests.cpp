@@ -1,8 +1,8 @@
 #include "studies/diagnosis/rest_tests.hpp"
 
+#include "ensemble/following_score.hpp"
 #include "studies/diagnosis/direct_findings.hpp"
 
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,8 +44,7 @@ void test_places(const Specimen& s, bool table, const TrackScales& scales, const
     const std::size_t n = place.size(), runs = place.front().size();
     if (n < 2 && !table)
         return;
-    const double most = quantile(
-        complement(boost::math::normal_distribution<double>(), limits.placed_by_chance / (2 * static_cast<double>(n))));
+    const double most = -normal_quantile(limits.placed_by_chance / (2 * static_cast<double>(n)));
     struct Placed {
         double mean = 0, sd = 1;
         double in_sds() const { return std::fabs(mean) / sd; }
