@@ -59,6 +59,9 @@ TEST_F(AdaptiveProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
         }
         ended = run(part);
         ++parts;
+        // a signal may also hit a part that has just written its last byte
+        if (ended.err.find("is complete already") != std::string::npos)
+            ended.status = 0;
     } while (ended.status != 0 && parts < 8);
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     EXPECT_GT(parts, 1);
