@@ -88,7 +88,7 @@ void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>
         size,  static_cast<std::uint32_t>(extents.size()),        crc_outside(file, block, size, extents)};
     std::vector<std::byte> bytes(block);
     std::memcpy(bytes.data(), &head, sizeof head);
-    std::memcpy(bytes.data() + sizeof head, extents.data(), extents.size() * sizeof(Extent));
+    std::ranges::copy(std::as_bytes(std::span(extents)), bytes.begin() + sizeof head);
     const std::uint32_t crc = crc32_of(std::span(bytes).first(block - sizeof crc));
     std::memcpy(bytes.data() + block - sizeof crc, &crc, sizeof crc);
     file.write(0, bytes);
@@ -133,7 +133,8 @@ std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
         refuse(damaged);
 
     std::vector<Extent> extents(head.extents);
-    std::memcpy(extents.data(), block.data() + sizeof head, extents.size() * sizeof(Extent));
+    const auto list = std::as_writable_bytes(std::span(extents));
+    std::ranges::copy(std::span(block).subspan(sizeof head, list.size()), list.begin());
     std::uint64_t from = head.block;
     for (const Extent& extent : extents) {
         if (extent.offset < from || extent.offset > size || extent.size > size - extent.offset)
