@@ -12,10 +12,10 @@
 ///
 /// is a finite sum. The interval is Jeffreys' (see `interval.hpp`) at the lowest level, in steps of 0.001, at which the
 /// average of C over p is at least the level that is asked for, also when the looks end early (budget) at any of them.
-/// Looks from 8 on with h = 0.05 and 0.95: level 0.953, average 0.951, and the worst p has 0.880, no worse than Jeffreys'
-/// with a fixed number (0.878). With a count of 1/2 the cell is finished after 408 trials, without a collapse after 28;
-/// all cells with the trials of the worst one would need 382. A confidence sequence, which holds for every way to stop
-/// at once, would need about twice as many.
+/// Looks from 8 on with h = 0.05 and 0.95: level 0.953, average 0.951, and the worst p has 0.880, no worse than
+/// Jeffreys' with a fixed number (0.878). With a count of 1/2 the cell is finished after 408 trials, without a collapse
+/// after 28; all cells with the trials of the worst one would need 382. A confidence sequence, which holds for every
+/// way to stop at once, would need about twice as many.
 ///
 /// Group-sequential sampling: Jennison & Turnbull, "Group Sequential Methods" (2000), chapter 12; fixed-width intervals
 /// of a proportion: Frey, The American Statistician 64 (2010) 242.
@@ -76,8 +76,8 @@ private:
     Rule rule_;
 };
 
-/// Trials that a cell needs if their number is fixed beforehand and nothing is known of p: Jeffreys' interval of p = 1/2
-/// at the level is just narrow enough.
+/// Trials that a cell needs if their number is fixed beforehand and nothing is known of p: Jeffreys' interval of p =
+/// 1/2 at the level is just narrow enough.
 std::uint64_t uniform_trials(double half_width, double level);
 
 } // namespace stylobate

@@ -219,8 +219,15 @@ private:
                 continue;
             page_.heading("Evidence for " + c.mechanism + ", " + c.place);
             HtmlTable table{"lrl", {"run", "gain [nats]", ""}, {}, ""};
-            for (const Evidence& e : c.evidence)
+            MaybeReal told;
+            for (const Evidence& e : c.evidence) {
                 table.rows.push_back({e.run, cell(e.gain_nats), e.text});
+                if (e.gain_nats)
+                    told = told.value_or(0) + *e.gain_nats;
+            }
+            if (c.gain_nats && told)
+                table.rows.push_back({"all runs", cell(*c.gain_nats - *told),
+                                      "without it, what differs from specimen to specimen would have to differ more"});
             page_.table(table);
         }
     }

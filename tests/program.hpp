@@ -307,6 +307,18 @@ inline std::vector<std::string> run_words(const std::string& study, const std::v
     return words;
 }
 
+/// Settings of a surface: 16 cells of a short column; in about half of them it collapses.
+inline std::vector<std::string> short_surface(int realizations_per_cell)
+{
+    return {"study.realizations=" + std::to_string(realizations_per_cell),
+            "structure.blocks=4",
+            "contact.normal_stiffness_n_m2=4e6",
+            "contact.tangential_stiffness_n_m=2e5",
+            "excitation.cycles=4",
+            "surface.frequency_hz={from=4.0,to=8.0,count=4}",
+            "surface.pga_m_s2={from=4.0,to=25.0,count=4}"};
+}
+
 /// 2 x 2 cells of 2 realizations on softer joints; some stand and some collapse.
 inline const std::vector<std::string> eight_realizations = {
     "study.realizations=2",

@@ -11,16 +11,7 @@
 namespace stylobate {
 namespace {
 
-/// 16 cells; in about half of them it collapses.
-const std::vector<std::string> small = {
-    "structure.blocks=4",
-    "contact.normal_stiffness_n_m2=4e6",
-    "contact.tangential_stiffness_n_m=2e5",
-    "excitation.cycles=4",
-    "surface.frequency_hz={from=4.0,to=8.0,count=4}",
-    "surface.pga_m_s2={from=4.0,to=25.0,count=4}",
-    "study.realizations=300",
-};
+const std::vector<std::string> small = short_surface(300);
 
 std::vector<std::string> with(std::vector<std::string> settings, const std::string& more)
 {

@@ -29,6 +29,19 @@ std::string listed(const BalanceEvidence& evidence)
     return all;
 }
 
+/// A run of a block that is at these places, one after the other [m].
+MeasuredRun pushed_run(const Specimen& specimen, const std::vector<double>& x, unsigned seed)
+{
+    return formula_run(
+        specimen, static_cast<int>(x.size()),
+        [&](int b, int i) {
+            Pose pose = at_rest(specimen, b);
+            pose.x += x[static_cast<std::size_t>(i)];
+            return pose;
+        },
+        camera_m, camera_rad, seed);
+}
+
 /// Several runs of a block that is slowed down from several velocities, to either side.
 Campaign coasting_campaign(const std::function<double(double)>& slowed)
 {
@@ -37,14 +50,7 @@ Campaign coasting_campaign(const std::function<double(double)>& slowed)
     unsigned seed = 0;
     for (const double velocity : {1.0, -1.5, 2.0, -2.5, 3.0, -1.2}) {
         const std::vector<double> x = coasting(velocity, slowed);
-        campaign.runs.push_back(formula_run(
-            campaign.specimen, static_cast<int>(x.size()),
-            [&](int b, int i) {
-                Pose pose = at_rest(campaign.specimen, b);
-                pose.x += x[static_cast<std::size_t>(i)];
-                return pose;
-            },
-            camera_m, camera_rad, ++seed));
+        campaign.runs.push_back(pushed_run(campaign.specimen, x, ++seed));
     }
     return campaign;
 }
@@ -142,14 +148,7 @@ TEST(BalanceFit, WearThatEnds)
                 x.push_back(std::copysign(at, velocity));
         }
         ASSERT_GT(at, 2 * ends);
-        campaign.runs.push_back(formula_run(
-            campaign.specimen, static_cast<int>(x.size()),
-            [&](int b, int i) {
-                Pose pose = at_rest(campaign.specimen, b);
-                pose.x += x[static_cast<std::size_t>(i)];
-                return pose;
-            },
-            camera_m, camera_rad, ++seed));
+        campaign.runs.push_back(pushed_run(campaign.specimen, x, ++seed));
     }
     const BalanceEvidence evidence = evidence_of(campaign);
     ASSERT_FALSE(evidence.causes.empty());
