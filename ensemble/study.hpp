@@ -233,7 +233,14 @@ struct OutcomeSpec {
     double sliding_threshold = 0.005;      ///< total sliding over drum width below which a column has not slid
 };
 
+/// What the steps are computed in.
+enum class Precision {
+    double_, ///< 53 binary digits
+    single   ///< 24, with compensated sums: the paper's model alone, about twice as fast (docs/precision.md)
+};
+
 struct RunSpec {
+    Precision precision = Precision::double_;
     double step_fraction = 0.9;          ///< of the safe bound of each realization (see README.md of this folder)
     std::optional<double> step_s;        ///< a fixed step instead
     bool allow_step_above_bound = false; ///< run such a step all the same
