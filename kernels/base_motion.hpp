@@ -68,13 +68,12 @@ STYLOBATE_INLINE Real base_displacement(MotionFormula formula, const FormulaPara
     return L::load(p.amplitude_m) * ramp * (sine_of_cycles(turn) - L::load(p.offset));
 }
 
-/// Fills the table for the chunk that begins at each realization's step `first_step` (lanes).
-/// @tparam Here see `kernel_table`
-template <class Real, class Here = void>
-void fill_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+/// Second differences for `chunk_steps` steps from `first` on, into table[k * stride].
+template <class Real>
+STYLOBATE_INLINE void fill_base_rows(MotionFormula formula, const FormulaParameters& p, Real first, double* table,
+                                     int stride)
 {
     using L = Lanes<Real>;
-    const Real first = L::load(first_step);
     Real before = base_displacement(formula, p, first - Real(1.0));
     Real now = base_displacement(formula, p, first);
     // once the motion is over for the whole of a step's reach, nothing but rounding is left of the difference
@@ -83,10 +82,18 @@ void fill_base_table(MotionFormula formula, const FormulaParameters& p, const do
         const Real n = first + Real(static_cast<double>(k));
         const Real next = base_displacement(formula, p, n + Real(1.0));
         const Real difference = (next - now) - (now - before);
-        L::store(table + k * L::count, select(n - Real(1.0) >= over, Real(0.0), difference));
+        L::store(table + k * stride, select(n - Real(1.0) >= over, Real(0.0), difference));
         before = now;
         now = next;
     }
+}
+
+/// Fills the table for the chunk that begins at each realization's step `first_step` (lanes).
+/// @tparam Here see `kernel_table`
+template <class Real, class Here = void>
+void fill_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+{
+    fill_base_rows(formula, p, Lanes<Real>::load(first_step), table, Lanes<Real>::count);
 }
 
 } // namespace stylobate

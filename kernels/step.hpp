@@ -30,9 +30,6 @@ namespace stylobate {
 
 namespace detail {
 
-/// Joints that go through the phases together.
-inline constexpr int joint_group = 8;
-
 /// Area and contact length below which two blocks do not touch.
 inline constexpr double least_area = 1e-18;  // m2
 inline constexpr double least_chord = 1e-12; // m
@@ -49,15 +46,18 @@ struct Pair {
 
 /// @tparam watching whether there are watched pairs
 /// @tparam stack `Topology::stack`: then what meets where is known beforehand, and need not be looked up
-template <class Real, class Mechanism, bool watching, bool stack>
-class Stepper : Neighbours<Real, Mechanism> {
+/// @tparam Layout how the rows lie, and how many joints go through the phases together (`rows.hpp`)
+template <class Real, class Mechanism, bool watching, bool stack, class Layout = Packed>
+class Stepper : Neighbours<Real, Mechanism, Layout> {
+    using Near = Neighbours<Real, Mechanism, Layout>;
+
 public:
-    Stepper(const Topology& topology, const Bundle& bundle) : Neighbours<Real, Mechanism>(topology, bundle) {}
+    STYLOBATE_INLINE Stepper(const Topology& topology, const Bundle& bundle) : Near(topology, bundle) {}
 
     /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
     STYLOBATE_INLINE void run(int first, int last) const
     {
-        Scratch scratch[detail::joint_group];
+        Scratch scratch[joint_group];
         const int beds = topology_.beds();
         [[maybe_unused]] int close = -1;
         for (int i = topology_.fixed; i < topology_.blocks; ++i)
@@ -70,10 +70,10 @@ public:
                     put(OfBlock::force_y, i, Real(0.0));
                     put(OfBlock::moment, i, Real(0.0));
                 }
-            for (int begin = 0; begin < beds; begin += detail::joint_group)
+            for (int begin = 0; begin < beds; begin += joint_group)
                 contacts<detail::Bed>(
-                    beds - begin < detail::joint_group ? beds - begin : detail::joint_group,
-                    [begin](int j) { return begin + j; }, scratch, audit);
+                    beds - begin < joint_group ? beds - begin : joint_group, [begin](int j) { return begin + j; },
+                    scratch, audit);
             if constexpr (watching)
                 close = pairs(close, scratch, audit);
             update(step, audit);
@@ -81,15 +81,16 @@ public:
     }
 
 private:
+    static constexpr int joint_group = Layout::joint_group;
     using Scratch = detail::JointScratch<Real, Mechanism::points>;
 
     /// Whether forces act on the blocks besides those of the beds: these are summed up in the blocks' rows.
     static constexpr bool others = watching || Mechanism::extended;
 
-    using Rows<Real>::get;
-    using Rows<Real>::put;
-    using Rows<Real>::b_;
-    using Near = Neighbours<Real, Mechanism>;
+    using Rows<Real, Layout>::get;
+    using Rows<Real, Layout>::put;
+    using Rows<Real, Layout>::b_;
+
     using Near::centre_x;
     using Near::centre_y;
     using Near::topology_;
@@ -244,12 +245,8 @@ private:
     }
 
     template <class Mask, int count>
-#if defined(__GNUC__)
-    __attribute__((noinline))
-#endif
-    void
-    fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits, Overlap<Real>& o,
-              FormPoints<Real, count>& points) const
+    STYLOBATE_APART void fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits,
+                                   Overlap<Real>& o, FormPoints<Real, count>& points) const
     {
         take_general(place, sizes, fits, o, points);
     }
@@ -264,11 +261,7 @@ private:
 
     /// The general overlap, for the realizations whose closed form does not hold. Rare, so kept out of the way.
     template <class Mask>
-#if defined(__GNUC__)
-    __attribute__((noinline))
-#endif
-    void
-    fall_back(int joint, Mask fits, Overlap<Real>& o) const
+    STYLOBATE_APART void fall_back(int joint, Mask fits, Overlap<Real>& o) const
     {
         Real x, y;
         const auto [lower, upper] = topology_.joint[joint];
@@ -437,7 +430,7 @@ private:
     {
         using J = OfJointExtension;
         const auto [lower, upper] = topology_.joint[joint];
-        Real energy = add_dowel<Real>(*this, joint, lower, upper, s.place, s.apart_x, s.apart_y);
+        Real energy = add_dowel(*this, joint, lower, upper, s.place, s.apart_x, s.apart_y);
         put(J::slip, joint, fma(f.excess, get(OfJoint::per_K_t, joint), get(J::slip, joint)));
         const Real wear = get(J::corner_wear, joint);
         if (any(wear != Real(0.0))) {
@@ -452,11 +445,7 @@ private:
     /// The watched pairs that meet, in the order of the list. Kept out of the way of the beds.
     /// @param close how many pairs are listed as close; -1: none has been looked for
     /// @return how many are now
-#if defined(__GNUC__)
-    __attribute__((noinline))
-#endif
-    int
-    pairs(int close, Scratch* scratch, bool audit) const
+    STYLOBATE_APART int pairs(int close, Scratch* scratch, bool audit) const
     {
         if (close < 0 || Near::strayed())
             close = Near::look_around();
@@ -466,10 +455,10 @@ private:
         // boxes that touch to rounding are let in
         const Real margin = get(OfRealization::skin) * Real(1e-3);
         for (int next = 0; next < close;) {
-            int group[detail::joint_group], count = 0;
-            for (; next < close && count < detail::joint_group; ++next)
-                if (any(Near::meets(b_.close[next], margin)))
-                    group[count++] = b_.close[next];
+            int group[joint_group] = {}, count = 0;
+            for (; next < close && count < joint_group; ++next)
+                if (any(Near::meets(Near::listed(next), margin)))
+                    group[count++] = Near::listed(next);
             contacts<detail::Pair>(
                 count, [&group](int j) { return group[j]; }, scratch, audit);
         }
@@ -518,7 +507,7 @@ private:
         const Real push = gx - base;
         [[maybe_unused]] auto pull = [&] {
             if constexpr (Mechanism::extended)
-                return ExtendedPull<Real>(*this, step);
+                return ExtendedPull<Real, Layout>(*this, step);
             else
                 return 0;
         }();

@@ -112,9 +112,9 @@ struct BedForce {
 
 /// The contact law of a bed with its mechanisms.
 /// @param points shares and arms of the form's springs, in `FormPoints::area` and `x`
-template <class Real, int count>
-STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real>& rows, int joint, const JointLaw<Real>& law, Real spring,
-                                          const BedMotion<Real>& m, const FormPoints<Real, count>& points)
+template <class Real, class Layout, int count>
+STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real, Layout>& rows, int joint, const JointLaw<Real>& law,
+                                          Real spring, const BedMotion<Real>& m, const FormPoints<Real, count>& points)
 {
     using J = OfJointExtension;
     const Real zero(0.0), one(1.0);
@@ -169,9 +169,9 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real>& rows, int joint, con
 /// @param place of the upper block's bottom face, from the lower one;  @param apart_x, apart_y from the lower centre of
 ///        mass to the upper one, frame of the base
 /// @return 2 x the work of this step against it [J]
-template <class Real>
-STYLOBATE_INLINE Real add_dowel(const Rows<Real>& rows, int joint, int lower, int upper, const Placement<Real>& place,
-                                Real apart_x, Real apart_y)
+template <class Real, class Layout>
+STYLOBATE_INLINE Real add_dowel(const Rows<Real, Layout>& rows, int joint, int lower, int upper,
+                                const Placement<Real>& place, Real apart_x, Real apart_y)
 {
     using J = OfJointExtension;
     const Real stiffness = rows.get(J::dowel_stiffness, joint);
@@ -204,10 +204,10 @@ STYLOBATE_INLINE Real add_dowel(const Rows<Real>& rows, int joint, int lower, in
 }
 
 /// What moves the blocks in one step besides the contacts, times dt2.
-template <class Real>
+template <class Real, class Layout>
 class ExtendedPull {
 public:
-    STYLOBATE_INLINE ExtendedPull(const Rows<Real>& rows, int step)
+    STYLOBATE_INLINE ExtendedPull(const Rows<Real, Layout>& rows, int step)
         : rows_(rows), pitch_{rows.get(OfPitch::angle, step), rows.get(OfPitch::increment, step),
                               rows.get(OfPitch::second, step)},
           gravity_x_(rows.get(OfRealization::gravity_dx)), gravity_y_(rows.get(OfRealization::gravity_dy)),
@@ -270,7 +270,7 @@ public:
     }
 
 private:
-    const Rows<Real>& rows_;
+    const Rows<Real, Layout>& rows_;
     const Pitch<Real> pitch_;
     const Real gravity_x_, gravity_y_, base_, vertical_, base_dx_, base_dy_;
     const Real level_x_, level_y_; ///< gravity and the base's acceleration, in the level frame
