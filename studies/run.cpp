@@ -190,6 +190,7 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("realizations_per_second", p.rate)
             .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
             .member("occupancy", p.occupancy)
+            .member("backend", options.backend)
             .member("simd", to_string(run.isa))
             .member("threads", run.threads);
         fmt::print("{}\n", json.text());
@@ -198,7 +199,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
                    p.invalid);
         if (p.seconds > 0)
             fmt::print("; {} with {} threads of {}, {:.0f} realizations/s", duration_text(p.seconds), run.threads,
-                       to_string(run.isa), p.rate);
+                       run.devices.empty() ? to_string(run.isa) : "the host and " + run.devices.front()->name(),
+                       p.rate);
         fmt::print("\n");
         if (counts.trials() > 0)
             print_limits(counts, names, to_rest);
@@ -213,9 +215,14 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
 {
     if (results.empty())
         results = default_results(study);
-    const RunOptions run{options.isa(), options.thread_count()};
+    const RunOptions run = options.run_options();
     const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
     check_realizations(loaded);
+    if (!run.devices.empty() && !loaded.study().surface)
+        throw InputError(
+            fmt::format("--backend cuda: {} is of kind \"single\", whose realizations are followed step by "
+                        "step on the processor. Leave --backend out.",
+                        study));
     const ResultHeader header = loaded.result_header();
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};
     const bool found = std::filesystem::exists(results);
