@@ -336,7 +336,9 @@ private:
         Real friction_energy = get(OfRealization::friction_energy);
         Real slip_sum = get(OfRealization::slip), path = get(OfRealization::path);
         Real rocking_path = get(OfRealization::rocking_path);
-        [[maybe_unused]] Real joint_energy(0.0);
+        [[maybe_unused]] Real joint_energy(0.0); // from what there is on, so that groups of any size sum up alike
+        if constexpr (Mechanism::extended && Kind::at_rest)
+            joint_energy = get(OfRealizationExtension::joint_energy);
         for (int j = 0; j < count; ++j) {
             const int joint = joint_of(j);
             const Scratch& s = scratch[j];
@@ -421,7 +423,7 @@ private:
         put(OfRealization::path, path);
         put(OfRealization::rocking_path, rocking_path);
         if constexpr (Mechanism::extended && Kind::at_rest)
-            put(OfRealizationExtension::joint_energy, get(OfRealizationExtension::joint_energy) + joint_energy);
+            put(OfRealizationExtension::joint_energy, joint_energy);
     }
 
     /// What follows the contact force of a bed: its dowel, and what its slip and its rocking wear off.
