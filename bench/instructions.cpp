@@ -16,14 +16,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
-extern "C" const char __executable_start;
+/// The linker's: where this program's file begins in memory.
+extern "C" const Elf64_Ehdr __ehdr_start;
 
 using namespace stylobate;
 
@@ -36,9 +36,7 @@ using Visits = std::map<std::uint64_t, long>;
 
 std::uint64_t load_address()
 {
-    Elf64_Ehdr header;
-    std::memcpy(&header, &__executable_start, sizeof header);
-    return header.e_type == ET_DYN ? reinterpret_cast<std::uint64_t>(&__executable_start) : 0;
+    return __ehdr_start.e_type == ET_DYN ? reinterpret_cast<std::uint64_t>(&__ehdr_start) : 0;
 }
 
 void await_stop(pid_t child)
