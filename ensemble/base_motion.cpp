@@ -36,7 +36,8 @@ BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Moti
         duration_s_ = e.duration_s;
         return;
     }
-    if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table) {
+    const bool sampled = e.kind == ExcitationKind::record || e.kind == ExcitationKind::table;
+    if (sampled && record != nullptr) {
         // a surface's frequency axis is the record's predominant frequency, moved by stretching its time
         own_ = r.motion;
         follow(own_ ? *own_ : *record, record->predominant_frequency_hz / r.frequency_hz,
@@ -45,7 +46,7 @@ BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Moti
     }
     if (r.motion) {
         own_ = r.motion;
-        follow(*own_, 1, 1);
+        follow(*own_, 1, r.motion_scale);
         return;
     }
     if (SyntheticMotion::covers(e.kind)) {
@@ -84,8 +85,8 @@ BaseMotion BaseMotion::along(std::shared_ptr<const Motion> motion, double step_s
 bool BaseMotion::on_host(const Study& study)
 {
     const ExcitationKind kind = study.excitation.kind;
-    return kind == ExcitationKind::record || kind == ExcitationKind::table || kind == ExcitationKind::noise ||
-           SyntheticMotion::covers(kind) || study.names(Mechanism::time_offset) ||
+    return study.fragility || kind == ExcitationKind::record || kind == ExcitationKind::table ||
+           kind == ExcitationKind::noise || SyntheticMotion::covers(kind) || study.names(Mechanism::time_offset) ||
            study.names(Mechanism::harmonic_distortion);
 }
 

@@ -28,8 +28,8 @@ namespace stylobate {
 class BaseMotion {
 public:
     BaseMotion() = default;
-    /// @param record needed for a record or a table, and must outlive this object; a realization with a motion of its
-    ///        own (noise, what is distorted) is driven by that
+    /// @param record needed for a record or a table (but of a fragility study), and must outlive this object; a
+    ///        realization with a motion of its own (noise, what is distorted, one of a set) is driven by that
     BaseMotion(const ExcitationSpec& excitation, const Realization& realization, const Motion* record);
 
     /// Along samples, for steps of `step_s`, from the time `offset_s` of the samples on.

@@ -38,6 +38,13 @@ std::uint64_t whole_chunks(double time_s, double step_s)
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(chunks)) * chunk_steps;
 }
 
+/// Of the narrower of a bed's two faces.
+double bed_width_m(const Realization& r, const Joint& bed)
+{
+    return 2 * std::min(r.blocks[static_cast<std::size_t>(bed.lower)].half_width_m,
+                        r.blocks[static_cast<std::size_t>(bed.upper)].half_width_m);
+}
+
 /// `face_offset` of every bed [m].
 std::vector<double> bed_offsets(const Realization& r, const std::vector<BlockMotion>& moved)
 {
@@ -399,8 +406,11 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     o.sliding_path_m = bundle_.at(OfRealization::path, lane);
     o.rocking_path_rad = bundle_.at(OfRealization::rocking_path, lane);
     const std::vector<double> offsets = bed_offsets(r, place.moved);
-    for (std::size_t j = 0; j < offsets.size(); ++j)
-        o.residual_sliding_m += std::fabs(offsets[j] - place.start_offset_m[j]);
+    for (std::size_t j = 0; j < offsets.size(); ++j) {
+        const double moved = std::fabs(offsets[j] - place.start_offset_m[j]);
+        o.residual_sliding_m += moved;
+        o.residual_dislocation = std::max(o.residual_dislocation, moved / bed_width_m(r, r.joints[j]));
+    }
     for (int j = 0; j < topology_.beds(); ++j) {
         const double rotation = bundle_.at(OfJoint::max_rotation, j, lane);
         o.total_rocking_rad += rotation;

@@ -27,6 +27,7 @@ struct Outcome {
     double total_sliding_m = 0;             ///< sum over the beds of the slip while slipping
     double sliding_path_m = 0;              ///< sum over the beds of the relative path of the faces in contact
     double residual_sliding_m = 0;          ///< sum over the beds of how far the faces lie from where they lay
+    double residual_dislocation = 0;        ///< of the bed whose faces lie furthest from where they lay, over its width
     double total_rocking_rad = 0;           ///< sum over the beds of the largest relative rotation
     double rocking_path_rad = 0;            ///< sum over the beds of the path of the relative rotation
     double max_relative_rotation_rad = 0;   ///< of the bed that rotated most

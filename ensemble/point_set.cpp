@@ -14,11 +14,46 @@ constexpr int most_digits = 20;
 /// Of Boost's tables.
 constexpr std::size_t most_dimensions = 3667;
 
+/// What a number is for: what the structure was built like, how its faces touch, or what only tells twins apart.
+enum class Cause { imperfection, contact, twin };
+
+Cause cause_of(Stream stream)
+{
+    switch (stream) {
+    case Stream::friction:
+    case Stream::normal_stiffness:
+    case Stream::tangential_stiffness:
+    case Stream::damping_ratio:
+        return Cause::contact;
+    case Stream::twin:
+        return Cause::twin;
+    default:
+        break;
+    }
+    if (stream < Stream::mechanisms)
+        return Cause::imperfection;
+    switch (static_cast<Mechanism>(
+        (static_cast<std::uint64_t>(stream) - static_cast<std::uint64_t>(Stream::mechanisms)) / 8)) {
+    case Mechanism::corner_loss:
+    case Mechanism::eccentricity:
+    case Mechanism::wedge:
+    case Mechanism::drum_offset:
+        return Cause::imperfection;
+    default:
+        return Cause::contact;
+    }
+}
+
 } // namespace
 
 PointSet::PointSet(const Study& study, const std::vector<Place>& places)
     : seed_(study.seed), per_cell_(study.realizations)
 {
+    if (study.fragility) {
+        stripes_ = static_cast<std::uint64_t>(study.fragility->stripes());
+        contacts_ = static_cast<std::uint64_t>(study.fragility->contacts);
+        twins_ = static_cast<std::uint64_t>(study.fragility->twins);
+    }
     if (study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
         return;
     digits_ = std::min(most_digits, static_cast<int>(std::bit_width(per_cell_ - 1)));
@@ -47,8 +82,26 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& places)
     }
 }
 
+std::uint64_t PointSet::drawn_as(std::uint64_t index, Stream stream) const
+{
+    if (stripes_ == 0)
+        return index;
+    // the structures of a motion, whatever the stripe
+    const std::uint64_t structure = index / (stripes_ * per_cell_) * per_cell_ + index % per_cell_;
+    switch (cause_of(stream)) {
+    case Cause::imperfection:
+        return structure / (contacts_ * twins_);
+    case Cause::contact:
+        return structure / twins_;
+    case Cause::twin:
+        break;
+    }
+    return structure;
+}
+
 double PointSet::uniform(std::uint64_t index, Stream stream, std::uint64_t element) const
 {
+    index = drawn_as(index, stream);
     const std::uint64_t independent = random_bits(seed_, index, stream, element);
     const std::uint64_t k = index % per_cell_;
     const auto found = dimension_.find(key(stream, element));

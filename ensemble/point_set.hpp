@@ -38,7 +38,9 @@ public:
     /// @param places the numbers of a realization, those first that matter most: the first dimensions are the best ones
     PointSet(const Study& study, const std::vector<Place>& places);
 
-    /// In the open interval (0, 1), as `uniform01`; a place that was not named is independent in any case.
+    /// In the open interval (0, 1), as `uniform01`: the index is that of a realization, and in a fragility study those
+    /// that share what the number is for (`FragilitySpec`) have the same one. A place that was not named is independent
+    /// in any case.
     double uniform(std::uint64_t index, Stream stream, std::uint64_t element) const;
 
 private:
@@ -47,8 +49,13 @@ private:
         return (static_cast<std::uint64_t>(stream) << 32) | element;
     }
 
+    /// The index by which a realization draws.
+    std::uint64_t drawn_as(std::uint64_t index, Stream stream) const;
+
     std::uint64_t seed_ = 0;
     std::uint64_t per_cell_ = 1;
+    std::uint64_t stripes_ = 0; ///< of a fragility study, else 0
+    std::uint64_t contacts_ = 1, twins_ = 1;
     int digits_ = 0; ///< that tell the points of a cell apart; 0: all are independent
     std::unordered_map<std::uint64_t, std::uint64_t> dimension_; ///< by key
     std::vector<std::uint64_t> direction_; ///< (dimensions x digits), the first digit in the highest bit

@@ -110,8 +110,9 @@ struct Realization {
     double pga_m_s2 = 0;
     double phase_rad = 0;
     double pulse_gamma = 0; ///< oscillatory character of a velocity pulse
-    /// The base motion that is this realization's own (noise, or a distorted one), else null.
+    /// The base motion that is this realization's own (noise, a distorted one, one of a set), else null.
     std::shared_ptr<const Motion> motion;
+    double motion_scale = 1; ///< it shakes so many times as strong as its own motion says
     /// Vertical base motion of its own, instead of `base.vertical_ratio`; starts with the shaking. Null: none.
     std::shared_ptr<const Motion> vertical;
     ContactForm form = ContactForm::area;

@@ -70,9 +70,16 @@ bool replaces(const Perturbation& perturbation)
 
 } // namespace
 
-Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertical)
-    : study_(study), layout_(lay_out(study.structure)), mechanisms_(study, layout_), shaking_(study, record, vertical)
+Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertical,
+                 std::shared_ptr<const MotionSet> motions)
+    : study_(study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
+      shaking_(study, record, vertical, std::move(motions))
 {
+    if (study.fragility && study.fragility->twins > 1) {
+        Spread spread;
+        spread.sd = study.fragility->twin_m;
+        twin_.emplace(spread, "fragility.twin_m", 0.0);
+    }
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
                                          [](const PlacedBed& bed) { return bed.lower < 0; });
@@ -127,7 +134,8 @@ Realization Sampler::realization(std::uint64_t index) const
     Values values = draw(index, realization.inputs);
     const MechanismSampler::Values mechanisms = mechanisms_.draw(points_, index, realization.inputs);
     for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
-        values.of[static_cast<std::size_t>(Quantity::drum_offset)][i] += mechanisms_.offset_m(mechanisms, i);
+        values.of[static_cast<std::size_t>(Quantity::drum_offset)][i] +=
+            mechanisms_.offset_m(mechanisms, i) + (twin_ ? twin_->value(points_.uniform(index, Stream::twin, i)) : 0);
     stack(values, realization);
     lay_epistyles(values, realization);
     realization.drums = static_cast<int>(layout_.blocks.size());

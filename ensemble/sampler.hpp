@@ -4,6 +4,7 @@
 #include "ensemble/distribution.hpp"
 #include "ensemble/mechanism_sampler.hpp"
 #include "ensemble/motion.hpp"
+#include "ensemble/motion_set.hpp"
 #include "ensemble/point_set.hpp"
 #include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
@@ -13,6 +14,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,9 +28,11 @@ class Sampler {
 public:
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
+    /// @param motions  those of a fragility study, else ignored
     /// @throws InputError if the structure cannot stand, or a perturbation leaves no probability between its limits
-    /// @throws std::invalid_argument if such a study comes without its record or vertical record
-    Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr);
+    /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
+    Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr,
+            std::shared_ptr<const MotionSet> motions = nullptr);
 
     /// @param index from 0 to study.total() - 1; in a surface it says the cell too
     /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
@@ -86,6 +91,7 @@ private:
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
     PointSet points_;
+    std::optional<Distribution> twin_; ///< of a fragility study with twins: how far a drum is from its twin's place
 };
 
 } // namespace stylobate

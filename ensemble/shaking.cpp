@@ -14,22 +14,9 @@ namespace stylobate {
 
 namespace {
 
-/// Samples of a motion in closed form, so dense that the spline through them is off by 2e-6 of its fastest part.
-constexpr double samples_per_cycle = 64;
-
 bool is_sampled(ExcitationKind kind)
 {
     return kind == ExcitationKind::record || kind == ExcitationKind::table;
-}
-
-Motion sampled(const SyntheticMotion& motion)
-{
-    const auto pieces = static_cast<std::size_t>(
-        std::ceil(std::max(motion.duration_s() * motion.fastest_hz(), 1.0) * samples_per_cycle));
-    const double dt = motion.duration_s() / static_cast<double>(pieces);
-    std::vector<double> u(pieces + 1);
-    motion.sample(0, dt, u);
-    return motion_of(acceleration_through(u, dt), dt);
 }
 
 BaseChange distortion_of(const MechanismSpec& spec)
@@ -57,9 +44,16 @@ Motion scaled(Motion motion, double stretch, double scale)
 
 } // namespace
 
-Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertical)
+Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertical,
+                 std::shared_ptr<const MotionSet> motions)
+    : motions_(std::move(motions))
 {
     const ExcitationSpec& excitation = study.excitation;
+    if (study.fragility) {
+        if (!motions_ || motions_->size() != static_cast<std::size_t>(study.fragility->motions))
+            throw std::invalid_argument("a fragility study was not given its motions");
+        return;
+    }
     if (is_sampled(excitation.kind)) {
         if (record == nullptr || record->empty())
             throw std::invalid_argument("a study with a record was given no base motion");
@@ -101,6 +95,8 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
     realization.base_tilt_rad = drawn.base_tilt_rad;
     realization.phase_rad = drawn.phase_rad;
     realization.pulse_gamma = drawn.pulse_gamma;
+    if (study.fragility)
+        return apply_motion(study, realization);
     std::size_t row = 0; // of the surface
     if (study.surface) {
         const auto cell = static_cast<int>(study.cell(realization.index));
@@ -122,6 +118,17 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
         distort(excitation, realization);
     if (vertical_)
         move_vertically(realization);
+}
+
+void Shaking::apply_motion(const Study& study, Realization& realization) const
+{
+    const auto stripes = static_cast<std::uint64_t>(study.fragility->stripes());
+    const std::uint64_t cell = study.cell(realization.index);
+    const auto motion = static_cast<std::size_t>(cell / stripes);
+    realization.motion = motions_->motions[motion];
+    realization.motion_scale = motion_scale(*study.fragility, *motions_, motion, static_cast<int>(cell % stripes));
+    realization.frequency_hz = realization.motion->predominant_frequency_hz;
+    realization.pga_m_s2 = realization.motion_scale * realization.motion->pga_m_s2;
 }
 
 /// Of a harmonic motion the formula does it (`BaseMotion`).

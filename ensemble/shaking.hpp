@@ -3,6 +3,7 @@
 
 #include "ensemble/distortion.hpp"
 #include "ensemble/motion.hpp"
+#include "ensemble/motion_set.hpp"
 #include "ensemble/realization.hpp"
 #include "ensemble/study.hpp"
 
@@ -25,8 +26,10 @@ public:
     Shaking() = default;
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
-    /// @throws std::invalid_argument if such a study comes without its record or vertical record
-    Shaking(const Study& study, const Motion* record, const Motion* vertical);
+    /// @param motions  those of a fragility study, else ignored
+    /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
+    Shaking(const Study& study, const Motion* record, const Motion* vertical,
+            std::shared_ptr<const MotionSet> motions = nullptr);
 
     /// Fills in the shaking of a realization whose index and whose `change` of the base motion are set.
     /// @param study the one this was made for
@@ -34,6 +37,7 @@ public:
 
 private:
     void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const;
+    void apply_motion(const Study& study, Realization& realization) const;
     void distort(const ExcitationSpec& excitation, Realization& realization) const;
     void move_vertically(Realization& realization) const;
 
@@ -41,6 +45,7 @@ private:
     Distortion distortion_;                   ///< of it
     std::shared_ptr<const Motion> distorted_; ///< the record as every realization has it; null where each has its own
     std::shared_ptr<const Motion> vertical_;
+    std::shared_ptr<const MotionSet> motions_;
     double predominant_hz_ = 0; ///< of the record as it stands; 0: there is none
     double record_frequency_hz_ = 0;
     double record_pga_m_s2_ = 0;

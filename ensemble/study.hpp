@@ -18,7 +18,7 @@
 
 namespace stylobate {
 
-enum class StudyKind { single, surface };
+enum class StudyKind { single, surface, fragility };
 
 /// What the uniform numbers of a cell's realizations are (point_set.hpp).
 enum class Sampling {
@@ -148,6 +148,48 @@ struct SurfaceSpec {
     int cells() const { return frequency_hz.count * pga_m_s2.count; }
 };
 
+/// Which motions a fragility study has, and how strong.
+enum class FragilityMethod {
+    stripes, ///< every motion scaled to each intensity of an axis
+    cloud    ///< every motion once, as it was recorded
+};
+
+/// By which measure motions are scaled.
+enum class IntensityMeasure { pga, pgv, pgd, arias, cav, sa };
+
+/// A ground motion of a fragility study, as files hold it.
+struct RecordSpec {
+    std::string file;
+    std::string component; ///< empty: the only one there is
+    std::string unit;      ///< empty: the file says it
+    friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
+};
+
+/// A fragility study: motions x stripes x structures, `Study::realizations` structures under each motion in each
+/// stripe. The structures of a motion are the same in all its stripes (an incremental dynamic analysis of each), and
+/// others than those of another motion.
+struct FragilitySpec {
+    FragilityMethod method = FragilityMethod::stripes;
+    std::vector<RecordSpec> records; ///< of an excitation "record", else none
+    int motions = 0;                 ///< those of the records, or as many drawn from the seed
+    IntensityMeasure measure = IntensityMeasure::pga;
+    double period_s = 1; ///< of `sa`
+    Axis intensity;      ///< of `stripes`; in the measure's unit
+    double scale = 1;    ///< of `cloud`: every motion so many times as strong as it stands
+
+    // Where the scatter comes from: of the structures of a motion, every `contacts` x `twins` have the same
+    // imperfections, and every `twins` of these the same contacts too.
+    int contacts = 1;
+    int twins = 1;
+    double twin_m = 1e-9; ///< standard deviation of what twins differ by: the place of each drum
+
+    std::vector<double> peak_limits = {0.15, 0.35, 1};         ///< of the top's displacement over the column's width
+    std::vector<double> residual_limits = {0.005, 0.01, 0.02}; ///< of a joint's dislocation over its width
+    std::vector<double> periods_s = {0.5, 1, 2};               ///< at which spectral accelerations are measured
+
+    int stripes() const { return method == FragilityMethod::cloud ? 1 : intensity.count; }
+};
+
 /// What can be perturbed. The names in study files are the enumerators' names.
 enum class Quantity {
     friction,             ///< mu; per joint or structure
@@ -250,13 +292,14 @@ struct RunSpec {
 struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
-    std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all
+    std::uint64_t realizations = 1; ///< per cell of a surface; under a motion in a stripe; of a single study, in all
     Sampling sampling = Sampling::independent;
 
     StructureSpec structure;
     ContactSpec contact;
     ExcitationSpec excitation;
     std::optional<SurfaceSpec> surface;
+    std::optional<FragilitySpec> fragility;
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -275,13 +318,19 @@ struct Study {
         return std::any_of(mechanisms.begin(), mechanisms.end(),
                            [mechanism](const MechanismSpec& spec) { return spec.mechanism == mechanism; });
     }
-    /// Realizations of the whole study.
-    std::uint64_t total() const
+    /// Parts of as many realizations each: those of a surface, or motions x stripes.
+    std::uint64_t cells() const
     {
-        return surface ? realizations * static_cast<std::uint64_t>(surface->cells()) : realizations;
+        if (surface)
+            return static_cast<std::uint64_t>(surface->cells());
+        if (fragility)
+            return static_cast<std::uint64_t>(fragility->motions) * static_cast<std::uint64_t>(fragility->stripes());
+        return 1;
     }
-    /// The cell of a realization: frequency row x number of PGAs + PGA column.
-    std::uint64_t cell(std::uint64_t index) const { return surface ? index / realizations : 0; }
+    /// Realizations of the whole study.
+    std::uint64_t total() const { return realizations * cells(); }
+    /// The cell of a realization: frequency row x number of PGAs + PGA column, or motion x number of stripes + stripe.
+    std::uint64_t cell(std::uint64_t index) const { return index / realizations; }
 };
 
 } // namespace stylobate

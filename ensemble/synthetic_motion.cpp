@@ -107,4 +107,15 @@ double SyntheticMotion::acceleration_m_s2(double time_s) const
     return scale_ * std::visit([time_s](const auto& shape) { return shape.acceleration(time_s); }, shape_);
 }
 
+Motion sampled(const SyntheticMotion& motion)
+{
+    constexpr double samples_per_cycle = 64;
+    const auto pieces = static_cast<std::size_t>(
+        std::ceil(std::max(motion.duration_s() * motion.fastest_hz(), 1.0) * samples_per_cycle));
+    const double dt = motion.duration_s() / static_cast<double>(pieces);
+    std::vector<double> u(pieces + 1);
+    motion.sample(0, dt, u);
+    return motion_of(acceleration_through(u, dt), dt);
+}
+
 } // namespace stylobate

@@ -1,6 +1,7 @@
 #pragma once
 /// A base motion in closed form that the host evaluates: pulses and sines, scaled to a PGA.
 
+#include "ensemble/motion.hpp"
 #include "ensemble/realization.hpp"
 #include "ensemble/study.hpp"
 #include "ensemble/synthetic_pulse.hpp"
@@ -36,6 +37,10 @@ private:
     double duration_s_ = 0;
     double end_m_ = 0; ///< displacement from then on
 };
+
+/// Along samples so dense that the spline through them is off by 2e-6 of its fastest part. Its predominant frequency is
+/// left to the caller.
+Motion sampled(const SyntheticMotion& motion);
 
 /// Largest |acceleration| of a shape of unit amplitude, to 1e-12 of it: looked for at 32 times a cycle of its fastest
 /// component, and around every peak that comes near the largest one by bisection (golden section).

@@ -72,6 +72,8 @@ Motion make_motion(const Record& record, bool correct_baseline, const std::optio
 /// Acceleration measures of the record as it stands; velocity and displacement after the baseline correction.
 /// @throws InputError as `make_motion`
 IntensityMeasures intensity_measures(const Record& record);
+/// All of the motion as it drives a structure.
+IntensityMeasures intensity_measures(const Motion& motion);
 
 /// Peak of the Fourier amplitude, smoothed with a Konno-Ohmachi window (b = 40), of the samples less their mean.
 /// Looked for from two cycles in the record up to the Nyquist frequency, in steps of 0.25 %.
@@ -85,5 +87,7 @@ double predominant_frequency(const std::vector<double>& acceleration_m_s2, doubl
 /// @pre periods >= 0, damping ratio in [0, 1)
 std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,
                                           double damping_ratio = 0.05);
+std::vector<double> spectral_acceleration(const std::vector<double>& acceleration_m_s2, double dt_s,
+                                          const std::vector<double>& periods_s, double damping_ratio = 0.05);
 
 } // namespace stylobate

@@ -249,32 +249,51 @@ RockingMeasures rocking_measures(const IntensityMeasures& im, double half_width_
     return m;
 }
 
-IntensityMeasures intensity_measures(const Record& record)
+namespace {
+
+/// @param motion for velocity and displacement
+IntensityMeasures measures_of(const std::vector<double>& a, double dt_s, const Motion& motion)
 {
-    const Motion motion = make_motion(record, true);
-    const std::vector<double>& a = record.acceleration_m_s2;
-    const Husid arias = husid(a, record.dt_s);
+    const Husid arias = husid(a, dt_s);
     IntensityMeasures im;
     im.pga_m_s2 = peak(a);
     im.pgv_m_s = peak(motion.velocity_m_s);
     im.pgd_m = peak(motion.displacement_m);
     im.arias_m_s = pi / (2 * standard_gravity) * arias.total;
     im.d5_95_s = arias.d5_95_s;
-    im.cav_m_s = cumulative_absolute_velocity(a, record.dt_s);
+    im.cav_m_s = cumulative_absolute_velocity(a, dt_s);
     im.pgv_per_pga_s = im.pgv_m_s / im.pga_m_s2;
     im.predominant_frequency_hz = motion.predominant_frequency_hz;
-    im.mean_frequency_hz = mean_frequency(own_spectrum(a, record.dt_s));
+    im.mean_frequency_hz = mean_frequency(own_spectrum(a, dt_s));
     return im;
+}
+
+} // namespace
+
+IntensityMeasures intensity_measures(const Record& record)
+{
+    return measures_of(record.acceleration_m_s2, record.dt_s, make_motion(record, true));
+}
+
+IntensityMeasures intensity_measures(const Motion& motion)
+{
+    return measures_of(motion.acceleration_m_s2, motion.dt_s, motion);
 }
 
 std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,
                                           double damping_ratio)
 {
+    return spectral_acceleration(record.acceleration_m_s2, record.dt_s, periods_s, damping_ratio);
+}
+
+std::vector<double> spectral_acceleration(const std::vector<double>& acceleration_m_s2, double dt_s,
+                                          const std::vector<double>& periods_s, double damping_ratio)
+{
     assert(damping_ratio >= 0 && damping_ratio < 1);
     std::vector<double> spectrum;
     for (const double period : periods_s) {
         assert(period >= 0);
-        spectrum.push_back(spectral_acceleration(record.acceleration_m_s2, record.dt_s, period, damping_ratio));
+        spectrum.push_back(spectral_acceleration(acceleration_m_s2, dt_s, period, damping_ratio));
     }
     return spectrum;
 }

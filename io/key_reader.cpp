@@ -172,6 +172,30 @@ std::optional<double> KeyReader::maybe_number(std::string_view key, const Range&
     return has(key) ? std::optional<double>(number(key, range)) : std::nullopt;
 }
 
+std::vector<double> KeyReader::check_list(std::string_view key, const Range& range, const std::string& todo) const
+{
+    std::vector<double> numbers;
+    for (const TomlValue& entry : need(key, todo).entries) {
+        if (entry.type != TomlValue::Type::number && entry.type != TomlValue::Type::integer)
+            refuse(key, fmt::format("has {} in it, which is {}, not a number", entry.shown(), entry.type_name()), todo);
+        if (!range.contains(entry.number))
+            refuse(key, fmt::format("has {} in it, which is outside {}", entry.shown(), range.text()), todo);
+        numbers.push_back(entry.number + 0.0);
+    }
+    return numbers;
+}
+
+std::vector<double> KeyReader::number_list(std::string_view key, const Range& range) const
+{
+    const auto todo = fmt::format("Give numbers in {}: {} = [NUMBER, ...]. {}", range.text(), key, range.hint);
+    const TomlValue& value = need(key, todo);
+    if (value.type != TomlValue::Type::array || value.entries.empty())
+        refuse(key,
+               value.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", value.type_name()),
+               todo);
+    return check_list(key, range, todo);
+}
+
 std::optional<std::array<double, 2>> KeyReader::maybe_interval(std::string_view key, const Range& range) const
 {
     if (!has(key))
@@ -181,18 +205,10 @@ std::optional<std::array<double, 2>> KeyReader::maybe_interval(std::string_view 
                                   key, range.hint);
     if (value.type != TomlValue::Type::array || value.entries.size() != 2)
         refuse(key, "is not two numbers in brackets", todo);
-    std::array<double, 2> ends{};
-    for (std::size_t i = 0; i < 2; ++i) {
-        const auto& end = value.entries[i];
-        if (end.type != TomlValue::Type::number && end.type != TomlValue::Type::integer)
-            refuse(key, fmt::format("has {} in it, which is {}, not a number", end.shown(), end.type_name()), todo);
-        if (!range.contains(end.number))
-            refuse(key, fmt::format("has {} in it, which is outside {}", end.shown(), range.text()), todo);
-        ends[i] = end.number + 0.0;
-    }
+    const std::vector<double> ends = check_list(key, range, todo);
     if (!(ends[0] < ends[1]))
         refuse(key, fmt::format("has {} before {}", value.entries[0].shown(), value.entries[1].shown()), todo);
-    return ends;
+    return std::array{ends[0], ends[1]};
 }
 
 std::uint64_t KeyReader::whole(std::string_view key, std::uint64_t low, std::uint64_t high,

@@ -52,6 +52,9 @@ public:
     double number_or(std::string_view key, const Range& range, double absent) const;
     std::optional<double> maybe_number(std::string_view key, const Range& range) const;
 
+    /// Numbers in brackets, at least one.
+    std::vector<double> number_list(std::string_view key, const Range& range) const;
+
     /// [low, high], two numbers of which the first is the smaller one.
     std::optional<std::array<double, 2>> maybe_interval(std::string_view key, const Range& range) const;
 
@@ -103,6 +106,7 @@ private:
     /// The value of a key that must be there.
     const TomlValue& need(std::string_view key, const std::string& todo) const;
     double check(std::string_view key, const TomlValue& value, const Range& range) const;
+    std::vector<double> check_list(std::string_view key, const Range& range, const std::string& todo) const;
 
     const TomlValue* table_;
     std::string path_;

@@ -43,6 +43,14 @@ ResultHeader read_header(hid_t file)
         header.frequency_hz = read_axis(file, names::surface_frequency);
         header.pga_m_s2 = read_axis(file, names::surface_pga);
     }
+    if (hdf5::exists(file, names::motions)) {
+        const hdf5::Handle group = hdf5::open_group(file, names::motions);
+        MotionTable& motions = header.motions;
+        motions.names = split_names(hdf5::read_text(group.id(), names::motion_names));
+        motions.measures = split_names(hdf5::read_text(group.id(), names::measure_names));
+        motions.value = hdf5::read_doubles(file, names::motion_values, {motions.names.size(), motions.measures.size()});
+        motions.exponent = hdf5::read_doubles(file, names::motion_exponents, {motions.measures.size()});
+    }
     return header;
 }
 

@@ -13,7 +13,7 @@
 
 namespace stylobate {
 
-inline constexpr std::uint64_t result_format_version = 2;
+inline constexpr std::uint64_t result_format_version = 3;
 inline constexpr std::uint8_t state_not_run = 255; ///< state of a row that is not written yet
 
 /// Names in the file. Those of the columns follow from `visit_fields` below.
@@ -31,6 +31,11 @@ inline constexpr char selected[] = "selected"; ///< attribute of / where the row
 inline constexpr char surface[] = "surface";
 inline constexpr char surface_frequency[] = "surface/frequency_hz";
 inline constexpr char surface_pga[] = "surface/pga_m_s2";
+inline constexpr char motions[] = "motions";
+inline constexpr char motion_names[] = "names";     ///< attribute of the group: `MotionTable::names`, one on each line
+inline constexpr char measure_names[] = "measures"; ///< attribute: `MotionTable::measures`, one on each line
+inline constexpr char motion_values[] = "motions/value";
+inline constexpr char motion_exponents[] = "motions/exponent";
 inline constexpr char trajectories[] = "trajectories";
 } // namespace result_names
 
@@ -62,6 +67,7 @@ void visit_fields(Row& row, F&& f)
     f("outcome/total_sliding_m", "m", o.total_sliding_m);
     f("outcome/sliding_path_m", "m", o.sliding_path_m);
     f("outcome/residual_sliding_m", "m", o.residual_sliding_m);
+    f("outcome/residual_dislocation", "", o.residual_dislocation);
     f("outcome/total_rocking_rad", "rad", o.total_rocking_rad);
     f("outcome/rocking_path_rad", "rad", o.rocking_path_rad);
     f("outcome/max_relative_rotation_rad", "rad", o.max_relative_rotation_rad);
@@ -76,7 +82,7 @@ void visit_fields(Row& row, F&& f)
     f("outcome/step_s", "s", o.step_s);
     f("outcome/steps", "", o.steps);
 }
-static_assert(sizeof(Outcome) == 224, "a field that comes to Outcome or leaves it does so in visit_fields() too");
+static_assert(sizeof(Outcome) == 232, "a field that comes to Outcome or leaves it does so in visit_fields() too");
 
 enum class Stored { state, invalid_reason, i32, u64, f64 };
 

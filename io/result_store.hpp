@@ -13,9 +13,18 @@
 
 namespace stylobate {
 
+/// The motions of a fragility study, and how strong each is as it stands.
+struct MotionTable {
+    std::vector<std::string> names;    ///< (motions)
+    std::vector<std::string> measures; ///< "pga_m_s2"
+    std::vector<double> exponent;      ///< (measures) s times as strong a motion has s^exponent of it; 0: unchanged
+    std::vector<double> value;         ///< (motions x measures)
+    friend bool operator==(const MotionTable&, const MotionTable&) = default;
+};
+
 /// What is fixed when a store is created.
 struct ResultHeader {
-    std::string kind; ///< "single" or "surface"; "replay" for one realization of either
+    std::string kind; ///< "single", "surface" or "fragility"; "replay" for one realization of any
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;
@@ -29,6 +38,7 @@ struct ResultHeader {
                                           ///< `Outcome::fall_time_s` of every row
     std::vector<double> frequency_hz;     ///< surface axis (nf), empty for other kinds
     std::vector<double> pga_m_s2;         ///< surface axis (np)
+    MotionTable motions;                  ///< of a fragility study, else empty
 };
 
 /// One row of /realizations.

@@ -79,6 +79,14 @@ void write_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& 
         hdf5::write_array(file, names::surface_frequency, header.frequency_hz, {header.frequency_hz.size()}, "Hz");
         hdf5::write_array(file, names::surface_pga, header.pga_m_s2, {header.pga_m_s2.size()}, "m/s2");
     }
+    if (const MotionTable& motions = header.motions; !motions.names.empty()) {
+        const hdf5::Handle group = hdf5::create_group(file, names::motions);
+        hdf5::write_text(group.id(), names::motion_names, joined_names(motions.names));
+        hdf5::write_text(group.id(), names::measure_names, joined_names(motions.measures));
+        hdf5::write_array(file, names::motion_values, motions.value, {motions.names.size(), motions.measures.size()},
+                          "");
+        hdf5::write_array(file, names::motion_exponents, motions.exponent, {motions.measures.size()}, "");
+    }
 }
 
 void write_surface(hid_t file, const SurfaceTable& table)
@@ -180,6 +188,8 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
         other = "its blocks have other names";
     if (other.empty() && (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2))
         other = "its surface has other axes";
+    if (other.empty() && found.motions != asked.motions)
+        other = "its motions differ";
     if (!other.empty())
         refuse("holds the results of another study: " + other + ". Choose another output.");
     if (found.code_version != asked.code_version)

@@ -106,20 +106,22 @@ void read_noise(const KeyReader& keys, ExcitationSpec& e)
 }
 
 /// What records and tables share. @param what is in the file
-void read_sampled(const KeyReader& keys, const char* what, bool in_surface, ExcitationSpec& e)
+void read_sampled(const KeyReader& keys, const char* what, StudyKind kind, ExcitationSpec& e)
 {
-    if (!keys.has("file"))
-        keys.missing("file", fmt::format("Name {} here, or on the command line: --set excitation.file=PATH", what));
-    e.file = keys.text("file");
-    if (!in_surface) {
-        e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
-        e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
+    if (kind != StudyKind::fragility) {
+        if (!keys.has("file"))
+            keys.missing("file", fmt::format("Name {} here, or on the command line: --set excitation.file=PATH", what));
+        e.file = keys.text("file");
     }
+    if (kind == StudyKind::single)
+        e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
+    if (kind != StudyKind::surface)
+        e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
 }
 
-void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
+void read_record(const KeyReader& keys, StudyKind kind, ExcitationSpec& e)
 {
-    read_sampled(keys, "the record", in_surface, e);
+    read_sampled(keys, "the record", kind, e);
     e.component = keys.text_or_empty("component");
     e.unit = acceleration_unit(keys);
     e.baseline = keys.boolean_or("baseline", e.baseline);
@@ -129,6 +131,21 @@ void read_record(const KeyReader& keys, bool in_surface, ExcitationSpec& e)
                         "The filter is a part of the correction: remove it, or give baseline = true.");
         e.band_pass = BandPass{(*corners)[0], (*corners)[1]};
     }
+}
+
+/// Of a fragility study: motions of which there can be many.
+void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
+{
+    const bool sine = e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::half_sine ||
+                      e.kind == ExcitationKind::full_sine;
+    if (sine || e.kind == ExcitationKind::table)
+        keys.refuse("kind", "is no ground motion of a fragility study",
+                    "Give \"record\", with fragility.records or fragility.folder, or \"pulse\", \"noise\", "
+                    "\"ricker\", \"tapered\" or \"sweep\".");
+    for (const char* key : {"file", "component", "unit", "scale_to_pga_m_s2", "pga_m_s2", "pga_of"})
+        if (keys.has(key))
+            keys.refuse(key, "is not used by study.kind = \"fragility\"",
+                        "Remove it: the motions and how strong they are come from [fragility].");
 }
 
 } // namespace
@@ -142,7 +159,7 @@ std::string acceleration_unit(const KeyReader& keys)
     return unit == "gal" ? "cm/s2" : unit; // one name for one unit, so that equal studies have equal texts
 }
 
-ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
 {
     std::vector<std::string> known;
     for (const auto& name : excitation_kind_names)
@@ -154,10 +171,12 @@ ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
     e.kind = keys.choice("kind", excitation_kind_names);
     keys.refuse_unused(excitation_keys(e.kind),
                        fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, e.kind)));
-    if (in_surface) {
-        if (e.kind == ExcitationKind::none)
-            keys.refuse("kind", "shakes nothing, and study.kind is \"surface\"",
-                        "Give another excitation, or study.kind = \"single\".");
+    if (kind != StudyKind::single && e.kind == ExcitationKind::none)
+        keys.refuse("kind", fmt::format("shakes nothing, and study.kind is \"{}\"", word_for(study_kind_names, kind)),
+                    "Give another excitation, or study.kind = \"single\".");
+    if (kind == StudyKind::fragility)
+        check_fragility_source(keys, e);
+    if (kind == StudyKind::surface) {
         for (const char* key : {"frequency_hz", "pga_m_s2", "scale_to_pga_m_s2", "time_scale"})
             if (keys.has(key))
                 keys.refuse(key, "is not used by study.kind = \"surface\"",
@@ -167,11 +186,12 @@ ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
         e.duration_s = keys.number("duration_s", duration_range);
         return e;
     }
-    if (e.kind != ExcitationKind::record && e.kind != ExcitationKind::table && !in_surface) {
+    if (e.kind != ExcitationKind::record && e.kind != ExcitationKind::table && kind != StudyKind::surface) {
         if (e.kind != ExcitationKind::sweep)
             e.frequency_hz =
                 keys.number("frequency_hz", e.kind == ExcitationKind::noise ? noise_frequency_range : frequency_range);
-        e.pga_m_s2 = keys.number("pga_m_s2", acceleration_range);
+        // the motions of a fragility study are scaled later
+        e.pga_m_s2 = kind == StudyKind::fragility ? 1 : keys.number("pga_m_s2", acceleration_range);
     }
     switch (e.kind) {
     case ExcitationKind::none:
@@ -196,10 +216,10 @@ ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface)
         read_noise(keys, e);
         break;
     case ExcitationKind::record:
-        read_record(keys, in_surface, e);
+        read_record(keys, kind, e);
         break;
     case ExcitationKind::table:
-        read_sampled(keys, "the table of samples", in_surface, e);
+        read_sampled(keys, "the table of samples", kind, e);
         e.run = keys.text_or_empty("run");
         break;
     }

@@ -8,9 +8,10 @@
 
 namespace stylobate {
 
-/// @param in_surface frequency and PGA come from the axes of [surface]
+/// @param kind in a surface frequency and PGA come from its axes; in a fragility study the records and how strong they
+///        are from [fragility]
 /// @throws InputError naming the key
-ExcitationSpec read_excitation(const KeyReader& keys, bool in_surface);
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind);
 
 /// The unit of a record, canonical; empty where the key `unit` is absent.
 std::string acceleration_unit(const KeyReader& keys);

@@ -2,7 +2,9 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/key_reader.hpp"
+#include "io/study_axis.hpp"
 #include "io/study_excitation.hpp"
+#include "io/study_fragility.hpp"
 #include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
 #include "io/study_perturbations.hpp"
@@ -58,30 +60,6 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
     c.damping_per = keys.choice_or("damping_per", damping_per_names, c.damping_per);
     c.friction = keys.number("friction", friction_range);
     return c;
-}
-
-Axis read_axis(const KeyReader& surface, std::string_view key, const Range& range)
-{
-    if (!surface.has(key))
-        surface.missing(key, fmt::format("Give it as {{ from = ..., to = ..., count = ..., spacing = \"linear\" }} "
-                                         "with values in {}. {}",
-                                         range.text(), range.hint));
-    const KeyReader keys = surface.table(key);
-    keys.allow_only({"from", "to", "count", "spacing"});
-    Axis axis;
-    axis.from = keys.number("from", range);
-    axis.to = keys.number("to", range);
-    axis.count = static_cast<int>(keys.whole("count", 1, 1000));
-    axis.spacing = keys.choice_or("spacing", spacing_names, axis.spacing);
-    if (axis.from > axis.to)
-        keys.refuse("from", fmt::format("is above to = {}", axis.to), "Axes run upwards.");
-    if (axis.count == 1 && axis.from != axis.to)
-        keys.refuse("count", fmt::format("is one value, but from = {} and to = {}", axis.from, axis.to),
-                    "Give more values, or the same from and to.");
-    if (axis.count > 1 && axis.from == axis.to)
-        keys.refuse("count", fmt::format("gives equal values: from = to = {}", axis.from),
-                    "Give count = 1, or another from or to.");
-    return axis;
 }
 
 /// @param most realizations of one cell
@@ -161,6 +139,17 @@ void check_precision(const KeyReader& keys, const Study& study)
         refuse("contact.damping = \"ends\"", "it");
 }
 
+/// What belongs to one base motion does not go with many.
+void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
+{
+    for (const char* name : {"harmonic_distortion", "time_offset"})
+        if (keys.has(name))
+            keys.refuse(name, "is a measured table's, and is not used by study.kind = \"fragility\"", "Remove it.");
+    if (study.vertical)
+        keys.refuse("vertical_motion", "is one record, and study.kind = \"fragility\" has many motions",
+                    "Give vertical_motion = { ratio = ... }, or remove it.");
+}
+
 RunSpec read_run(const KeyReader& keys)
 {
     keys.allow_only({"precision", "step_fraction", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
@@ -179,41 +168,55 @@ RunSpec read_run(const KeyReader& keys)
     return r;
 }
 
-Study read_tree(const TomlValue& root)
+/// @param folder beside which the study's files are looked for
+Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "perturbation", "mechanisms", "initial",
-                    "output", "outcome", "run", "claim"}); // [claim] is for stylobate_claims, which reads it itself
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "fragility", "perturbation", "mechanisms",
+                    "initial", "output", "outcome", "run",
+                    "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
     Study study;
     const KeyReader keys = top.table("study");
     keys.allow_only({"kind", "seed", "realizations", "sampling"});
     study.kind = keys.choice("kind", study_kind_names);
-    const bool is_surface = study.kind == StudyKind::surface;
+    const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
-    study.realizations = is_surface ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
-                                    : keys.whole_or("realizations", 1, most_realizations, study.realizations);
+    study.realizations = is_surface     ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
+                         : is_fragility ? keys.whole("realizations", 1, most_realizations,
+                                                     "Structures under each motion in each stripe.")
+                                        : keys.whole_or("realizations", 1, most_realizations, study.realizations);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
 
     study.structure = read_structure(top.table("structure"));
     study.contact = read_contact(top.table("contact"), study.structure);
-    study.excitation = read_excitation(top.table("excitation"), is_surface);
+    study.excitation = read_excitation(top.table("excitation"), study.kind);
     if (is_surface) {
         if (!top.has("surface"))
             top.missing("surface", "study.kind = \"surface\" needs the axes frequency_hz and pga_m_s2 in [surface].");
         study.surface = read_surface(top.table("surface"), study.realizations);
         check_axes(top.table("surface"), study.excitation, *study.surface);
-        if (study.total() > most_realizations)
-            keys.refuse("realizations",
-                        fmt::format("in each of {} cells is {} in all, more than {}", study.surface->cells(),
-                                    study.total(), most_realizations),
-                        "Give fewer realizations or fewer cells.");
-    } else if (top.has("surface")) {
-        top.refuse("surface", "is not used by study.kind = \"single\"",
-                   "Remove [surface], or give study.kind = \"surface\".");
     }
+    if (is_fragility) {
+        if (!top.has("fragility"))
+            top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
+        study.fragility = read_fragility(top.table("fragility"), keys, study.excitation, study.realizations);
+        list_records(top.table("fragility"), folder, *study.fragility);
+        if (study.sampling != Sampling::independent)
+            keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
+    }
+    if (study.cells() > most_realizations / study.realizations)
+        keys.refuse("realizations",
+                    fmt::format("in each of {} cells is more than {} in all", study.cells(), most_realizations),
+                    "Give fewer realizations or fewer cells.");
+    for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface}, {"fragility", StudyKind::fragility}})
+        if (study.kind != kind && top.has(table))
+            top.refuse(table, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
+                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table, table));
     read_mechanisms(top.table("mechanisms"), study);
     read_perturbations(top.table("perturbation"), study);
+    if (is_fragility)
+        check_mechanisms_of_fragility(top.table("mechanisms"), study);
 
     study.initial = read_initial(top.table("initial"), study.structure);
     const KeyReader output = top.table("output");
@@ -260,7 +263,7 @@ std::string read_text(const std::filesystem::path& file)
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides)
 {
     const TomlValue root = read_toml(read_text(file), file.string(), overrides);
-    Study study = read_tree(root);
+    Study study = read_tree(root, std::filesystem::absolute(file).parent_path());
     // beside the study, if it is there; absolute, so that the study means the same from any folder
     const auto find_beside = [&](std::string& named, const TomlValue& table) {
         std::error_code error;
@@ -271,6 +274,11 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
     };
     if (!study.excitation.file.empty())
         find_beside(study.excitation.file, *root.find("excitation"));
+    if (study.fragility && root.find("fragility")->find("records") != nullptr) {
+        const auto& tables = root.find("fragility")->find("records")->entries;
+        for (std::size_t i = 0; i < study.fragility->records.size(); ++i)
+            find_beside(study.fragility->records[i].file, tables[i]);
+    }
     if (study.vertical)
         find_beside(study.vertical->file, *root.find("mechanisms")->find("vertical_motion"));
     study.text = study_text(study);
@@ -279,7 +287,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides)
 {
-    Study study = read_tree(read_toml(text, name, overrides));
+    Study study = read_tree(read_toml(text, name, overrides), {});
     study.text = study_text(study);
     return study;
 }

@@ -14,7 +14,14 @@ struct Name {
 };
 
 inline constexpr std::array study_kind_names = {Name<StudyKind>{"single", StudyKind::single},
-                                                Name<StudyKind>{"surface", StudyKind::surface}};
+                                                Name<StudyKind>{"surface", StudyKind::surface},
+                                                Name<StudyKind>{"fragility", StudyKind::fragility}};
+inline constexpr std::array fragility_method_names = {Name<FragilityMethod>{"stripes", FragilityMethod::stripes},
+                                                      Name<FragilityMethod>{"cloud", FragilityMethod::cloud}};
+inline constexpr std::array intensity_measure_names = {
+    Name<IntensityMeasure>{"pga", IntensityMeasure::pga}, Name<IntensityMeasure>{"pgv", IntensityMeasure::pgv},
+    Name<IntensityMeasure>{"pgd", IntensityMeasure::pgd}, Name<IntensityMeasure>{"arias", IntensityMeasure::arias},
+    Name<IntensityMeasure>{"cav", IntensityMeasure::cav}, Name<IntensityMeasure>{"sa", IntensityMeasure::sa}};
 inline constexpr std::array sampling_names = {Name<Sampling>{"independent", Sampling::independent},
                                               Name<Sampling>{"sobol", Sampling::sobol}};
 inline constexpr std::array structure_kind_names = {Name<StructureKind>{"column", StructureKind::column},

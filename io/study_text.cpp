@@ -170,18 +170,22 @@ void write(Writer& out, const ContactSpec& contact)
     out.number("friction", contact.friction);
 }
 
-/// @param in_surface frequency and PGA come from the cells and are not the excitation's
-void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
+/// @param kind in a surface frequency and PGA come from the cells, in a fragility study the motions from elsewhere:
+/// they
+///        are not the excitation's
+void write(Writer& out, const ExcitationSpec& excitation, StudyKind kind)
 {
+    const bool in_surface = kind == StudyKind::surface, in_fragility = kind == StudyKind::fragility;
     out.section("excitation");
     out.word("kind", word_for(excitation_kind_names, excitation.kind));
     if (excitation.kind == ExcitationKind::none) {
         out.number("duration_s", excitation.duration_s);
         return;
     }
-    const auto is = [&](ExcitationKind kind) { return excitation.kind == kind; };
+    const auto is = [&](ExcitationKind asked) { return excitation.kind == asked; };
     if (is(ExcitationKind::record) || is(ExcitationKind::table)) {
-        out.word("file", excitation.file);
+        if (!in_fragility)
+            out.word("file", excitation.file);
         if (!excitation.run.empty())
             out.word("run", excitation.run);
         if (!excitation.component.empty())
@@ -189,7 +193,7 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
         if (!excitation.unit.empty())
             out.word("unit", excitation.unit);
         if (!in_surface) {
-            if (excitation.pga_m_s2 > 0)
+            if (excitation.pga_m_s2 > 0 && !in_fragility)
                 out.number("scale_to_pga_m_s2", excitation.pga_m_s2);
             out.number("time_scale", excitation.time_scale);
         }
@@ -201,7 +205,8 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
     } else if (!in_surface) {
         if (!is(ExcitationKind::sweep))
             out.number("frequency_hz", excitation.frequency_hz);
-        out.number("pga_m_s2", excitation.pga_m_s2);
+        if (!in_fragility)
+            out.number("pga_m_s2", excitation.pga_m_s2);
     }
     if (is(ExcitationKind::harmonic)) {
         out.word("start", word_for(edge_names, excitation.start));
@@ -222,7 +227,8 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
     if (is(ExcitationKind::pulse))
         out.number("gamma", excitation.gamma);
     if (is(ExcitationKind::noise)) {
-        out.word("pga_of", word_for(pga_of_names, excitation.pga_of));
+        if (!in_fragility)
+            out.word("pga_of", word_for(pga_of_names, excitation.pga_of));
         out.number("ground_damping_ratio", excitation.ground_damping_ratio);
         out.number("low_cut_ratio", excitation.low_cut_ratio);
         out.number("low_cut_damping_ratio", excitation.low_cut_damping_ratio);
@@ -233,12 +239,19 @@ void write(Writer& out, const ExcitationSpec& excitation, bool in_surface)
     out.number("tail_s", excitation.tail_s);
 }
 
+void add_axis(Entries& entries, const Axis& axis)
+{
+    entries.emplace_back("from", toml_number(axis.from));
+    entries.emplace_back("to", toml_number(axis.to));
+    entries.emplace_back("count", std::to_string(axis.count));
+    entries.emplace_back("spacing", toml_quoted(word_for(spacing_names, axis.spacing)));
+}
+
 std::string axis(const Axis& axis)
 {
-    return inline_table({{"from", toml_number(axis.from)},
-                         {"to", toml_number(axis.to)},
-                         {"count", std::to_string(axis.count)},
-                         {"spacing", toml_quoted(word_for(spacing_names, axis.spacing))}});
+    Entries entries;
+    add_axis(entries, axis);
+    return inline_table(entries);
 }
 
 /// @param sd the key of a standard deviation
@@ -266,6 +279,49 @@ std::string spread(const Spread& p, const std::string& sd)
     return inline_table(entries);
 }
 
+std::string numbers(const std::vector<double>& values)
+{
+    std::string text;
+    for (const double value : values)
+        text += (text.empty() ? "" : ", ") + toml_number(value);
+    return "[" + text + "]";
+}
+
+void write(Writer& out, const FragilitySpec& f)
+{
+    out.section("fragility");
+    out.word("method", word_for(fragility_method_names, f.method));
+    if (f.records.empty()) {
+        out.whole("motions", static_cast<std::uint64_t>(f.motions));
+    } else {
+        std::vector<std::string> lines;
+        for (const RecordSpec& record : f.records) {
+            Entries entries = {{"file", toml_quoted(record.file)}};
+            if (!record.component.empty())
+                entries.emplace_back("component", toml_quoted(record.component));
+            if (!record.unit.empty())
+                entries.emplace_back("unit", toml_quoted(record.unit));
+            lines.push_back(inline_table(entries));
+        }
+        out.line("records", list(lines, ""));
+    }
+    if (f.method == FragilityMethod::cloud) {
+        out.number("scale", f.scale);
+    } else {
+        Entries entries = {{"measure", toml_quoted(word_for(intensity_measure_names, f.measure))}};
+        if (f.measure == IntensityMeasure::sa)
+            entries.emplace_back("period_s", toml_number(f.period_s));
+        add_axis(entries, f.intensity);
+        out.line("intensity", inline_table(entries));
+    }
+    out.whole("contacts", static_cast<std::uint64_t>(f.contacts));
+    out.whole("twins", static_cast<std::uint64_t>(f.twins));
+    out.number("twin_m", f.twin_m);
+    out.line("peak_limits", numbers(f.peak_limits));
+    out.line("residual_limits", numbers(f.residual_limits));
+    out.line("periods_s", numbers(f.periods_s));
+}
+
 } // namespace
 
 std::string study_text(const Study& study)
@@ -278,7 +334,7 @@ std::string study_text(const Study& study)
     out.word("sampling", word_for(sampling_names, study.sampling));
     write(out, study.structure);
     write(out, study.contact);
-    write(out, study.excitation, study.surface.has_value());
+    write(out, study.excitation, study.kind);
     if (study.surface) {
         out.section("surface");
         out.line("frequency_hz", axis(study.surface->frequency_hz));
@@ -289,6 +345,8 @@ std::string study_text(const Study& study)
                                                {"half_width", toml_number(adaptive->half_width)},
                                                {"borrow", adaptive->borrow ? "true" : "false"}}));
     }
+    if (study.fragility)
+        write(out, *study.fragility);
     if (!study.perturbations.empty())
         out.section("perturbation");
     for (const auto& p : study.perturbations)

@@ -5,7 +5,9 @@
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"
 #include "io/study_file.hpp"
+#include "io/study_names.hpp"
 #include "studies/block_names.hpp"
+#include "studies/fragility/motions.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +36,13 @@ LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move
 {
     text_ = study_->text;
     const ExcitationSpec& excitation = study_->excitation;
-    if (excitation.kind == ExcitationKind::record) {
+    std::shared_ptr<const MotionSet> motions;
+    if (study_->fragility) {
+        motions = std::make_shared<const MotionSet>(load_motions(*study_));
+        motions_ = motion_table(*motions);
+        for (std::size_t i = 0; i < motions->size(); ++i)
+            text_ += fingerprint(*motions->motions[i], ("motion " + motions->names[i]).c_str());
+    } else if (excitation.kind == ExcitationKind::record) {
         motion_ = make_motion(read_record(excitation.file, excitation.component, excitation.unit), excitation.baseline,
                               excitation.band_pass);
     } else if (excitation.kind == ExcitationKind::table) {
@@ -47,7 +55,7 @@ LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move
         vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);
         text_ += fingerprint(*vertical, "vertical");
     }
-    sampler_ = std::make_unique<Sampler>(*study_, record(), vertical ? &*vertical : nullptr);
+    sampler_ = std::make_unique<Sampler>(*study_, record(), vertical ? &*vertical : nullptr, motions);
 }
 
 LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<std::string>& settings)
@@ -79,7 +87,9 @@ LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::str
     for (std::size_t at = study.text.size(); at < loaded.text_.size();) {
         const std::size_t end = loaded.text_.find('\n', at) + 1;
         const std::string print = loaded.text_.substr(at, end - at);
-        if (print.starts_with("# vertical"))
+        if (print.starts_with("# motion "))
+            check(print.substr(2, print.find(": ") - 2), "fragility.records=", print);
+        else if (print.starts_with("# vertical"))
             check(study.vertical->file, of_vertical, print);
         else
             check(study.excitation.file, of_record, print);
@@ -91,7 +101,8 @@ LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::str
 ResultHeader LoadedStudy::result_header() const
 {
     ResultHeader header;
-    header.kind = study_->surface ? "surface" : "single";
+    header.kind = word_for(study_kind_names, study_->kind);
+    header.motions = motions_;
     header.study_toml = text_;
     header.seed = study_->seed;
     header.code_version = code_version();

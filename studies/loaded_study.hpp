@@ -37,6 +37,7 @@ private:
 
     std::unique_ptr<Study> study_;
     std::optional<Motion> motion_;
+    MotionTable motions_; ///< of a fragility study
     std::unique_ptr<Sampler> sampler_;
     std::string text_;
 };

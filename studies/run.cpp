@@ -3,6 +3,7 @@
 #include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
 #include "io/result_store.hpp"
+#include "io/study_names.hpp"
 #include "studies/block_names.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
@@ -83,8 +84,9 @@ Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Co
     return progress;
 }
 
-Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, Counts& counts,
-                     Observer& observer)
+/// All realizations of a study of any other kind.
+Progress run_many(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, Counts& counts,
+                  Observer& observer)
 {
     RunPlan plan;
     plan.total = loaded.study().total();
@@ -195,7 +197,7 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
 {
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
-    const std::string kind = loaded.study().surface ? "surface" : "single";
+    const std::string kind = word_for(study_kind_names, loaded.study().kind);
     if (options.json) {
         Json json = Json::object();
         json.member("kind", kind)
@@ -239,7 +241,7 @@ void demand_of_device(const Study& study, const std::string& file)
     const auto refuse = [&file](const char* why) {
         throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", file, why));
     };
-    if (!study.surface)
+    if (study.kind == StudyKind::single)
         refuse("is of kind \"single\", whose realizations are followed step by step on the processor");
     if (study.run.precision == Precision::single)
         refuse("asks for run.precision = \"single\", which is the processor's");
@@ -259,7 +261,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const ResultHeader header = loaded.result_header();
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};
     const bool found = std::filesystem::exists(results);
-    const bool is_surface = loaded.study().surface.has_value();
+    const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
     std::unique_ptr<ResultWriter> writer;
@@ -269,7 +271,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     {
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
         writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
-        if (found && is_surface) // the file is ours now: no other run adds to it in between
+        if (found && !is_single) // the file is ours now: no other run adds to it in between
             count_done(results, counts, adaptive ? &outcomes : nullptr);
         if (adaptive) {
             const auto sink = [&](const ResultRow& row) {
@@ -281,8 +283,8 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
             table = std::move(ran.table);
             complete = ran.complete;
         } else {
-            progress = is_surface ? run_surface(loaded, run, *writer, counts, console)
-                                  : run_single(loaded, run.isa, *writer, counts, console);
+            progress = is_single ? run_single(loaded, run.isa, *writer, counts, console)
+                                 : run_many(loaded, run, *writer, counts, console);
             complete = progress.done == progress.total;
             if (complete && is_surface)
                 table = counts.cells.table();

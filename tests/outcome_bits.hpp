@@ -38,6 +38,7 @@ inline std::vector<std::uint64_t> outcome_bits(const Outcome& o)
                                o.total_collapse_time_s,
                                o.top_path_m,
                                o.residual_sliding_m,
+                               o.residual_dislocation,
                                o.rocking_path_rad})
         bits.push_back(std::bit_cast<std::uint64_t>(value));
     for (const double time : o.fall_time_s)

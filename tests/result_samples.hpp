@@ -104,6 +104,7 @@ inline ResultRow sample_row(std::uint64_t index)
                           &o.total_collapse_time_s,
                           &o.top_path_m,
                           &o.residual_sliding_m,
+                          &o.residual_dislocation,
                           &o.rocking_path_rad})
         *field = any();
     o.fall_time_s = {any(), any(), any()};

@@ -93,6 +93,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
                               &o.total_collapse_time_s,
                               &o.top_path_m,
                               &o.residual_sliding_m,
+                              &o.residual_dislocation,
                               &o.rocking_path_rad})
             *field = next();
         o.fall_time_s = {next(), -1};
@@ -148,6 +149,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
                                                  {"total_collapse_time_s", o.total_collapse_time_s},
                                                  {"top_path_m", o.top_path_m},
                                                  {"residual_sliding_m", o.residual_sliding_m},
+                                                 {"residual_dislocation", o.residual_dislocation},
                                                  {"rocking_path_rad", o.rocking_path_rad},
                                                  {"fall_time_s[0]", o.fall_time_s[0]},
                                                  {"fall_time_s[1]", -1}};

@@ -1,0 +1,75 @@
+#include "ensemble/motion_set.hpp"
+
+#include "ensemble/sampler.hpp"
+#include "ensemble/synthetic_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace stylobate {
+
+std::string measure_name(IntensityMeasure measure, double period_s)
+{
+    switch (measure) {
+    case IntensityMeasure::pga:
+        return "pga_m_s2";
+    case IntensityMeasure::pgv:
+        return "pgv_m_s";
+    case IntensityMeasure::pgd:
+        return "pgd_m";
+    case IntensityMeasure::arias:
+        return "arias_m_s";
+    case IntensityMeasure::cav:
+        return "cav_m_s";
+    case IntensityMeasure::sa:
+        return fmt::format("sa_{:g}s_m_s2", period_s);
+    }
+    throw std::invalid_argument("a measure that is not in the enumeration");
+}
+
+const MotionMeasure& MotionSet::measure(const std::string& name) const
+{
+    const auto at = std::find_if(measures.begin(), measures.end(), [&](const auto& m) { return m.name == name; });
+    if (at == measures.end())
+        throw std::invalid_argument("the motions were not measured by " + name);
+    return *at;
+}
+
+double motion_scale(const FragilitySpec& fragility, const MotionSet& set, std::size_t motion, int stripe)
+{
+    if (fragility.method == FragilityMethod::cloud)
+        return fragility.scale;
+    const MotionMeasure& measure = set.measure(measure_name(fragility.measure, fragility.period_s));
+    return std::pow(fragility.intensity.value(stripe) / measure.value[motion], 1 / measure.exponent);
+}
+
+MotionSet drawn_motions(const Study& study)
+{
+    if (!study.fragility || !study.fragility->records.empty())
+        throw std::invalid_argument("only a fragility study without records draws motions");
+    Study one = study;
+    one.kind = StudyKind::single;
+    one.fragility.reset();
+    one.realizations = static_cast<std::uint64_t>(study.fragility->motions);
+    std::erase_if(one.perturbations, [](const Perturbation& p) {
+        return p.quantity != Quantity::phase && p.quantity != Quantity::pulse_frequency &&
+               p.quantity != Quantity::pulse_gamma;
+    });
+    one.mechanism_perturbations.clear();
+    const Sampler sampler(one, nullptr);
+    MotionSet set;
+    for (std::uint64_t i = 0; i < one.realizations; ++i) {
+        const Realization r = sampler.realization(i);
+        Motion motion = r.motion ? *r.motion : sampled(SyntheticMotion(one.excitation, r));
+        motion.predominant_frequency_hz = r.frequency_hz;
+        motion.source = fmt::format("motion {}", i);
+        set.names.push_back(motion.source);
+        set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
+    }
+    return set;
+}
+
+} // namespace stylobate

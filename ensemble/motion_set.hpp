@@ -1,0 +1,42 @@
+#pragma once
+/// The ground motions of a fragility study, and how strong each is by every intensity measure, as plain data.
+
+#include "ensemble/motion.hpp"
+#include "ensemble/study.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// "pga_m_s2", "sa_1s_m_s2": its name with its unit.
+std::string measure_name(IntensityMeasure measure, double period_s);
+
+/// One intensity measure of all motions.
+struct MotionMeasure {
+    std::string name;          ///< with its unit: "pga_m_s2", "sa_1s_m_s2"
+    double exponent = 0;       ///< a motion s times as strong has s^exponent of it; 0: what scaling does not change
+    std::vector<double> value; ///< (motions) of each as it stands
+};
+
+struct MotionSet {
+    std::vector<std::shared_ptr<const Motion>> motions;
+    std::vector<std::string> names; ///< (motions)
+    std::vector<MotionMeasure> measures;
+
+    std::size_t size() const { return motions.size(); }
+    /// @throws std::invalid_argument if there is none of this name
+    const MotionMeasure& measure(const std::string& name) const;
+};
+
+/// How many times as strong as it stands a motion is in a stripe of a fragility study.
+double motion_scale(const FragilitySpec& fragility, const MotionSet& set, std::size_t motion, int stripe);
+
+/// The motions that a study with a synthetic excitation draws from its seed: what its perturbations make of the
+/// excitation, and noise, one after the other; each with a PGA of `excitation.pga_m_s2`. Not measured yet.
+/// @throws std::invalid_argument if the study is not of that kind
+MotionSet drawn_motions(const Study& study);
+
+} // namespace stylobate

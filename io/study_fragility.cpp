@@ -1,0 +1,179 @@
+#include "io/study_fragility.hpp"
+
+#include "io/record.hpp"
+#include "io/study_axis.hpp"
+#include "io/study_excitation.hpp"
+#include "io/study_names.hpp"
+#include "io/study_ranges.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::uint64_t most_motions = 100'000;
+/// An interval from fewer records says next to nothing, and its coverage is not known (docs/fragility.md).
+constexpr int fewest_motions = 5;
+
+Range range_of(IntensityMeasure measure)
+{
+    switch (measure) {
+    case IntensityMeasure::pga:
+    case IntensityMeasure::sa:
+        return acceleration_range;
+    case IntensityMeasure::pgv:
+        return {0, 100, true, "Velocities are in m/s.", 0.01};
+    case IntensityMeasure::pgd:
+        return {0, 100, true, "Displacements are in metres.", 0.01};
+    case IntensityMeasure::arias:
+        return {0, 1000, true, "Arias intensities are in m/s.", 0.01};
+    case IntensityMeasure::cav:
+        return {0, 10000, true, "Cumulative absolute velocities are in m/s.", 0.01};
+    }
+    return {};
+}
+
+std::vector<double> ascending(const KeyReader& keys, const char* key, const Range& range,
+                              const std::vector<double>& absent)
+{
+    if (!keys.has(key))
+        return absent;
+    const std::vector<double> values = keys.number_list(key, range);
+    for (std::size_t i = 1; i < values.size(); ++i)
+        if (!(values[i] > values[i - 1]))
+            keys.refuse(key, fmt::format("is not in ascending order: {:g} comes before {:g}", values[i - 1], values[i]),
+                        "Give the slightest first: who reaches a limit has reached those before it.");
+    return values;
+}
+
+RecordSpec record_spec(const KeyReader& keys)
+{
+    keys.allow_only({"file", "component", "unit"});
+    return {keys.text("file"), keys.text_or_empty("component"), acceleration_unit(keys)};
+}
+
+/// Of the names that agencies give to components.
+bool is_vertical(const Record& record)
+{
+    std::string name;
+    for (const char c : record.orientation + " " + record.component)
+        name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (const char* word : {"UP", "VERT", "UD", "DOWN", "DWN", "HNZ", "HLZ", "BHZ", "HGZ"})
+        if (name.find(word) != std::string::npos)
+            return true;
+    return record.orientation == "Z" || record.component == "Z" || record.component == "V";
+}
+
+} // namespace
+
+FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
+                             std::uint64_t structures)
+{
+    keys.allow_only({"method", "records", "folder", "pattern", "motions", "intensity", "scale", "contacts", "twins",
+                     "twin_m", "peak_limits", "residual_limits", "periods_s"});
+    FragilitySpec f;
+    f.method = keys.choice_or("method", fragility_method_names, f.method);
+    const bool recorded = excitation.kind == ExcitationKind::record;
+    if (recorded) {
+        keys.refuse_unused({"method", "records", "folder", "pattern", "intensity", "scale", "contacts", "twins",
+                            "twin_m", "peak_limits", "residual_limits", "periods_s"},
+                           "excitation.kind = \"record\"");
+        for (const KeyReader& record : keys.tables("records"))
+            f.records.push_back(record_spec(record));
+        if (f.records.empty() == !keys.has("folder"))
+            keys.refuse_all(f.records.empty()
+                                ? "fragility has no motions: give records = [{ file = \"...\" }, ...], or "
+                                  "folder = \"...\""
+                                : "fragility.records and fragility.folder exclude each other: give one");
+        if (keys.has("pattern") && !keys.has("folder"))
+            keys.refuse("pattern", "names files of a folder, and there is none", "Give fragility.folder.");
+        f.motions = static_cast<int>(f.records.size()); // those of a folder are listed later
+    } else {
+        keys.refuse_unused({"method", "motions", "intensity", "contacts", "twins", "twin_m", "peak_limits",
+                            "residual_limits", "periods_s"},
+                           fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, excitation.kind)));
+        if (f.method == FragilityMethod::cloud)
+            keys.refuse("method", "takes motions as they were recorded, and these are synthetic",
+                        "Give method = \"stripes\", or excitation.kind = \"record\".");
+        f.motions = static_cast<int>(keys.whole("motions", fewest_motions, most_motions,
+                                                "Motions that are drawn from the seed; the interval of a curve comes "
+                                                "from how they differ: 20 are few, 100 are good."));
+    }
+    if (recorded && !f.records.empty() && f.motions < fewest_motions)
+        keys.refuse("records", fmt::format("has {} motions, fewer than {}", f.motions, fewest_motions),
+                    "The interval of a curve comes from how the motions differ: give more.");
+    f.periods_s = ascending(keys, "periods_s", {0.01, 20, false, "Periods are in seconds.", 1e-3}, f.periods_s);
+    if (f.method == FragilityMethod::stripes) {
+        if (keys.has("scale"))
+            keys.refuse("scale", "is not used by method = \"stripes\"", "Remove it, or give method = \"cloud\".");
+        if (!keys.has("intensity"))
+            keys.missing("intensity", "Give it as { measure = \"pga\", from = ..., to = ..., count = ..., spacing = "
+                                      "\"log\" }: motions are scaled to each of these.");
+        const KeyReader axis = keys.table("intensity");
+        f.measure = axis.choice_or("measure", intensity_measure_names, f.measure);
+        if (f.measure == IntensityMeasure::sa)
+            f.period_s = axis.number("period_s", {0.01, 20, false, "Periods are in seconds.", 1e-3});
+        else if (axis.has("period_s"))
+            axis.refuse("period_s", "is not used by this measure", "Remove it, or give measure = \"sa\".");
+        f.intensity = read_axis(keys, "intensity", range_of(f.measure), {"measure", "period_s"});
+    } else {
+        if (keys.has("intensity"))
+            keys.refuse("intensity", "is not used by method = \"cloud\"", "Remove it, or give method = \"stripes\".");
+        f.scale = keys.number_or("scale", {0, 100, true, "Every motion so many times as strong.", 0}, f.scale);
+    }
+    f.contacts = static_cast<int>(
+        keys.whole_or("contacts", 1, structures, 1, "Structures that are built alike, with contacts of their own."));
+    f.twins = static_cast<int>(keys.whole_or(
+        "twins", 1, structures, 1, "Structures that differ by fragility.twin_m alone: what chaos makes of it."));
+    const auto group = static_cast<std::uint64_t>(f.contacts) * static_cast<std::uint64_t>(f.twins);
+    if (structures % group != 0)
+        study.refuse("realizations", fmt::format("is no multiple of fragility.contacts x twins = {}", group),
+                     fmt::format("Give {} or {}.", structures / group * group + group,
+                                 std::max(group, structures / group * group)));
+    f.twin_m = keys.number_or("twin_m", {0, 1e-3, true, "What twins differ by, in metres.", 0}, f.twin_m);
+    const Range part{0, 100, true, "A part of the width.", 0.01};
+    f.peak_limits = ascending(keys, "peak_limits", part, f.peak_limits);
+    f.residual_limits = ascending(keys, "residual_limits", part, f.residual_limits);
+    return f;
+}
+
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, FragilitySpec& fragility)
+{
+    if (!keys.has("folder"))
+        return;
+    namespace fs = std::filesystem;
+    fs::path folder = keys.text("folder");
+    std::error_code error;
+    if (folder.is_relative() && fs::is_directory(beside / folder, error))
+        folder = beside / folder;
+    folder = fs::absolute(folder).lexically_normal();
+    if (!fs::is_directory(folder, error))
+        keys.refuse("folder", "is no folder", "Give the folder in which the records are.");
+    const std::string pattern = keys.has("pattern") ? keys.text("pattern") : "*";
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.is_regular_file(error) && fnmatch(pattern.c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0)
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    if (files.empty())
+        keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Look at fragility.pattern.");
+    for (const fs::path& file : files) {
+        const std::vector<Record> records = read_records(file, "");
+        for (const Record& record : records)
+            if (!is_vertical(record))
+                fragility.records.push_back({file.string(), records.size() > 1 ? record.component : "", ""});
+    }
+    fragility.motions = static_cast<int>(fragility.records.size());
+    if (fragility.motions < fewest_motions)
+        keys.refuse("folder",
+                    fmt::format("has {} horizontal components, fewer than {}", fragility.motions, fewest_motions),
+                    "The interval of a curve comes from how the motions differ: give more.");
+}
+
+} // namespace stylobate

@@ -1,0 +1,121 @@
+#include "studies/fragility/motions.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/ground_motion.hpp"
+#include "io/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace stylobate {
+
+namespace {
+
+/// In a time as many times as long.
+void stretch(Motion& motion, double scale)
+{
+    motion.dt_s *= scale;
+    motion.predominant_frequency_hz /= scale;
+    for (double& v : motion.velocity_m_s)
+        v *= scale;
+    for (double& u : motion.displacement_m)
+        u *= scale * scale;
+}
+
+MotionSet read_motions(const Study& study)
+{
+    const ExcitationSpec& excitation = study.excitation;
+    MotionSet set;
+    for (const RecordSpec& record : study.fragility->records) {
+        Motion motion = make_motion(read_record(record.file, record.component, record.unit), excitation.baseline,
+                                    excitation.band_pass);
+        if (excitation.time_scale != 1)
+            stretch(motion, excitation.time_scale);
+        std::string name = std::filesystem::path(record.file).filename().string();
+        if (!record.component.empty())
+            name += " " + record.component;
+        set.names.push_back(std::move(name));
+        set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
+    }
+    return set;
+}
+
+/// That an excitation of which nothing is drawn makes the same motion again and again is seen before it is run.
+void check_differ(const Study& study, const MotionSet& set)
+{
+    for (const auto& motion : set.motions)
+        if (motion->acceleration_m_s2 != set.motions.front()->acceleration_m_s2 ||
+            motion->dt_s != set.motions.front()->dt_s)
+            return;
+    throw InputError(fmt::format("fragility.motions = {}: all motions are the same, for nothing of the excitation is "
+                                 "drawn.\n  Perturb pulse_frequency, pulse_gamma or phase in [perturbation], or give "
+                                 "excitation.kind = \"noise\".",
+                                 study.fragility->motions));
+}
+
+void measure(const FragilitySpec& fragility, MotionSet& set)
+{
+    const auto add = [&set](const std::string& name, double exponent) -> std::vector<double>& {
+        set.measures.push_back({name, exponent, {}});
+        return set.measures.back().value;
+    };
+    std::vector<IntensityMeasures> all;
+    for (const auto& motion : set.motions)
+        all.push_back(intensity_measures(*motion));
+    const auto field = [&](const std::string& name, double exponent, double IntensityMeasures::*member) {
+        std::vector<double>& values = add(name, exponent);
+        for (const IntensityMeasures& im : all)
+            values.push_back(im.*member);
+    };
+    field("pga_m_s2", 1, &IntensityMeasures::pga_m_s2);
+    field("pgv_m_s", 1, &IntensityMeasures::pgv_m_s);
+    field("pgd_m", 1, &IntensityMeasures::pgd_m);
+    field("arias_m_s", 2, &IntensityMeasures::arias_m_s);
+    field("cav_m_s", 1, &IntensityMeasures::cav_m_s);
+    std::vector<double> periods = fragility.periods_s;
+    if (fragility.measure == IntensityMeasure::sa &&
+        std::find(periods.begin(), periods.end(), fragility.period_s) == periods.end())
+        periods.push_back(fragility.period_s);
+    for (const double period : periods) {
+        std::vector<double>& values = add(measure_name(IntensityMeasure::sa, period), 1);
+        for (const auto& motion : set.motions)
+            values.push_back(spectral_acceleration(motion->acceleration_m_s2, motion->dt_s, {period}).front());
+    }
+    field("d5_95_s", 0, &IntensityMeasures::d5_95_s);
+    field("pgv_per_pga_s", 0, &IntensityMeasures::pgv_per_pga_s);
+    field("mean_frequency_hz", 0, &IntensityMeasures::mean_frequency_hz);
+}
+
+} // namespace
+
+MotionSet load_motions(const Study& study)
+{
+    MotionSet set;
+    if (study.fragility->records.empty()) {
+        set = drawn_motions(study);
+        check_differ(study, set);
+    } else {
+        set = read_motions(study);
+    }
+    measure(*study.fragility, set);
+    return set;
+}
+
+MotionTable motion_table(const MotionSet& set)
+{
+    MotionTable table;
+    table.names = set.names;
+    for (const MotionMeasure& measure : set.measures) {
+        table.measures.push_back(measure.name);
+        table.exponent.push_back(measure.exponent);
+    }
+    for (std::size_t i = 0; i < set.size(); ++i)
+        for (const MotionMeasure& measure : set.measures)
+            table.value.push_back(measure.value[i]);
+    return table;
+}
+
+} // namespace stylobate
