@@ -207,7 +207,9 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     }
     if (study.cells() > most_realizations / study.realizations)
         keys.refuse("realizations",
-                    fmt::format("in each of {} cells is more than {} in all", study.cells(), most_realizations),
+                    fmt::format("in each of {} cells is {:.0f} in all, more than {}", study.cells(),
+                                static_cast<double>(study.cells()) * static_cast<double>(study.realizations),
+                                most_realizations),
                     "Give fewer realizations or fewer cells.");
     for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface}, {"fragility", StudyKind::fragility}})
         if (study.kind != kind && top.has(table))

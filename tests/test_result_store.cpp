@@ -252,7 +252,7 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     const Plain plain(file);
     ASSERT_GE(plain.id, 0);
     EXPECT_EQ(plain.attribute("/", "format"), "stylobate");
-    EXPECT_EQ(plain.attribute("/", "format_version"), "2");
+    EXPECT_EQ(plain.attribute("/", "format_version"), "3");
     EXPECT_EQ(plain.attribute("/", "kind"), "surface");
     EXPECT_EQ(plain.attribute("/", "study_toml"), sample_header(1).study_toml);
     EXPECT_EQ(plain.attribute("/", "seed"), "18364758544493064720");
@@ -533,7 +533,7 @@ TEST_F(ResultStore, IsAsLargeAsItsRows)
         add_rows(*writer, 0, total);
         writer->finish(nullptr);
     }
-    const std::uint64_t row = 4 * 8 + 5 * 8 + 2 + 3 * 4 + 21 * 8 + 8 + 3 * 8; // 32 + inputs + outcome + fall times
+    const std::uint64_t row = 4 * 8 + 5 * 8 + 2 + 3 * 4 + 22 * 8 + 8 + 3 * 8; // 32 + inputs + outcome + fall times
     EXPECT_GE(fs::file_size(file), row * total);
     EXPECT_LE(fs::file_size(file), row * total + 40000);
 }

@@ -1,0 +1,48 @@
+#include "studies/fragility/damage.hpp"
+
+#include <fmt/format.h>
+
+namespace stylobate {
+
+std::vector<DamageState> damage_states(const Study& study)
+{
+    using Kind = DamageState::Kind;
+    std::vector<DamageState> states;
+    for (const double limit : study.fragility->peak_limits)
+        states.push_back({Kind::peak, limit, fmt::format("peak_{:g}", limit),
+                          fmt::format("the top moves by more than {:g} of the width", limit)});
+    for (const double limit : study.fragility->residual_limits)
+        states.push_back({Kind::residual, limit, fmt::format("residual_{:g}", limit),
+                          fmt::format("a joint stays dislocated by more than {:g} of its width", limit)});
+    if (!study.structure.epistyles.empty())
+        states.push_back({Kind::unseated, 0, "unseated", "an epistyle loses a seat, or a block falls"});
+    states.push_back({Kind::collapse, 0, "collapse", "a block falls"});
+    if (study.outcome.follow == Follow::rest)
+        states.push_back({Kind::total, 0, "total", "every column and every epistyle falls"});
+    return states;
+}
+
+double base_width_m(const StructureSpec& structure)
+{
+    return structure.columns.front().drums.front().width_m;
+}
+
+bool reached(const DamageState& state, const Outcome& outcome, double base_width_m)
+{
+    const bool collapsed = outcome.state == State::collapsed;
+    switch (state.kind) {
+    case DamageState::Kind::peak:
+        return collapsed || outcome.peak_top_displacement_m > state.limit * base_width_m;
+    case DamageState::Kind::residual:
+        return collapsed || outcome.residual_dislocation > state.limit;
+    case DamageState::Kind::unseated:
+        return collapsed || outcome.unseated_block >= 0;
+    case DamageState::Kind::collapse:
+        return collapsed;
+    case DamageState::Kind::total:
+        return outcome.total_collapse_time_s >= 0;
+    }
+    return false;
+}
+
+} // namespace stylobate
