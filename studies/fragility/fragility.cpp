@@ -1,0 +1,280 @@
+#include "studies/fragility/fragility.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "ensemble/motion_set.hpp"
+#include "io/study_file.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t grid_points = 60;
+/// Of the tests of sufficiency: a finding by chance is to be rare among some dozen of them.
+constexpr double sufficiency_level = 0.99;
+
+/// Where a realization stands in the design.
+struct Place {
+    std::uint32_t motion = 0, stripe = 0, structure = 0;
+    double scale = 1; ///< of its motion
+};
+
+class Analysis {
+public:
+    Analysis(const ResultReader& results, const std::string& file)
+        : header_(results.header()), study_(parse_study(header_.study_toml, file + " (its study)"))
+    {
+        const FragilitySpec& spec = *study_.fragility;
+        out_.method = spec.method;
+        out_.measure = spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
+        out_.motions = header_.motions.names.size();
+        out_.structures = study_.realizations;
+        for (ResultRow& row : results.rows()) {
+            if (row.outcome.state == State::invalid) {
+                ++out_.invalid;
+                continue;
+            }
+            ++out_.valid;
+            places_.push_back(place(row));
+            outcomes_.push_back(std::move(row.outcome));
+        }
+    }
+
+    Fragility run()
+    {
+        if (!results_suffice())
+            return out_;
+        grid();
+        const std::vector<DamageState> states = damage_states(study_);
+        out_.states.resize(states.size());
+        const double width = base_width_m(study_.structure);
+        std::vector<std::vector<std::uint8_t>> reached_states(outcomes_.size(),
+                                                              std::vector<std::uint8_t>(states.size()));
+        for (std::size_t i = 0; i < outcomes_.size(); ++i)
+            for (std::size_t k = 0; k < states.size(); ++k)
+                reached_states[i][k] = reached(states[k], outcomes_[i], width);
+        tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t k) {
+            std::vector<std::uint8_t> column(outcomes_.size());
+            for (std::size_t i = 0; i < column.size(); ++i)
+                column[i] = reached_states[i][k];
+            out_.states[k] = state(states[k], column);
+        });
+        for (std::size_t k = 0; k < states.size(); ++k)
+            if (states[k].kind == DamageState::Kind::collapse) {
+                std::vector<std::uint8_t> column(outcomes_.size());
+                for (std::size_t i = 0; i < column.size(); ++i)
+                    column[i] = reached_states[i][k];
+                rank(column);
+            }
+        return out_;
+    }
+
+private:
+    Place place(const ResultRow& row) const
+    {
+        const auto stripes = static_cast<std::uint64_t>(study_.fragility->stripes());
+        Place p;
+        p.motion = static_cast<std::uint32_t>(row.cell / stripes);
+        p.stripe = static_cast<std::uint32_t>(row.cell % stripes);
+        p.structure = static_cast<std::uint32_t>(row.index % study_.realizations);
+        p.scale = row.pga_m_s2 / measured(p.motion, "pga_m_s2");
+        return p;
+    }
+
+    std::size_t column(const std::string& measure) const
+    {
+        const auto& names = header_.motions.measures;
+        const auto at = std::find(names.begin(), names.end(), measure);
+        if (at == names.end())
+            throw InputError("the motions of the results were not measured by " + measure);
+        return static_cast<std::size_t>(at - names.begin());
+    }
+    /// Of a motion as it stands.
+    double measured(std::size_t motion, const std::string& measure) const
+    {
+        return header_.motions.value[motion * header_.motions.measures.size() + column(measure)];
+    }
+    double intensity(const Place& p, const std::string& measure) const
+    {
+        if (out_.method == FragilityMethod::stripes && measure == out_.measure)
+            return study_.fragility->intensity.value(static_cast<int>(p.stripe)); // to the last bit, for the stripes
+        return measured(p.motion, measure) * std::pow(p.scale, header_.motions.exponent[column(measure)]);
+    }
+
+    bool results_suffice()
+    {
+        std::vector<bool> seen(out_.motions);
+        for (const Place& p : places_)
+            seen[p.motion] = true;
+        const auto motions = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
+        if (motions < least_records)
+            out_.says.push_back(
+                fmt::format("Only {} motions have valid realizations: no interval can be given from fewer "
+                            "than {}, and so no curve.",
+                            motions, least_records));
+        else if (motions < enough_records)
+            out_.says.push_back(
+                fmt::format("Intervals are from {} motions; with fewer than {} they hold less often than "
+                            "they say.",
+                            motions, enough_records));
+        return motions >= least_records;
+    }
+
+    void grid()
+    {
+        double low = INFINITY, high = 0;
+        for (const Place& p : places_) {
+            low = std::min(low, intensity(p, out_.measure));
+            high = std::max(high, intensity(p, out_.measure));
+        }
+        for (std::size_t i = 0; i < grid_points; ++i)
+            out_.grid.push_back(low * std::pow(high / low, static_cast<double>(i) / (grid_points - 1)));
+    }
+
+    /// Summed by cell, as realizations of one have the same intensity.
+    FragilityData data(const std::vector<std::string>& measures, const std::vector<std::uint8_t>& reached) const
+    {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, FragilityRun> cells;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Place& p = places_[i];
+            FragilityRun& run = cells[{p.motion, p.stripe}];
+            if (run.intensity.empty()) {
+                run.record = p.motion;
+                run.trials = 0;
+                for (const std::string& measure : measures)
+                    run.intensity.push_back(intensity(p, measure));
+            }
+            run.trials += 1;
+            run.reached += reached[i];
+        }
+        std::vector<FragilityRun> runs;
+        for (auto& [cell, run] : cells)
+            runs.push_back(std::move(run));
+        return grouped(runs);
+    }
+
+    StateFragility state(const DamageState& damage, const std::vector<std::uint8_t>& reached) const
+    {
+        StateFragility s;
+        s.state = damage;
+        const FragilityData one = data({out_.measure}, reached);
+        CurveOptions options;
+        for (const double at : out_.grid)
+            options.at.push_back({at});
+        s.curve = fragility_curve(one, options);
+        s.fit = lack_of_fit(fitted_curve(one, log_predictors(one), Link::probit));
+        if (out_.method == FragilityMethod::stripes) {
+            s.stripes = stripe_shares(one);
+            count_resurrected(reached, s);
+        }
+        if (s.curve.reached > 0 && s.curve.reached < s.curve.trials)
+            s.shares = shares(reached);
+        return s;
+    }
+
+    void count_resurrected(const std::vector<std::uint8_t>& reached, StateFragility& s) const
+    {
+        const auto stripes = static_cast<std::size_t>(study_.fragility->stripes());
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<int>> of_structure; // stripe by stripe; -1: none
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            auto& seen = of_structure[{places_[i].motion, places_[i].structure}];
+            seen.resize(stripes, -1);
+            seen[places_[i].stripe] = reached[i];
+        }
+        for (const auto& [key, seen] : of_structure) {
+            const auto first = std::find(seen.begin(), seen.end(), 1);
+            s.reached_ever += first != seen.end();
+            s.resurrected += std::find(first, seen.end(), 0) != seen.end();
+        }
+    }
+
+    DispersionShares shares(const std::vector<std::uint8_t>& reached) const
+    {
+        const auto contacts = static_cast<std::uint32_t>(study_.fragility->contacts);
+        const auto twins = static_cast<std::uint32_t>(study_.fragility->twins);
+        std::vector<NestedRun> runs;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Place& p = places_[i];
+            runs.push_back({p.motion, p.structure / (contacts * twins), p.structure / twins, p.stripe,
+                            static_cast<double>(reached[i])});
+        }
+        return dispersion_shares(runs);
+    }
+
+    /// Which measure tells most of the collapse, and whether it tells all.
+    void rank(const std::vector<std::uint8_t>& reached)
+    {
+        const double trials = static_cast<double>(reached.size());
+        const double ones = static_cast<double>(std::count(reached.begin(), reached.end(), 1));
+        if (ones == 0 || ones == trials)
+            return;
+        const double constant = ones * std::log(ones / trials) + (trials - ones) * std::log(1 - ones / trials);
+        std::vector<std::string> scaling, fixed;
+        for (std::size_t m = 0; m < header_.motions.measures.size(); ++m)
+            (header_.motions.exponent[m] > 0 ? scaling : fixed).push_back(header_.motions.measures[m]);
+        out_.measures.resize(scaling.size());
+        tbb::parallel_for(std::size_t{0}, scaling.size(), [&](std::size_t m) {
+            MeasureFit& fit = out_.measures[m];
+            fit.measure = scaling[m];
+            fit.curve = fragility_curve(data({scaling[m]}, reached), {});
+            fit.information = (fit.curve.log_likelihood - constant) / trials;
+            for (const std::string& covariate : fixed) {
+                CurveOptions both;
+                both.level = sufficiency_level;
+                const FragilityCurve curve = fragility_curve(data({scaling[m], covariate}, reached), both);
+                if (curve.maximum == Maximum::inside &&
+                    (curve.coefficients[2].records.lower > 0 || curve.coefficients[2].records.upper < 0))
+                    fit.insufficient.push_back(covariate);
+            }
+        });
+        std::stable_sort(out_.measures.begin(), out_.measures.end(),
+                         [](const MeasureFit& a, const MeasureFit& b) { return a.information > b.information; });
+    }
+
+    const ResultHeader& header_;
+    Study study_;
+    std::vector<Place> places_;
+    std::vector<Outcome> outcomes_;
+    Fragility out_;
+};
+
+} // namespace
+
+Fragility fragility_of(const ResultReader& results, const std::string& file)
+{
+    if (results.header().kind != "fragility")
+        throw InputError(fmt::format("{}: a result of kind '{}' is no fragility study", file, results.header().kind));
+    return Analysis(results, file).run();
+}
+
+std::string describe_measure(const std::string& name)
+{
+    if (name == "pga_m_s2")
+        return "peak ground acceleration [m/s²]";
+    if (name == "pgv_m_s")
+        return "peak ground velocity [m/s]";
+    if (name == "pgd_m")
+        return "peak ground displacement [m]";
+    if (name == "arias_m_s")
+        return "Arias intensity [m/s]";
+    if (name == "cav_m_s")
+        return "cumulative absolute velocity [m/s]";
+    if (name == "d5_95_s")
+        return "duration from 5 to 95 % of the Arias intensity [s]";
+    if (name == "pgv_per_pga_s")
+        return "PGV / PGA [s]";
+    if (name == "mean_frequency_hz")
+        return "mean frequency [Hz]";
+    if (name.starts_with("sa_"))
+        return fmt::format("spectral acceleration at {} s [m/s²]", name.substr(3, name.find("s_m") - 3));
+    return name;
+}
+
+} // namespace stylobate

@@ -1,0 +1,57 @@
+#pragma once
+/// What a fragility study says: curves of all its limit states with their intervals, whether their form holds, and
+/// where the scatter comes from. Computed from the rows of its results whenever it is asked for.
+
+#include "ensemble/estimators/dispersion_shares.hpp"
+#include "ensemble/estimators/fragility_curve.hpp"
+#include "ensemble/estimators/lack_of_fit.hpp"
+#include "ensemble/estimators/stripe_shares.hpp"
+#include "ensemble/study.hpp"
+#include "io/result_store.hpp"
+#include "studies/fragility/damage.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// How well a measure of the shaking tells whether a limit state is reached.
+struct MeasureFit {
+    std::string measure;
+    FragilityCurve curve;   ///< lognormal in this measure
+    double information = 0; ///< log likelihood gained over a constant probability, per realization [nats]
+    /// What motions differ in besides, and tells more: the covariates whose coefficient beside this measure is not 0.
+    std::vector<std::string> insufficient;
+};
+
+struct StateFragility {
+    DamageState state;
+    FragilityCurve curve; ///< lognormal in the study's measure, at `Fragility::grid`
+    LackOfFit fit;
+    std::optional<StripeShares> stripes; ///< of a study by stripes
+    std::optional<DispersionShares> shares;
+    /// Structures under a motion that reached the state at some intensity, and not at a stronger one, of all that ever
+    /// did.
+    std::uint64_t resurrected = 0, reached_ever = 0;
+};
+
+struct Fragility {
+    std::string measure; ///< "pgv_m_s"
+    FragilityMethod method = FragilityMethod::stripes;
+    std::size_t motions = 0, structures = 0; ///< structures under each motion
+    std::uint64_t valid = 0, invalid = 0;
+    std::vector<double> grid; ///< intensities at which curves are given
+    std::vector<StateFragility> states;
+    std::vector<MeasureFit> measures; ///< of the collapse, the most efficient first
+    std::vector<std::string> says;    ///< what a reader must know of the whole
+};
+
+/// @throws InputError if the results are of another kind of study
+Fragility fragility_of(const ResultReader& results, const std::string& file);
+
+/// "peak ground velocity [m/s]" of "pgv_m_s".
+std::string describe_measure(const std::string& name);
+
+} // namespace stylobate

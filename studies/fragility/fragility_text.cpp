@@ -1,0 +1,233 @@
+#include "studies/fragility/fragility_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::isnan(value) ? "–" : value > 0 ? "∞" : "-∞";
+}
+
+std::string interval(const Limits& limits)
+{
+    return fmt::format("{} to {}", number(limits.lower), number(limits.upper));
+}
+
+bool has_curve(const StateFragility& s)
+{
+    return s.curve.maximum == Maximum::inside && s.curve.median.value > 0 && std::isfinite(s.curve.median.value);
+}
+
+std::string percent(double share)
+{
+    return fmt::format("{:.3g} %", 100 * share);
+}
+
+Json limits_json(const CurveEstimate& e)
+{
+    return Json::object()
+        .member("value", e.value)
+        .member("lower", e.records.lower)
+        .member("upper", e.records.upper)
+        .member("lower_if_runs_were_independent", e.profile_runs.lower)
+        .member("upper_if_runs_were_independent", e.profile_runs.upper);
+}
+
+/// What a reader must know of a state besides its numbers.
+std::vector<std::string> remarks(const StateFragility& s)
+{
+    std::vector<std::string> all = s.curve.says;
+    if (has_curve(s) && s.fit.p_value < 0.05)
+        all.push_back(s.fit.says);
+    if (s.stripes && s.stripes->p_monotone < 0.05)
+        all.push_back(s.stripes->says);
+    if (s.resurrected > 0)
+        all.push_back(fmt::format("{} of {} structures that reached it did not at some stronger shaking by the same "
+                                  "motion ({}).",
+                                  s.resurrected, s.reached_ever,
+                                  percent(static_cast<double>(s.resurrected) / static_cast<double>(s.reached_ever))));
+    return all;
+}
+
+std::string share_text(const DispersionShares& shares)
+{
+    std::string text;
+    for (std::size_t l = 0; l < dispersion_levels; ++l) {
+        const DispersionShare& share = shares.levels[l];
+        if (share.known)
+            text += fmt::format("{}{} {:.0f} % ({:.0f} to {:.0f})", text.empty() ? "" : ", ",
+                                to_string(static_cast<DispersionLevel>(l)), 100 * share.share,
+                                100 * share.share_limits.lower, 100 * share.share_limits.upper);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string fragility_text(const Fragility& f)
+{
+    std::string text =
+        fmt::format("  {} motions, {} structures under each; intensity: {}; in brackets: 95 % intervals, "
+                    "by the motions\n",
+                    f.motions, f.structures, describe_measure(f.measure));
+    for (const StateFragility& s : f.states) {
+        text += fmt::format("  {:<16} {:>6} of {}", s.state.name, s.curve.reached, s.curve.trials);
+        if (has_curve(s))
+            text += fmt::format("; median {} ({}), dispersion {} ({})", number(s.curve.median.value),
+                                interval(s.curve.median.records), number(s.curve.dispersion.value),
+                                interval(s.curve.dispersion.records));
+        text += "\n";
+        for (const std::string& remark : remarks(s))
+            text += fmt::format("      {}\n", remark);
+        if (s.state.kind == DamageState::Kind::collapse && s.shares)
+            text += fmt::format("      scatter at a given intensity: {}\n", share_text(*s.shares));
+    }
+    if (!f.measures.empty()) {
+        const MeasureFit& best = f.measures.front();
+        text += fmt::format("  the collapse is told best by {}: dispersion {} ({})\n", describe_measure(best.measure),
+                            number(best.curve.dispersion.value), interval(best.curve.dispersion.records));
+    }
+    for (const std::string& line : f.says)
+        text += "  " + line + "\n";
+    return text;
+}
+
+Json fragility_json(const Fragility& f)
+{
+    Json states = Json::list();
+    for (const StateFragility& s : f.states) {
+        Json state = Json::object();
+        state.member("name", s.state.name)
+            .member("limit_state", s.state.describe)
+            .member("trials", s.curve.trials)
+            .member("reached", s.curve.reached)
+            .member("curve", has_curve(s));
+        if (has_curve(s))
+            state.member("median", limits_json(s.curve.median))
+                .member("dispersion", limits_json(s.curve.dispersion))
+                .member("lack_of_fit_p", s.fit.p_value);
+        if (s.stripes) {
+            state.member("monotone_p", s.stripes->p_monotone);
+            Json stripes = Json::list();
+            for (const StripeShare& share : s.stripes->stripes)
+                stripes.item(Json::object()
+                                 .member("intensity", share.intensity)
+                                 .member("trials", share.trials)
+                                 .member("reached", share.reached)
+                                 .member("lower", share.limits.lower)
+                                 .member("upper", share.limits.upper));
+            state.member("stripes", stripes);
+            state.member("resurrected", s.resurrected).member("reached_ever", s.reached_ever);
+        }
+        if (s.shares) {
+            Json shares = Json::object();
+            for (std::size_t l = 0; l < dispersion_levels; ++l)
+                if (const DispersionShare& share = s.shares->levels[l]; share.known)
+                    shares.member(to_string(static_cast<DispersionLevel>(l)),
+                                  Json::object()
+                                      .member("share", share.share)
+                                      .member("lower", share.share_limits.lower)
+                                      .member("upper", share.share_limits.upper));
+            state.member("scatter", shares);
+        }
+        Json says = Json::list();
+        for (const std::string& remark : remarks(s))
+            says.item(remark);
+        states.item(state.member("says", says));
+    }
+    Json measures = Json::list();
+    for (const MeasureFit& m : f.measures) {
+        Json insufficient = Json::list();
+        for (const std::string& name : m.insufficient)
+            insufficient.item(name);
+        measures.item(Json::object()
+                          .member("measure", m.measure)
+                          .member("dispersion", limits_json(m.curve.dispersion))
+                          .member("information_nats", m.information)
+                          .member("insufficient_beside", insufficient));
+    }
+    Json says = Json::list();
+    for (const std::string& line : f.says)
+        says.item(line);
+    return Json::object()
+        .member("measure", f.measure)
+        .member("motions", f.motions)
+        .member("structures", f.structures)
+        .member("states", states)
+        .member("measures", measures)
+        .member("says", says);
+}
+
+void fragility_section(const Fragility& f, const std::filesystem::path& picture, HtmlPage& page)
+{
+    page.section("Fragility");
+    page.paragraph(
+        fmt::format("{} motions, {} structures under each. Intensity: {}. Each curve is the lognormal one of "
+                    "maximum likelihood. Intervals (95 %) are those of the motions: runs of one motion are "
+                    "not independent, and intervals that took them so would be too narrow.",
+                    f.motions, f.structures, describe_measure(f.measure)));
+    for (const std::string& line : f.says)
+        page.box("warn", "Mind", line);
+    if (!picture.empty())
+        page.figure(png_image(picture, "fragility curves"),
+                    "Curves with their 95 % bands; bars: shares of the stripes with their intervals.");
+    HtmlTable table{"lrrrrr", {"limit state", "reached", "median", "95 %", "dispersion", "95 %"}, {}, ""};
+    for (const StateFragility& s : f.states) {
+        std::vector<Html> row = {s.state.describe, fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
+        if (has_curve(s))
+            row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
+                                   number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
+        else
+            row.insert(row.end(), {"no curve", "", "", ""});
+        table.rows.push_back(std::move(row));
+    }
+    page.table(table);
+    std::vector<Html> items;
+    for (const StateFragility& s : f.states)
+        for (const std::string& remark : remarks(s))
+            items.push_back(s.state.name + ": " + remark);
+    if (!items.empty()) {
+        page.heading("What the curves do not say");
+        page.list(items);
+    }
+    page.heading("Where the scatter comes from");
+    HtmlTable shares{"lrrrr", {"limit state", "motion", "imperfections", "contacts", "chaos"}, {}, ""};
+    for (const StateFragility& s : f.states)
+        if (s.shares) {
+            std::vector<Html> row = {s.state.describe};
+            for (const DispersionShare& share : s.shares->levels)
+                row.push_back(share.known ? fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * share.share,
+                                                        100 * share.share_limits.lower, 100 * share.share_limits.upper)
+                                          : std::string("with the left"));
+            shares.rows.push_back(std::move(row));
+        }
+    page.table(shares);
+    page.note(
+        "Of the variance of the outcome (reached or not) at a given intensity, over all intensities of the study: "
+        "what is the motion's own, the structure's, its contacts', and what two structures differ by that are "
+        "alike but for a nanometre.");
+    if (f.measures.empty())
+        return;
+    page.heading("Which measure tells most of the collapse");
+    HtmlTable ranks{"lrrrl", {"measure", "dispersion", "95 %", "information", "not sufficient beside"}, {}, ""};
+    for (const MeasureFit& m : f.measures) {
+        std::string beside;
+        for (const std::string& name : m.insufficient)
+            beside += (beside.empty() ? "" : ", ") + describe_measure(name);
+        ranks.rows.push_back({describe_measure(m.measure), number(m.curve.dispersion.value),
+                              interval(m.curve.dispersion.records), fmt::format("{:.3f}", m.information),
+                              beside.empty() ? "–" : beside});
+    }
+    page.table(ranks);
+    page.note("The smaller the dispersion, the more efficient a measure; information: log likelihood gained over a "
+              "constant probability, in nats a realization. A measure is not sufficient where what motions differ in "
+              "besides still shifts the curve (99 %, by the motions).");
+}
+
+} // namespace stylobate

@@ -1,0 +1,26 @@
+#pragma once
+/// A fragility study in words, as JSON, as a section of a page, and as a picture.
+
+#include "studies/fragility/fragility.hpp"
+#include "studies/html.hpp"
+#include "studies/json.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace stylobate {
+
+/// Lines for a terminal: each limit state with median and dispersion, and what must be known of them.
+std::string fragility_text(const Fragility& fragility);
+Json fragility_json(const Fragility& fragility);
+
+/// The section of a result's page. @param picture of the curves; empty where there is none
+void fragility_section(const Fragility& fragility, const std::filesystem::path& picture, HtmlPage& page);
+
+/// Curves of all limit states of one kind each, with their bands, and the shares of the stripes with their bars.
+/// @param states names of limit states; empty: the peak's, and the collapse
+/// @throws InputError for a name that is none, or if nothing can be drawn
+void plot_fragility(const Fragility& fragility, const std::vector<std::string>& states, const std::string& title,
+                    const std::filesystem::path& png);
+
+} // namespace stylobate
