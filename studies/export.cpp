@@ -6,6 +6,7 @@
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/fragility/fragility_text.hpp"
 #include "studies/json.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/output_path.hpp"
@@ -13,7 +14,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
 namespace stylobate {
 
@@ -25,14 +28,18 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
 {
     const ResultReader reader(results);
     std::string picture = wanted.picture;
+    const bool of_fragility = reader.header().kind == "fragility";
+    if (picture.empty() && of_fragility && wanted.cell < 0 && wanted.realization < 0)
+        picture = "fragility";
     if (picture.empty())
         picture = wanted.cell >= 0                                                  ? "order"
                   : reader.header().frequency_hz.empty() || wanted.realization >= 0 ? "strip"
                                                                                     : "surface";
-    const bool of_surface = picture == "surface" || picture == "slice";
+    const bool of_surface = picture == "surface" || picture == "slice" || picture == "fragility";
     if (!wanted.limit.empty() && !of_surface)
-        throw InputError(fmt::format("--limit {}: the picture '{}' shows no limit state; surface and slice do",
-                                     wanted.limit, picture));
+        throw InputError(
+            fmt::format("--limit {}: the picture '{}' shows no limit state; surface, slice and fragility do",
+                        wanted.limit, picture));
     if (wanted.cell >= 0 && picture != "order")
         throw InputError(fmt::format("--cell {}: only --picture order is of one cell", wanted.cell));
 
@@ -44,9 +51,18 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
         const std::uint64_t index =
             wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : reader.header().first;
         strip_picture(options, reader, results, index, png);
+    } else if (picture == "fragility") {
+        std::vector<std::string> limits;
+        if (!wanted.limit.empty())
+            limits.push_back(wanted.limit);
+        plot_fragility(fragility_of(reader, results), limits, "Fragility: " + name, png);
     } else if (picture == "order") {
         order_picture(reader, results, wanted.cell, png);
     } else {
+        if (!wanted.limit.empty() && std::find(limit_state_names().begin(), limit_state_names().end(), wanted.limit) ==
+                                         limit_state_names().end())
+            throw InputError(
+                fmt::format("--limit {}: a surface knows {}", wanted.limit, fmt::join(limit_state_names(), ", ")));
         const LimitState limit = wanted.limit.empty() ? LimitState::collapse : limit_state_of(wanted.limit);
         const SurfaceTable surface = finished_surface(reader, results, limit);
         const std::string title = fmt::format("Probability of {}: {}", describe(limit), name);

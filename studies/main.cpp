@@ -167,13 +167,12 @@ int main(int argc, char** argv)
     exporting->add_option("--to", wanted.format, "csv or png")->required()->check(CLI::IsMember({"csv", "png"}));
     exporting
         ->add_option("--picture", wanted.picture,
-                     "png: surface, slice, strip or order (default: surface, or strip if there is none)")
-        ->check(CLI::IsMember({"surface", "slice", "strip", "order"}));
-    exporting
-        ->add_option("--limit", wanted.limit,
-                     "surface, slice: collapse, total, unseated, rocked or slid (default: "
-                     "collapse)")
-        ->check(CLI::IsMember(limit_state_names()));
+                     "png: surface, slice, fragility, strip or order (default: the study's, or strip if there is none)")
+        ->check(CLI::IsMember({"surface", "slice", "fragility", "strip", "order"}));
+    exporting->add_option(
+        "--limit", wanted.limit,
+        "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
+        "state of the study (default: peaks and collapse)");
     exporting->add_option("--realization", wanted.realization, "strip: which one (default: 0)")
         ->check(CLI::Range(0LL, 999999999999LL));
     exporting->add_option("--cell", wanted.cell, "order: one cell of a surface (default: all of them)")

@@ -5,6 +5,7 @@
 #include "io/plot_surface.hpp"
 #include "io/study_file.hpp"
 #include "io/temporary_folder.hpp"
+#include "studies/fragility/fragility_text.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/report.hpp"
 #include "studies/report_study.hpp"
@@ -99,6 +100,8 @@ public:
         outcomes();
         if (surface_)
             cells();
+        if (header_.kind == "fragility")
+            fragility();
         pictures();
         order();
         motions();
@@ -192,6 +195,16 @@ private:
             page_.note(
                 fmt::format("Median time of the total collapse: {:.3g} s.", counts_.median_total_collapse_time_s()));
         page_.note("Rocking or sliding without collapse: by whichever of the two moved it more.");
+    }
+
+    void fragility()
+    {
+        const Fragility f = fragility_of(reader_, file_);
+        fragility_section(f, page_, [&] {
+            if (!f.states.empty())
+                picture("Curves with their 95 % bands; bars: shares of the stripes with their intervals.",
+                        [&](const fs::path& png) { plot_fragility(f, {}, "Fragility", png); });
+        });
     }
 
     /// The probability of collapse in each cell.

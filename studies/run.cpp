@@ -7,6 +7,7 @@
 #include "studies/block_names.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
+#include "studies/fragility/fragility_text.hpp"
 #include "studies/json.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
@@ -192,8 +193,10 @@ Json adaptive_json(const SurfaceTable& table)
 }
 
 /// @param adaptive the table of a complete adaptive surface, else null
+/// @param fragility of a complete fragility study, else null
 void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
-            const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive)
+            const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive,
+            const Fragility* fragility)
 {
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
@@ -217,6 +220,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("threads", run.threads);
         if (adaptive)
             json.member("adaptive", adaptive_json(*adaptive));
+        if (fragility)
+            json.member("fragility", fragility_json(*fragility));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
@@ -230,6 +235,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             fmt::print("  {}\n", describe_adaptive(*adaptive));
         if (counts.trials() > 0)
             print_limits(counts, names, to_rest);
+        if (fragility)
+            fmt::print("{}", fragility_text(*fragility));
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
@@ -294,7 +301,12 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         writer->finish(table ? &*table : nullptr);
     else
         writer->flush();
-    report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr);
+    writer.reset();
+    std::optional<Fragility> fragility;
+    if (complete && loaded.study().fragility)
+        fragility = fragility_of(ResultReader(results), results);
+    report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr,
+           fragility ? &*fragility : nullptr);
     if (!complete)
         return exit_interrupted;
     const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);

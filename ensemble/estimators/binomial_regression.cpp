@@ -102,7 +102,7 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
                          const Eigen::VectorXd& offset, const ParameterVector& start)
 {
     const Eigen::Index parameters = predictors.cols();
-    assert(parameters <= most_parameters);
+    assert(parameters <= most_coefficients);
     BinomialFit fit;
     fit.coefficients = start.size() > 0 ? start : ParameterVector(ParameterVector::Zero(parameters));
     fit.information.resize(parameters, parameters);

@@ -8,9 +8,9 @@
 
 namespace stylobate {
 
-inline constexpr int most_parameters = 16; ///< of one regression; so that its matrices need no memory of their own
-using ParameterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_parameters, 1>;
-using ParameterMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_parameters, most_parameters>;
+inline constexpr int most_coefficients = 16; ///< of one regression; so that its matrices need no memory of their own
+using ParameterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_coefficients, 1>;
+using ParameterMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coefficients, most_coefficients>;
 
 /// Trials and successes at points with given predictors.
 struct BinomialCounts {

@@ -164,7 +164,7 @@ Json fragility_json(const Fragility& f)
         .member("says", says);
 }
 
-void fragility_section(const Fragility& f, const std::filesystem::path& picture, HtmlPage& page)
+void fragility_section(const Fragility& f, HtmlPage& page, const std::function<void()>& picture)
 {
     page.section("Fragility");
     page.paragraph(
@@ -174,9 +174,7 @@ void fragility_section(const Fragility& f, const std::filesystem::path& picture,
                     f.motions, f.structures, describe_measure(f.measure)));
     for (const std::string& line : f.says)
         page.box("warn", "Mind", line);
-    if (!picture.empty())
-        page.figure(png_image(picture, "fragility curves"),
-                    "Curves with their 95 % bands; bars: shares of the stripes with their intervals.");
+    picture();
     HtmlTable table{"lrrrrr", {"limit state", "reached", "median", "95 %", "dispersion", "95 %"}, {}, ""};
     for (const StateFragility& s : f.states) {
         std::vector<Html> row = {s.state.describe, fmt::format("{} of {}", s.curve.reached, s.curve.trials)};

@@ -6,7 +6,9 @@
 #include "studies/json.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace stylobate {
 
@@ -14,8 +16,8 @@ namespace stylobate {
 std::string fragility_text(const Fragility& fragility);
 Json fragility_json(const Fragility& fragility);
 
-/// The section of a result's page. @param picture of the curves; empty where there is none
-void fragility_section(const Fragility& fragility, const std::filesystem::path& picture, HtmlPage& page);
+/// The section of a result's page. @param picture puts that of the curves into the page
+void fragility_section(const Fragility& fragility, HtmlPage& page, const std::function<void()>& picture);
 
 /// Curves of all limit states of one kind each, with their bands, and the shares of the stripes with their bars.
 /// @param states names of limit states; empty: the peak's, and the collapse
