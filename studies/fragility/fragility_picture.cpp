@@ -89,9 +89,10 @@ void plot_fragility(const Fragility& f, const std::vector<std::string>& names, c
         data + gnuplot_heading(title, said) +
         fmt::format("set logscale x\nset xrange [{}:{}]\n", f.grid.front() * 0.97, f.grid.back() * 1.03) +
         "set xtics (.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100)\n"
-        "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.115\nset tmargin at screen "
-        "0.8\nset border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 "
-        "linewidth 0.5\nset key vertical maxrows 3 center bottom at screen 0.535, screen 0.81 samplen 2\n"
+        "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.25\nset tmargin at screen "
+        "0.88\n"
+        "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
+        "set key vertical maxrows 4 center bottom at screen 0.535, screen 0.01 samplen 2\n"
         "set xlabel " +
         gnuplot_text(describe_measure(f.measure)) +
         " offset 0,-0.2\nset ylabel 'probability of reaching the limit state'\n"
