@@ -165,6 +165,10 @@ struct RecordSpec {
     friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
 };
 
+/// Intervals of curves come from how the motions differ; fewer tell nothing
+/// (`ensemble/estimators/fragility_curve.hpp`).
+inline constexpr int fewest_motions = 8;
+
 /// A fragility study: motions x stripes x structures, `Study::realizations` structures under each motion in each
 /// stripe. The structures of a motion are the same in all its stripes (an incremental dynamic analysis of each), and
 /// others than those of another motion.

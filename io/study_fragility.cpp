@@ -18,8 +18,6 @@ namespace stylobate {
 namespace {
 
 constexpr std::uint64_t most_motions = 100'000;
-/// An interval from fewer records says next to nothing, and its coverage is not known (docs/fragility.md).
-constexpr int fewest_motions = 5;
 
 Range range_of(IntensityMeasure measure)
 {
@@ -75,13 +73,13 @@ bool is_vertical(const Record& record)
 FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
                              std::uint64_t structures)
 {
-    keys.allow_only({"method", "records", "folder", "pattern", "motions", "intensity", "scale", "contacts", "twins",
-                     "twin_m", "peak_limits", "residual_limits", "periods_s"});
+    keys.allow_only({"method", "records", "folder", "pattern", "unit", "motions", "intensity", "scale", "contacts",
+                     "twins", "twin_m", "peak_limits", "residual_limits", "periods_s"});
     FragilitySpec f;
     f.method = keys.choice_or("method", fragility_method_names, f.method);
     const bool recorded = excitation.kind == ExcitationKind::record;
     if (recorded) {
-        keys.refuse_unused({"method", "records", "folder", "pattern", "intensity", "scale", "contacts", "twins",
+        keys.refuse_unused({"method", "records", "folder", "pattern", "unit", "intensity", "scale", "contacts", "twins",
                             "twin_m", "peak_limits", "residual_limits", "periods_s"},
                            "excitation.kind = \"record\"");
         for (const KeyReader& record : keys.tables("records"))
@@ -91,8 +89,9 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
                                 ? "fragility has no motions: give records = [{ file = \"...\" }, ...], or "
                                   "folder = \"...\""
                                 : "fragility.records and fragility.folder exclude each other: give one");
-        if (keys.has("pattern") && !keys.has("folder"))
-            keys.refuse("pattern", "names files of a folder, and there is none", "Give fragility.folder.");
+        for (const char* key : {"pattern", "unit"})
+            if (keys.has(key) && !keys.has("folder"))
+                keys.refuse(key, "is of a folder's files, and there is none", "Give fragility.folder.");
         f.motions = static_cast<int>(f.records.size()); // those of a folder are listed later
     } else {
         keys.refuse_unused({"method", "motions", "intensity", "contacts", "twins", "twin_m", "peak_limits",
@@ -163,11 +162,12 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Fr
     std::sort(files.begin(), files.end());
     if (files.empty())
         keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Look at fragility.pattern.");
+    const std::string unit = acceleration_unit(keys);
     for (const fs::path& file : files) {
-        const std::vector<Record> records = read_records(file, "");
+        const std::vector<Record> records = read_records(file, unit);
         for (const Record& record : records)
             if (!is_vertical(record))
-                fragility.records.push_back({file.string(), records.size() > 1 ? record.component : "", ""});
+                fragility.records.push_back({file.string(), records.size() > 1 ? record.component : "", unit});
     }
     fragility.motions = static_cast<int>(fragility.records.size());
     if (fragility.motions < fewest_motions)

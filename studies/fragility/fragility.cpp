@@ -16,6 +16,7 @@ namespace stylobate {
 
 namespace {
 
+static_assert(fewest_motions == static_cast<int>(least_records));
 constexpr std::size_t grid_points = 60;
 /// Of the tests of sufficiency: a finding by chance is to be rare among some dozen of them.
 constexpr double sufficiency_level = 0.99;

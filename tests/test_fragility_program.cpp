@@ -1,0 +1,119 @@
+/// A fragility study as its user runs it: the same bytes whatever the threads and interruptions, curves that agree with
+/// its rows, replay, picture, page and tables, and what is said where there is no curve.
+
+#include "program.hpp"
+
+#include "io/result_store.hpp"
+#include "kernels/isa.hpp"
+
+namespace stylobate {
+namespace {
+
+const std::string study = STYLOBATE_SOURCE_DIR "/studies/inputs/fragility_column.toml";
+const std::vector<std::string> small = {
+    "study.realizations=12", "fragility.motions=20",
+    "fragility.intensity={measure=\"pgv\",from=0.3,to=2.5,count=5,spacing=\"log\"}"};
+
+class FragilityProgram : public Program {
+protected:
+    ProgramRun words(const std::string& results, const char* threads, const std::string& simd = "auto",
+                     std::vector<std::string> more = {}) const
+    {
+        std::vector<std::string> settings = small;
+        settings.insert(settings.end(), more.begin(), more.end());
+        return {.arguments =
+                    run_words(study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};
+    }
+    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
+};
+
+TEST_F(FragilityProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
+{
+    const Ended whole = run(words("whole.h5", "2"));
+    ASSERT_EQ(whole.status, 0) << testing::PrintToString(whole);
+    ASSERT_EQ(run(words("scalar.h5", "1", "scalar")).status, 0);
+    EXPECT_TRUE(bytes("whole.h5") == bytes("scalar.h5"));
+    ProgramRun part = words("parts.h5", "1", "scalar");
+    part.signal = SIGINT;
+    part.after_s = 0.3;
+    run(part);
+    const Ended rest = run(words("parts.h5", "2"));
+    ASSERT_TRUE(rest.status == 0 || rest.err.find("complete already") != std::string::npos)
+        << testing::PrintToString(rest);
+    EXPECT_TRUE(bytes("whole.h5") == bytes("parts.h5"));
+
+    // any realization is there again, by the file's own word
+    const Ended again = run(std::vector<std::string>{"replay", "whole.h5", "--realization", "911", "-o", "one.h5"});
+    EXPECT_EQ(again.status, 0) << testing::PrintToString(again);
+    EXPECT_NE(again.out.find("the same bits"), std::string::npos) << again.out;
+}
+
+TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
+{
+    const Ended ended = run(words("f.h5", "2"));
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = JsonParser::parse(ended.out);
+    const JsonValue& f = json["fragility"];
+    EXPECT_EQ(f["motions"].number, 20);
+    const ResultReader reader(folder / "f.h5");
+    std::map<std::string, double> counted;
+    std::vector<double> by_stripe(5);
+    for (const ResultRow& row : reader.rows()) {
+        const bool fell = row.outcome.state == State::collapsed;
+        counted["collapse"] += fell;
+        by_stripe[row.cell % 5] += fell;
+        counted["peak_0.35"] += fell || row.outcome.peak_top_displacement_m > 0.35;
+        counted["residual_0.01"] += fell || row.outcome.residual_dislocation > 0.01;
+    }
+    int seen = 0;
+    for (const JsonValue& state : f["states"].items) {
+        const std::string name = state["name"].text;
+        if (!counted.contains(name))
+            continue;
+        ++seen;
+        EXPECT_EQ(state["reached"].number, counted[name]) << name;
+        EXPECT_EQ(state["trials"].number, 1200);
+        ASSERT_TRUE(state["curve"].boolean);
+        const JsonValue& median = state["median"];
+        EXPECT_LT(median["lower"].number, median["value"].number);
+        EXPECT_GT(median["upper"].number, median["value"].number);
+        if (name != "collapse")
+            continue;
+        for (std::size_t i = 0; i < 5; ++i)
+            EXPECT_EQ(state["stripes"].items[i]["reached"].number, by_stripe[i]);
+        double shares = 0;
+        for (const char* level : {"record", "imperfection", "contact", "chaos"})
+            shares += state["scatter"][level]["share"].number;
+        EXPECT_NEAR(shares, 1, 1e-9);
+    }
+    EXPECT_EQ(seen, 3);
+    EXPECT_GE(f["measures"].items.size(), 8U);
+
+    EXPECT_EQ(run(std::vector<std::string>{"export", "f.h5", "--to", "png"}).status, 0);
+    EXPECT_TRUE(fs::exists(folder / "f_fragility.png"));
+    EXPECT_EQ(run(std::vector<std::string>{"export", "f.h5", "--to", "png", "--limit", "residual_0.01", "-o", "r.png"})
+                  .status,
+              0);
+    const Ended no_state = run(std::vector<std::string>{"export", "f.h5", "--to", "png", "--limit", "fallen"});
+    EXPECT_EQ(no_state.status, 2);
+    EXPECT_NE(no_state.err.find("peak_0.15"), std::string::npos) << no_state.err;
+    EXPECT_EQ(run(std::vector<std::string>{"report", "f.h5", "-o", "f.html"}).status, 0);
+    const std::string page = bytes("f.html");
+    for (const char* words : {"Where the scatter comes from", "Which measure tells most", "by the motions"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+TEST_F(FragilityProgram, WhereNothingFallsThereIsNoCurveButABound)
+{
+    const Ended ended = run(words("still.h5", "2", "auto",
+                                  {"fragility.intensity={measure=\"pgv\",from=0.01,to=0.02,count=3,spacing=\"log\"}"}));
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = JsonParser::parse(ended.out);
+    for (const JsonValue& state : json["fragility"]["states"].items) {
+        EXPECT_FALSE(state["curve"].boolean);
+        EXPECT_FALSE(state["says"].items.empty()) << "silence about " << state["name"].text;
+    }
+}
+
+} // namespace
+} // namespace stylobate
