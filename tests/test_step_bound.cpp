@@ -1,5 +1,6 @@
 /// The safe step and the linear vibrations, against published digits and against a stack assembled another way.
 
+#include "ensemble/lanes.hpp"
 #include "ensemble/step_bound.hpp"
 
 #include <Eigen/Dense>
@@ -432,4 +433,42 @@ TEST(StructureStepBound, LeavesDashpotsElsewhereAlone)
     for (Joint& joint : r.joints)
         joint.extension.face_damping = 1; // at the ends, in proportion to the contact's length
     EXPECT_GT(structure_step_bound(r, step_bound(r)).dt_s, 1.1 * step_bound(r).dt_s);
+}
+
+/// The engine itself: a stack at rest, in which rounding alone is there to grow.
+TEST(StructureStepBound, LargestStableStepOfTheEngineIsJustAboveIt)
+{
+    for (const double xi : {0.05, 0.1, 0.3, 0.5}) {
+        Column column = with(spec, 1e8, xi);
+        column.ends = true;
+        Realization r = make(column);
+        for (std::size_t i = 0; i < r.blocks.size(); ++i)
+            r.blocks[i].half_width_m *= 1 - 2e-3 * static_cast<double>(i); // no two sides are flush
+        for (Joint& joint : r.joints)
+            joint.friction = 0.68;
+        const double bound = structure_step_bound(r, step_bound(r)).dt_s;
+        Study study;
+        study.excitation.kind = ExcitationKind::none;
+        study.excitation.duration_s = 1000;
+        const auto grows = [&](double dt) {
+            r.step_s = dt;
+            LaneSet set(study, nullptr, kernels(Isa::scalar), r);
+            set.load(0, r);
+            const Snapshot rest = set.snapshot(0);
+            for (int n = 0; n < 100; ++n)
+                set.advance();
+            const Snapshot now = set.snapshot(0);
+            double moved = 0;
+            for (std::size_t i = 0; i < now.x_m.size(); ++i)
+                moved = std::max({moved, std::abs(now.x_m[i] - rest.x_m[i]), std::abs(now.y_m[i] - rest.y_m[i])});
+            return !(moved < 1e-8);
+        };
+        double low = 0.7 * bound, high = 1.5 * bound;
+        EXPECT_FALSE(grows(low)) << xi;
+        EXPECT_TRUE(grows(high)) << xi;
+        while (high - low > 2e-3 * bound)
+            (grows((low + high) / 2) ? high : low) = (low + high) / 2;
+        EXPECT_GT(low / bound, 0.995) << xi;
+        EXPECT_LT(high / bound, 1.06) << xi;
+    }
 }
