@@ -137,9 +137,13 @@ void kernel(benchmark::State& state, Isa isa, int blocks)
         Counter(block_steps * static_cast<double>(per.flops()), Counter::kIsIterationInvariantRate);
 }
 
-void step(benchmark::State& state, Isa isa, int blocks)
+void step(benchmark::State& state, Isa isa, int blocks, Precision precision)
 {
-    const double block_steps = chunks(state, isa, rocking_column(blocks), 100);
+    Study study = rocking_column(blocks);
+    study.run.precision = precision;
+    const double block_steps = chunks(state, isa, study, 100);
+    if (precision == Precision::single) // whose compensated sums are not in the count
+        return;
     const OperationCounts per = operations_per_block_step(blocks);
     using benchmark::Counter;
     state.counters["flops_per_second"] =
@@ -155,7 +159,8 @@ const bool registered = [] {
         for (const int blocks : {2, 4, 7, 13, 25, 49}) {
             const std::string tail = "/" + name + "/" + std::to_string(blocks);
             benchmark::RegisterBenchmark(("BM_Kernel" + tail).c_str(), kernel, isa, blocks);
-            benchmark::RegisterBenchmark(("BM_Step" + tail).c_str(), step, isa, blocks);
+            benchmark::RegisterBenchmark(("BM_Step" + tail).c_str(), step, isa, blocks, Precision::double_);
+            benchmark::RegisterBenchmark(("BM_StepSingle" + tail).c_str(), step, isa, blocks, Precision::single);
         }
         const std::string structure = "BM_Structure/" + name + "/";
         const auto add = [&](const char* scene, const Study& study, int warm) {

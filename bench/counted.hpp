@@ -31,6 +31,7 @@ struct Counted {
 
 template <>
 struct Lanes<Counted> {
+    using Number = double;
     static constexpr int count = 1;
     static Counted load(const double* from) { return ++counted.load, Counted(*from); }
     static void store(double* to, Counted value) { ++counted.store, *to = value.v; }

@@ -8,8 +8,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
-#include <new>
+#include <stdexcept>
 
 namespace stylobate {
 
@@ -32,14 +31,9 @@ constexpr std::uint64_t audit_chunks = 16;
 // that what stands apart stays out of the list, large enough that looking is rare.
 constexpr double skin_part = 0.25;
 
-double* allocate(std::size_t doubles)
+bool is_single(const Study& study)
 {
-    const std::size_t bytes = (doubles * sizeof(double) + 63) / 64 * 64;
-    auto* memory = static_cast<double*>(std::aligned_alloc(64, bytes));
-    if (memory == nullptr)
-        throw std::bad_alloc();
-    std::fill(memory, memory + bytes / sizeof(double), 0.0);
-    return memory;
+    return study.run.precision == Precision::single;
 }
 
 std::uint64_t whole_chunks(double time_s, double step_s)
@@ -62,14 +56,10 @@ std::vector<double> bed_offsets(const Realization& r, const std::vector<BlockMot
 
 } // namespace
 
-void LaneSet::AlignedFree::operator()(double* p) const
-{
-    std::free(p);
-}
-
 LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern)
-    : study_(study), record_(record), kernels_(kernels), lanes_(static_cast<std::size_t>(kernels.lanes)),
-      place_of_(pattern.blocks.size(), -1), places_(static_cast<std::size_t>(kernels.lanes))
+    : study_(study), record_(record), kernels_(kernels),
+      lanes_(static_cast<std::size_t>(is_single(study) ? kernels.single_lanes : kernels.lanes)),
+      place_of_(pattern.blocks.size(), -1), places_(lanes_)
 {
     const auto take = [&](int block) {
         if (place_of_[static_cast<std::size_t>(block)] < 0) {
@@ -98,9 +88,14 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     bed_lists_.resize(static_cast<std::size_t>(bed_lists_size(topology_)));
     list_beds(topology_, bed_lists_.data());
 
-    memory_.reset(allocate(bundle_registers(topology_) * lanes_));
-    bundle_ = bind_bundle(topology_, kernels_.lanes, memory_.get(), close_.data());
-    parameters_memory_.reset(allocate(9 * lanes_));
+    memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
+    bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
+    if (is_single(study)) {
+        if (topology_.model.extended())
+            throw std::invalid_argument("run.precision = \"single\" knows the paper's model alone");
+        single_.emplace(topology_, bundle_, kernels_);
+    }
+    parameters_memory_ = aligned_array<double>(9 * lanes_);
     double* p = parameters_memory_.get();
     for (double** array : {&parameters_.cycles_per_step, &parameters_.amplitude_m, &parameters_.cycles,
                            &parameters_.phase_cycles, &parameters_.offset, &parameters_.start_ramps_per_cycle,
@@ -108,7 +103,7 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
         *array = p;
         p += lanes_;
     }
-    for (int lane = 0; lane < kernels_.lanes; ++lane)
+    for (int lane = 0; lane < lanes(); ++lane)
         clear(lane);
     active_ = 0;
 }
@@ -125,6 +120,8 @@ void LaneSet::clear(int lane)
     // an empty lane must not divide by a rate of zero
     parameters_.cycles_per_step[lane] = 1;
     first_step_[lane] = 0;
+    if (single_)
+        single_->take(lane);
 }
 
 void LaneSet::store_state(int lane, const Realization& r)
@@ -181,7 +178,7 @@ void LaneSet::store_state(int lane, const Realization& r)
 void LaneSet::first_increments(int lane)
 {
     const std::size_t registers = bundle_registers(topology_) - chunk_steps; // the table of base motion stays at 0
-    const std::unique_ptr<double[], AlignedFree> memory(allocate(registers + chunk_steps));
+    const AlignedArray<double> memory = aligned_array<double>(registers + chunk_steps);
     const Bundle one = bind_bundle(topology_, 1, memory.get(), close_.data());
     // (so do those of its rotation and of the vertical motion: the lane has just been cleared)
     for (std::size_t i = 0; i < registers; ++i)
@@ -232,6 +229,8 @@ void LaneSet::load(int lane, Realization realization)
                                whole_chunks(fall_time / place.scales.p_rad_s, r.step_s));
     store_state(lane, r);
     first_increments(lane);
+    if (single_)
+        single_->take(lane);
     read_motion(lane);
     place.start_offset_m = bed_offsets(r, place.moved);
     place.start_top_x_m = centre(topology_.top, lane).x_m;
@@ -246,7 +245,7 @@ void LaneSet::advance(int first, int last)
 {
     run(first, last);
     if (last == chunk_steps)
-        for (int lane = 0; lane < kernels_.lanes; ++lane)
+        for (int lane = 0; lane < lanes(); ++lane)
             if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
                 look(lane);
 }
@@ -255,19 +254,33 @@ void LaneSet::advance(int first, int last)
 void LaneSet::run(int first, int last)
 {
     if (first == 0) {
-        if (BaseMotion::on_host(study_)) {
-            for (int lane = 0; lane < kernels_.lanes; ++lane)
-                if (!free(lane))
-                    motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);
-        } else {
-            kernels_.fill(BaseMotion::formula(study_.excitation.kind), parameters_, first_step_, bundle_.base_table);
-        }
+        fill_base();
         if (topology_.model.extended())
-            for (int lane = 0; lane < kernels_.lanes; ++lane)
+            for (int lane = 0; lane < lanes(); ++lane)
                 if (!free(lane))
                     fill_extension(lane);
     }
-    kernels_.run(topology_, bundle_, first, last);
+    if (single_)
+        single_->run(first, last);
+    else
+        kernels_.run(topology_, bundle_, first, last);
+}
+
+void LaneSet::fill_base()
+{
+    if (BaseMotion::on_host(study_)) {
+        for (int lane = 0; lane < lanes(); ++lane)
+            if (!free(lane))
+                motion(lane).fill(first_step_[lane], bundle_.base_table + lane, lanes());
+        if (single_)
+            single_->take_base();
+        return;
+    }
+    const MotionFormula formula = BaseMotion::formula(study_.excitation.kind);
+    if (single_)
+        single_->fill_base(formula, parameters_, first_step_);
+    else
+        kernels_.fill(formula, parameters_, first_step_, bundle_.base_table);
 }
 
 /// Second differences of the base's displacement [m], for `chunk_steps` steps from one of the realization's own on.
@@ -293,7 +306,7 @@ void LaneSet::fill_extension(int lane)
     const Realization& r = place.realization;
     const double first = first_step_[lane];
     if (place.vertical)
-        place.vertical->fill(first, bundle_.vertical_table + lane, kernels_.lanes);
+        place.vertical->fill(first, bundle_.vertical_table + lane, lanes());
     else if (r.base.vertical_ratio != 0)
         for (std::size_t k = 0; k < chunk_steps; ++k)
             bundle_.vertical_table[k * lanes_ + static_cast<std::size_t>(lane)] =

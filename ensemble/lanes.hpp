@@ -1,10 +1,12 @@
 #pragma once
 /// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
 
+#include "ensemble/aligned.hpp"
 #include "ensemble/base_motion.hpp"
 #include "ensemble/limit_states.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/scales.hpp"
+#include "ensemble/single_bundle.hpp"
 #include "ensemble/study.hpp"
 #include "kernels/isa.hpp"
 
@@ -25,9 +27,11 @@ struct Snapshot {
 class LaneSet {
 public:
     /// @param record may be null unless the excitation is one
+    /// @throws std::invalid_argument if the study asks for single precision and the pattern for more than the paper's
+    ///         model
     LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);
 
-    int lanes() const { return kernels_.lanes; }
+    int lanes() const { return static_cast<int>(lanes_); }
     int active() const { return active_; }
     bool free(int lane) const { return !places_[static_cast<std::size_t>(lane)].busy; }
     const Realization& realization(int lane) const { return places_[static_cast<std::size_t>(lane)].realization; }
@@ -104,6 +108,8 @@ private:
     void store_state(int lane, const Realization& r);
     void first_increments(int lane);
     void run(int first, int last);
+    /// Makes the table of base motion of the next chunk.
+    void fill_base();
     void begin_followed(int lane, int phase, std::uint64_t step);
     std::size_t state_registers() const { return bundle_registers(topology_) - chunk_steps; }
     std::array<double, chunk_steps> base_chunk(int lane, double first_step) const;
@@ -131,12 +137,10 @@ private:
     std::vector<int> close_; ///< for the kernel
     std::vector<int> bed_lists_;
     Topology topology_;
-    struct AlignedFree {
-        void operator()(double* p) const;
-    };
-    std::unique_ptr<double[], AlignedFree> memory_;
+    AlignedArray<double> memory_;
     Bundle bundle_;
-    std::unique_ptr<double[], AlignedFree> parameters_memory_;
+    std::optional<SingleBundle> single_; ///< that is stepped for `bundle_`, in single precision
+    AlignedArray<double> parameters_memory_;
     FormulaParameters parameters_{};
     double* first_step_ = nullptr;
     std::vector<Place> places_;

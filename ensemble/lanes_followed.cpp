@@ -46,9 +46,10 @@ void LaneSet::load_followed(int lane, Realization realization, int phase, const 
 /// The rows of the tables of the base's motion that are still to come in this chunk.
 void LaneSet::begin_followed(int lane, int phase, std::uint64_t step)
 {
+    assert(!single_ && "what is followed is stepped in double precision");
     assert(BaseMotion::on_host(study_) && "formulas fill the table of all lanes at once");
     first_step_[lane] = static_cast<double>(step) - phase;
-    motion(lane).fill(first_step_[lane], bundle_.base_table + lane, kernels_.lanes);
+    motion(lane).fill(first_step_[lane], bundle_.base_table + lane, lanes());
     if (topology_.model.extended())
         fill_extension(lane);
 }
@@ -57,7 +58,7 @@ void LaneSet::step_followed(int first, int last)
 {
     run(first, last);
     if (last == chunk_steps)
-        for (int lane = 0; lane < kernels_.lanes; ++lane)
+        for (int lane = 0; lane < lanes(); ++lane)
             if (!free(lane))
                 first_step_[lane] += chunk_steps;
 }

@@ -239,7 +239,14 @@ enum class StepBasis {
     structure ///< the whole structure: a longer step
 };
 
+/// What the steps are computed in.
+enum class Precision {
+    double_, ///< 53 binary digits
+    single   ///< 24, with compensated sums: the paper's model alone, about twice as fast (docs/precision.md)
+};
+
 struct RunSpec {
+    Precision precision = Precision::double_;
     double step_fraction = 0.9; ///< of the safe bound of each realization (see README.md of this folder)
     StepBasis step_bound = StepBasis::block;
     std::optional<double> step_s;        ///< a fixed step instead

@@ -145,10 +145,28 @@ OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
     return o;
 }
 
+/// Single precision knows the paper's model alone.
+void check_precision(const KeyReader& keys, const Study& study)
+{
+    const auto refuse = [&](const std::string& why, const char* what) {
+        keys.refuse("precision", "does not go with " + why,
+                    std::string("Single precision knows the paper's model alone: remove ") + what +
+                        ", or give precision = \"double\".");
+    };
+    if (!study.mechanisms.empty())
+        refuse(fmt::format("mechanisms.{}", to_string(study.mechanisms.front().mechanism)), "it");
+    if (study.contact.form != ContactForm::area)
+        refuse(fmt::format("contact.form = \"{}\"", word_for(contact_form_names, study.contact.form)), "it");
+    if (study.contact.damping != DampingAt::centroid)
+        refuse("contact.damping = \"ends\"", "it");
+}
+
 RunSpec read_run(const KeyReader& keys)
 {
-    keys.allow_only({"step_fraction", "step_bound", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
+    keys.allow_only(
+        {"precision", "step_fraction", "step_bound", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
     RunSpec r;
+    r.precision = keys.choice_or("precision", precision_names, r.precision);
     if (keys.has("step_fraction") && keys.has("step_s"))
         keys.refuse("step_s", "and step_fraction exclude each other", "Give one of the two.");
     r.allow_step_above_bound = keys.boolean_or("allow_step_above_bound", r.allow_step_above_bound);
@@ -206,6 +224,8 @@ Study read_tree(const TomlValue& root)
                                                        study.output.trajectory_rate_hz);
     study.outcome = read_outcome(top.table("outcome"), study.structure.kind);
     study.run = read_run(top.table("run"));
+    if (study.run.precision == Precision::single)
+        check_precision(top.table("run"), study);
     return study;
 }
 
@@ -264,6 +284,15 @@ Study parse_study(const std::string& text, const std::string& name, const std::v
     Study study = read_tree(read_toml(text, name, overrides));
     study.text = study_text(study);
     return study;
+}
+
+void demand_double(const Study& study, const std::string& file, const std::string& what)
+{
+    if (study.run.precision == Precision::single)
+        throw InputError(file, 0,
+                         fmt::format("run.precision = \"single\" knows the paper's model alone, and {} compares "
+                                     "extensions of it.\n  Give precision = \"double\", or leave it out.",
+                                     what));
 }
 
 } // namespace stylobate

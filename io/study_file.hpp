@@ -20,8 +20,14 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 /// A relative `excitation.file` is left as it is.
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
 
-/// The canonical TOML text of a study, written from its values: every key with its default, one order, numbers that
-/// read back to the same bits. `parse_study` of it gives the same study, with the same text.
+/// The canonical TOML text of a study, written from its values: every key with its default (but `run.precision`, which
+/// is there only where it is single: before it could be chosen a study was the same), one order, numbers that read back
+/// to the same bits. `parse_study` of it gives the same study, with the same text.
 std::string study_text(const Study& study);
+
+/// For what compares extensions of the model.
+/// @param file where the study is from, for the message;  @param what needs double precision: "a diagnosis"
+/// @throws InputError if the study asks for single precision
+void demand_double(const Study& study, const std::string& file, const std::string& what);
 
 } // namespace stylobate

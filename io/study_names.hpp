@@ -19,6 +19,8 @@ inline constexpr std::array sampling_names = {Name<Sampling>{"independent", Samp
                                               Name<Sampling>{"sobol", Sampling::sobol}};
 inline constexpr std::array structure_kind_names = {Name<StructureKind>{"column", StructureKind::column},
                                                     Name<StructureKind>{"colonnade", StructureKind::colonnade}};
+inline constexpr std::array precision_names = {Name<Precision>{"double", Precision::double_},
+                                               Name<Precision>{"single", Precision::single}};
 inline constexpr std::array follow_names = {Name<Follow>{"collapse", Follow::collapse},
                                             Name<Follow>{"rest", Follow::rest}};
 inline constexpr std::array excitation_kind_names = {Name<ExcitationKind>{"none", ExcitationKind::none},

@@ -317,6 +317,9 @@ std::string study_text(const Study& study)
     out.number("rocking_threshold_rad", study.outcome.rocking_threshold_rad);
     out.number("sliding_threshold", study.outcome.sliding_threshold);
     out.section("run");
+    if (study.run.precision !=
+        Precision::double_) // the others are the studies that they were before it could be chosen
+        out.word("precision", word_for(precision_names, study.run.precision));
     if (study.run.step_s)
         out.number("step_s", *study.run.step_s);
     else

@@ -26,6 +26,14 @@ struct FormulaParameters {
     double* start_ramps_per_cycle; ///< 1 / ramp; 1e300 for an abrupt start
     double* end_ramps_per_cycle;   ///< 1 / ramp; 1e300 for an abrupt end, which holds the last displacement
     double* end_velocity;          ///< pulse: velocity after it, over A w: 2 for half a sine, 0 for a full one
+
+    /// From a later lane on.
+    FormulaParameters of_lane(int lane) const
+    {
+        return {cycles_per_step + lane,     amplitude_m + lane, cycles + lane,
+                phase_cycles + lane,        offset + lane,      start_ramps_per_cycle + lane,
+                end_ramps_per_cycle + lane, end_velocity + lane};
+    }
 };
 
 template <class Real>
@@ -86,6 +94,64 @@ void fill_base_table(MotionFormula formula, const FormulaParameters& p, const do
         L::store(table + k * L::count, select(n - Real(1.0) >= over, Real(0.0), difference));
         before = now;
         now = next;
+    }
+}
+
+namespace detail {
+
+/// The same to within 1e-9 of its peak, which is enough for single precision, and soon done: between the ramps of a
+/// harmonic the second difference is a sine itself, -4 A sin2(pi f dt) sin(2 pi c + phase), which goes on from step to
+/// step by s(n+1) - 2 s(n) + s(n-1) = -4 sin2(pi f dt) s(n); after the motion it is 0.
+template <class Real, class Here>
+void fill_base_table_fast(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+{
+    using L = Lanes<Real>;
+    const Real zero(0.0), one(1.0);
+    const Real rate = L::load(p.cycles_per_step), cycles = L::load(p.cycles);
+    const Real first = L::load(first_step);
+    // from one step before the chunk to one after it
+    const Real begin = (first - one) * rate, end = (first + Real(static_cast<double>(chunk_steps))) * rate;
+    const auto between =
+        (begin * L::load(p.start_ramps_per_cycle) > one) & ((cycles - end) * L::load(p.end_ramps_per_cycle) > one);
+    const auto over = begin >= cycles;
+    const bool harmonic = formula == MotionFormula::harmonic;
+    const Real known = select(over, one, harmonic ? select(between, one, zero) : zero);
+    const bool full = any(known < one);
+    if (full)
+        fill_base_table<Real, Here>(formula, p, first_step, table);
+    if (!any(known > zero))
+        return;
+    const auto sine = [&](Real n) {
+        const Real product = n * rate;
+        const Real turn = (product - round_of(product)) + fma(n, rate, zero - product) + L::load(p.phase_cycles);
+        return sine_of_cycles(turn - round_of(turn));
+    };
+    const Real half = sine_of_cycles(select(between, rate * Real(0.5), zero));
+    const Real square = Real(4.0) * half * half;
+    const Real size = select(over, zero, zero - L::load(p.amplitude_m) * square);
+    Real now = sine(first), step = now - sine(first - one);
+    for (int k = 0; k < chunk_steps; ++k) {
+        double* const to = table + k * L::count;
+        L::store(to, select(known > zero, size * now, full ? L::load(to) : zero));
+        step = fnma(square, now, step);
+        now = now + step;
+    }
+}
+
+} // namespace detail
+
+/// Fills the table of a bundle in single precision: computed in double, one half of the register after the other.
+/// @tparam Single `Real`'s register in single precision
+template <class Real, class Single, class Here = void>
+void fill_single_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, float* table)
+{
+    constexpr int lanes = Lanes<Single>::count, group = Lanes<Real>::count;
+    alignas(64) double values[chunk_steps * group];
+    for (int from = 0; from < lanes; from += group) {
+        detail::fill_base_table_fast<Real, Here>(formula, p.of_lane(from), first_step + from, values);
+        for (int step = 0; step < chunk_steps; ++step)
+            for (int lane = 0; lane < group; ++lane)
+                table[step * lanes + from + lane] = static_cast<float>(values[step * group + lane]);
     }
 }
 

@@ -167,72 +167,102 @@ struct OfPitch {
     };
 };
 
-struct Bundle {
-    int lanes = 0;
-    double* blocks = nullptr;        ///< (blocks x OfBlock::count x lanes)
-    double* joints = nullptr;        ///< (joints x OfJoint::count x lanes)
-    double* realizations = nullptr;  ///< (OfRealization::count x lanes)
-    double* neighbourhood = nullptr; ///< (blocks x OfNeighbourhood::count x lanes), with watched pairs
-    int* close = nullptr;            ///< (watched) the close pairs, for the kernel alone
-    double* base_table = nullptr;    ///< (chunk_steps x lanes) second difference of the base displacement [m]
-    // with an extended model:
-    double* block_extensions = nullptr;       ///< (blocks x OfBlockExtension::count x lanes)
-    double* joint_extensions = nullptr;       ///< (joints x OfJointExtension::count x lanes)
-    double* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
-    double* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
-    double* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
+/// What rounding has left of a block's displacements and increments: the true values are the sums of both.
+struct OfRemainder {
+    enum Field : int {
+        x,      ///< [m] step
+        y,      ///< [m] step
+        theta,  ///< [rad] step
+        dx,     ///< [m] step
+        dy,     ///< [m] step
+        dtheta, ///< [rad] step
+        count
+    };
+};
 
-    double& at(OfBlock::Field field, int block, int lane) const
+/// Whether displacements and increments are compensated sums: in single precision (`THEORY.md` section 9).
+template <class Number>
+inline constexpr bool compensated = false;
+template <>
+inline constexpr bool compensated<float> = true;
+
+template <class Number>
+struct BundleOf {
+    int lanes = 0;
+    Number* blocks = nullptr;        ///< (blocks x OfBlock::count x lanes)
+    Number* joints = nullptr;        ///< (joints x OfJoint::count x lanes)
+    Number* realizations = nullptr;  ///< (OfRealization::count x lanes)
+    Number* neighbourhood = nullptr; ///< (blocks x OfNeighbourhood::count x lanes), with watched pairs
+    int* close = nullptr;            ///< (watched) the close pairs, for the kernel alone
+    Number* base_table = nullptr;    ///< (chunk_steps x lanes) second difference of the base displacement [m]
+    Number* remainders = nullptr;    ///< (blocks x OfRemainder::count x lanes), in single precision
+    // with an extended model:
+    Number* block_extensions = nullptr;       ///< (blocks x OfBlockExtension::count x lanes)
+    Number* joint_extensions = nullptr;       ///< (joints x OfJointExtension::count x lanes)
+    Number* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
+    Number* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
+    Number* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
+
+    Number& at(OfBlock::Field field, int block, int lane) const
     {
         return blocks[(block * OfBlock::count + field) * lanes + lane];
     }
-    double& at(OfJoint::Field field, int joint, int lane) const
+    Number& at(OfJoint::Field field, int joint, int lane) const
     {
         return joints[(joint * OfJoint::count + field) * lanes + lane];
     }
-    double& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
-    double& at(OfBlockExtension::Field field, int block, int lane) const
+    Number& at(OfRemainder::Field field, int block, int lane) const
+    {
+        return remainders[(block * OfRemainder::count + field) * lanes + lane];
+    }
+    Number& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
+    Number& at(OfBlockExtension::Field field, int block, int lane) const
     {
         return block_extensions[(block * OfBlockExtension::count + field) * lanes + lane];
     }
-    double& at(OfJointExtension::Field field, int joint, int lane) const
+    Number& at(OfJointExtension::Field field, int joint, int lane) const
     {
         return joint_extensions[(joint * OfJointExtension::count + field) * lanes + lane];
     }
-    double& at(OfRealizationExtension::Field field, int lane) const
+    Number& at(OfRealizationExtension::Field field, int lane) const
     {
         return realization_extensions[field * lanes + lane];
     }
-    double& at(OfPitch::Field field, int step, int lane) const
+    Number& at(OfPitch::Field field, int step, int lane) const
     {
         return pitch_table[(step * OfPitch::count + field) * lanes + lane];
     }
 };
 
-/// Registers that a bundle needs, each of `lanes` doubles.
-inline std::size_t bundle_registers(const Topology& topology)
+using Bundle = BundleOf<double>;
+
+/// Registers that a bundle needs, each of `lanes` numbers.
+template <class Number = double>
+std::size_t bundle_registers(const Topology& topology)
 {
     const int neighbourhood = topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0;
     const int extensions = topology.model.extended()
                                ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
                                      OfRealizationExtension::count + chunk_steps * (1 + OfPitch::count)
                                : 0;
+    const int remainders = compensated<Number> ? topology.blocks * OfRemainder::count : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + neighbourhood + extensions + chunk_steps);
+                                    OfRealization::count + neighbourhood + extensions + chunk_steps + remainders);
 }
 
 /// Lays a bundle out.
-/// @param memory `bundle_registers` x lanes doubles, aligned to 64 bytes
+/// @param memory `bundle_registers` x lanes numbers, aligned to 64 bytes
 /// @param close `topology.watched` integers; null where there are none
-inline Bundle bind_bundle(const Topology& topology, int lanes, double* memory, int* close = nullptr)
+template <class Number>
+BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory, int* close = nullptr)
 {
-    Bundle b;
+    BundleOf<Number> b;
     b.lanes = lanes;
     b.blocks = memory;
     b.joints = b.blocks + topology.blocks * OfBlock::count * lanes;
     b.realizations = b.joints + topology.joints * OfJoint::count * lanes;
     b.neighbourhood = b.realizations + OfRealization::count * lanes;
-    double* tables = b.neighbourhood + (topology.watched > 0 ? topology.blocks * OfNeighbourhood::count * lanes : 0);
+    Number* tables = b.neighbourhood + (topology.watched > 0 ? topology.blocks * OfNeighbourhood::count * lanes : 0);
     if (topology.model.extended()) {
         b.block_extensions = tables;
         b.joint_extensions = b.block_extensions + topology.blocks * OfBlockExtension::count * lanes;
@@ -242,6 +272,8 @@ inline Bundle bind_bundle(const Topology& topology, int lanes, double* memory, i
         tables = b.pitch_table + chunk_steps * OfPitch::count * lanes;
     }
     b.base_table = tables;
+    if constexpr (compensated<Number>)
+        b.remainders = b.base_table + chunk_steps * lanes;
     b.close = close;
     return b;
 }

@@ -56,11 +56,19 @@ void run_model(const Topology& topology, const Bundle& bundle, int first, int la
     }
 }
 
+/// @tparam Single the register of `Real`'s instruction set in single precision
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
-template <class Real, class Here>
+template <class Real, class Single, class Here>
 constexpr KernelTable kernel_table(Isa isa)
 {
-    return {isa, Lanes<Real>::count, run_model<Real, Here>, fill_base_table<Real, Here>, peak_fma<Real, Here>};
+    return {isa,
+            Lanes<Real>::count,
+            Lanes<Single>::count,
+            run_model<Real, Here>,
+            run_steps<Single, OfFile<Here, Baseline>>,
+            fill_base_table<Real, Here>,
+            fill_single_base_table<Real, Single, Here>,
+            peak_fma<Real, Here>};
 }
 
 } // namespace stylobate

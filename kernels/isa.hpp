@@ -13,12 +13,17 @@ enum class Isa { scalar, avx2, avx512, neon };
 
 struct KernelTable {
     Isa isa = Isa::scalar;
-    int lanes = 1; ///< realizations in a register
+    int lanes = 1;        ///< realizations in a register
+    int single_lanes = 1; ///< the same in single precision
 
     /// Runs steps `first` to `last - 1` of the table of base motion, after the topology's model.
     void (*run)(const Topology&, const Bundle&, int first, int last) = nullptr;
+    /// The same in single precision, for the paper's model alone.
+    void (*run_single)(const Topology&, const BundleOf<float>&, int first, int last) = nullptr;
     /// Fills the bundle's table of base motion by formula.
     void (*fill)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
+    /// The same of a bundle in single precision.
+    void (*fill_single)(MotionFormula, const FormulaParameters&, const double* first_step, float* table) = nullptr;
     /// Multiply-adds on registers, `count` of them: what the machine can do at the most. Returns a number to keep.
     double (*peak_fma)(long count) = nullptr;
 };

@@ -9,7 +9,10 @@ namespace stylobate {
 template <class Real, class Mechanism>
 class Neighbours : protected Rows<Real> {
 protected:
-    Neighbours(const Topology& topology, const Bundle& bundle) : Rows<Real>(bundle), topology_(topology) {}
+    Neighbours(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
+        : Rows<Real>(bundle), topology_(topology)
+    {
+    }
 
     using Rows<Real>::get;
     using Rows<Real>::put;

@@ -57,7 +57,7 @@ STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const P
     const Real cy[4] = {y - by, y + by, y + by + hy, y - by + hy};
 
     Overlap<Real> o{zero, zero, zero, zero, zero, zero};
-    const Real tiny(1e-300);
+    const Real tiny = Real(Extreme<NumberOf<Real>>::tiny);
     for (int edge = 0; edge < 4; ++edge) {
         const int next = (edge + 1) & 3;
         const Real x0 = cx[edge], y0 = cy[edge];
@@ -125,7 +125,8 @@ STYLOBATE_INLINE void pentagon_frame(const Placement<Real>& p, Real upper_half_w
     frame.left = X - reach;
     frame.right = X + reach;
     // beyond moderate rotations the pentagon does not hold: no depth limit is as large as this
-    frame.left_depth = select(p.cosine > Real(0.2), max_of(fma(upper_half_width, sine, p.depth), zero), Real(1e300));
+    frame.left_depth = select(p.cosine > Real(0.2), max_of(fma(upper_half_width, sine, p.depth), zero),
+                              Real(Extreme<NumberOf<Real>>::huge));
     frame.right_depth = max_of(fnma(upper_half_width, sine, p.depth), zero);
     frame.slope = turn_sign(sine * sine * both, p.sine);
     frame.cot = p.cosine * p.cosine * both;
@@ -143,7 +144,8 @@ template <class Real, class Mask>
 STYLOBATE_INLINE void pentagon(const PentagonFrame<Real>& frame, Real lower_half_width, Real depth_limit, Mask& fits,
                                Overlap<Real>& o)
 {
-    const Real zero(0.0), half(0.5), three(3.0), sixth(1.0 / 6.0);
+    const Real zero(0.0), half(0.5), three(3.0);
+    const Real sixth = Real(1.0 / 6.0);
     const Real slope = abs_of(frame.slope), cot = frame.cot;
     const Real left = frame.left, right = frame.right, dl = frame.left_depth, dr = frame.right_depth;
     const Real bL = lower_half_width;

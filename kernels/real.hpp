@@ -1,6 +1,6 @@
 #pragma once
-/// The few operations that the kernels use, for plain `double` (host and device). `wide.hpp` has the same for
-/// registers.
+/// The few operations that the kernels use, for plain `double` (host and device) and `float`. `wide.hpp` has the same
+/// for registers.
 ///
 /// The kernels are written in these and in + - * / only. That is what makes them give the same bits at every width:
 /// each maps to one correctly rounded instruction, or to a selection that is spelled out (`min_of` is `a < b ? a : b`,
@@ -28,9 +28,32 @@ struct Lanes;
 
 template <>
 struct Lanes<double> {
+    using Number = double; ///< what a lane holds
     static constexpr int count = 1;
     STYLOBATE_INLINE static double load(const double* from) { return *from; }
     STYLOBATE_INLINE static void store(double* to, double value) { *to = value; }
+};
+
+template <>
+struct Lanes<float> {
+    using Number = float;
+    using Full = double; ///< the same in double precision: so many, or half as many
+    static constexpr int count = 1;
+    STYLOBATE_INLINE static float load(const float* from) { return *from; }
+    STYLOBATE_INLINE static void store(float* to, float value) { *to = value; }
+};
+
+template <class Real>
+using NumberOf = typename Lanes<Real>::Number;
+
+/// Next to nothing, and more than anything that is met: a quotient by the one and a product with the other stay finite.
+template <class Number>
+struct Extreme {
+    static constexpr double tiny = 1e-300, huge = 1e300;
+};
+template <>
+struct Extreme<float> {
+    static constexpr double tiny = 1e-30, huge = 1e30;
 };
 
 /// a * b + c with one rounding.
@@ -93,6 +116,49 @@ STYLOBATE_INLINE double exponent_of(double a)
 STYLOBATE_INLINE bool any(bool mask)
 {
     return mask;
+}
+
+// The same in single precision. (Before all templates that use them: a float's functions are found by what stands
+// above.)
+STYLOBATE_INLINE float fma(float a, float b, float c)
+{
+    return std::fma(a, b, c);
+}
+STYLOBATE_INLINE float fnma(float a, float b, float c)
+{
+    return std::fma(-a, b, c);
+}
+STYLOBATE_INLINE float fms(float a, float b, float c)
+{
+    return std::fma(a, b, -c);
+}
+STYLOBATE_INLINE float select(bool mask, float yes, float no)
+{
+    return mask ? yes : no;
+}
+STYLOBATE_INLINE float min_of(float a, float b)
+{
+    return a < b ? a : b;
+}
+STYLOBATE_INLINE float max_of(float a, float b)
+{
+    return a > b ? a : b;
+}
+STYLOBATE_INLINE float abs_of(float a)
+{
+    return std::fabs(a);
+}
+STYLOBATE_INLINE float sqrt_of(float a)
+{
+    return std::sqrt(a);
+}
+STYLOBATE_INLINE float round_of(float a)
+{
+    return std::nearbyint(a);
+}
+STYLOBATE_INLINE float turn_sign(float a, float sign)
+{
+    return std::signbit(sign) ? -a : a;
 }
 
 template <class Real>

@@ -15,7 +15,7 @@ struct Planar {
 template <class Real>
 class Rows {
 public:
-    explicit Rows(const Bundle& bundle) : b_(bundle) {}
+    explicit Rows(const BundleOf<NumberOf<Real>>& bundle) : b_(bundle) {}
 
     STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
     STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
@@ -39,6 +39,10 @@ public:
     STYLOBATE_INLINE Real get(OfPitch::Field f, int step) const
     {
         return L::load(&b_.pitch_table[row(step, OfPitch::count, f)]);
+    }
+    STYLOBATE_INLINE Real get(OfRemainder::Field f, int i) const
+    {
+        return L::load(&b_.remainders[row(i, OfRemainder::count, f)]);
     }
     STYLOBATE_INLINE Real base(int step) const { return L::load(&b_.base_table[step * L::count]); }
     STYLOBATE_INLINE Real vertical(int step) const { return L::load(&b_.vertical_table[step * L::count]); }
@@ -64,6 +68,23 @@ public:
     {
         L::store(&b_.realization_extensions[f * L::count], v);
     }
+    STYLOBATE_INLINE void put(OfRemainder::Field f, int i, Real v) const
+    {
+        L::store(&b_.remainders[row(i, OfRemainder::count, f)], v);
+    }
+
+    /// sum + term. In single precision the remainder of the sum so far goes in, and the new one is kept (Kahan).
+    STYLOBATE_INLINE Real add(OfRemainder::Field remainder, int i, Real sum, Real term) const
+    {
+        if constexpr (compensated<NumberOf<Real>>) {
+            const Real whole = term + get(remainder, i);
+            const Real next = sum + whole;
+            put(remainder, i, whole - (next - sum));
+            return next;
+        } else {
+            return sum + term;
+        }
+    }
 
 protected:
     using L = Lanes<Real>;
@@ -72,7 +93,7 @@ protected:
         return (static_cast<long>(i) * fields + f) * L::count;
     }
 
-    const Bundle b_;
+    const BundleOf<NumberOf<Real>> b_;
 };
 
 } // namespace stylobate

@@ -1,10 +1,25 @@
 #pragma once
-/// What the phases of a step hand on to each other (`step.hpp`).
+/// What the phases of a step hand on to each other (`step.hpp`), and what they agree on.
 
 #include "kernels/mechanisms/points.hpp"
 #include "kernels/overlap.hpp"
 
 namespace stylobate::detail {
+
+/// Joints that go through the phases together.
+inline constexpr int joint_group = 8;
+
+/// Area and contact length below which two blocks do not touch.
+inline constexpr double least_area = 1e-18;  // m2
+inline constexpr double least_chord = 1e-12; // m
+
+/// The two kinds of joints, as the phases tell them apart.
+struct Bed {
+    static constexpr bool at_rest = true;
+};
+struct Pair {
+    static constexpr bool at_rest = false;
+};
 
 /// What a contact form hands on besides: nothing where it has no points of its own.
 template <class Real, int count>

@@ -21,38 +21,22 @@
 #include "kernels/mechanism.hpp"
 #include "kernels/mechanisms/extended.hpp"
 #include "kernels/neighbours.hpp"
-#include "kernels/overlap.hpp"
+#include "kernels/overlap_full.hpp"
 #include "kernels/rows.hpp"
 #include "kernels/scratch.hpp"
 #include "kernels/trig.hpp"
 
 namespace stylobate {
 
-namespace detail {
-
-/// Joints that go through the phases together.
-inline constexpr int joint_group = 8;
-
-/// Area and contact length below which two blocks do not touch.
-inline constexpr double least_area = 1e-18;  // m2
-inline constexpr double least_chord = 1e-12; // m
-
-/// The two kinds of joints, as the phases tell them apart.
-struct Bed {
-    static constexpr bool at_rest = true;
-};
-struct Pair {
-    static constexpr bool at_rest = false;
-};
-
-} // namespace detail
-
 /// @tparam watching whether there are watched pairs
 /// @tparam stack `Topology::stack`: then what meets where is known beforehand, and need not be looked up
 template <class Real, class Mechanism, bool watching, bool stack>
 class Stepper : Neighbours<Real, Mechanism> {
 public:
-    Stepper(const Topology& topology, const Bundle& bundle) : Neighbours<Real, Mechanism>(topology, bundle) {}
+    Stepper(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
+        : Neighbours<Real, Mechanism>(topology, bundle)
+    {
+    }
 
     /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
     STYLOBATE_INLINE void run(int first, int last) const
@@ -88,6 +72,7 @@ private:
     /// Whether beds meet as in the paper: by the closed form of their overlap.
     static constexpr bool paper = !Mechanism::extended && Mechanism::form == ContactForm::area;
 
+    using Rows<Real>::add;
     using Rows<Real>::get;
     using Rows<Real>::put;
     using Rows<Real>::b_;
@@ -142,11 +127,13 @@ private:
         const Real sl = lower.sine, vl = lower.versine, su = upper.sine, vu = upper.versine;
         const Real one(1.0);
         const Real cl = one - vl, cu = one - vu;
+        const auto [below, above] = ends<Kind>(joint);
         x = get(OfJoint::reference_x, joint) + (upper.x - lower.x);
-        const Real rise = upper.y - lower.y;
+        Real rise = upper.y - lower.y;
+        if constexpr (compensated<NumberOf<Real>>)
+            rise = rise + (get(OfRemainder::y, above) - get(OfRemainder::y, below));
         const Real height = get(OfJoint::height, joint);
         y = rise + height;
-        const auto [below, above] = ends<Kind>(joint);
         const Real hu = get(OfBlock::half_height, above);
         const Real versine = fnma(su, sl, fnma(vl, vu, vl + vu));
         Placement<Real> place;
@@ -277,9 +264,9 @@ private:
     STYLOBATE_INLINE Overlap<Real> general(int joint, const Placement<Real>& place) const
     {
         const auto [lower, upper] = topology_.joint[joint];
-        return general_overlap(place,
-                               PairSizes<Real>{get(OfBlock::half_width, lower), get(OfBlock::half_height, lower),
-                                               get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)});
+        return full_general_overlap(place,
+                                    PairSizes<Real>{get(OfBlock::half_width, lower), get(OfBlock::half_height, lower),
+                                                    get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)});
     }
 
     /// The general overlap, for the realizations whose closed form does not hold. Rare, so kept out of the way.
@@ -538,6 +525,10 @@ private:
             Planar<Real> e;
             if constexpr (Mechanism::extended) {
                 pull.step(i, force, dx, dy, dtheta, e);
+            } else if constexpr (compensated<NumberOf<Real>>) {
+                e.x = add(OfRemainder::dx, i, dx, fma(per_mass, force.x, push));
+                e.y = add(OfRemainder::dy, i, dy, fma(per_mass, force.y, gy));
+                e.theta = add(OfRemainder::dtheta, i, dtheta, get(OfBlock::dt2_per_inertia, i) * force.theta);
             } else {
                 e.x = fma(per_mass, force.x, dx + push);
                 e.y = fma(per_mass, force.y, dy + gy);
@@ -555,9 +546,9 @@ private:
             put(OfBlock::dx, i, e.x);
             put(OfBlock::dy, i, e.y);
             put(OfBlock::dtheta, i, e.theta);
-            put(OfBlock::x, i, x + e.x);
-            put(OfBlock::y, i, y + e.y);
-            const Real theta = get(OfBlock::theta, i) + e.theta;
+            put(OfBlock::x, i, add(OfRemainder::x, i, x, e.x));
+            put(OfBlock::y, i, add(OfRemainder::y, i, y, e.y));
+            const Real theta = add(OfRemainder::theta, i, get(OfBlock::theta, i), e.theta);
             put(OfBlock::theta, i, theta);
             turn(i, theta);
         }
@@ -580,7 +571,7 @@ private:
 
 /// Runs steps `first` to `last - 1` of the chunk for all realizations of the bundle.
 template <class Real, class Mechanism = Baseline>
-void run_steps(const Topology& topology, const Bundle& bundle, int first, int last)
+void run_steps(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle, int first, int last)
 {
     const auto run = [&]<bool watching, bool stack>() {
         Stepper<Real, Mechanism, watching, stack>(topology, bundle).run(first, last);

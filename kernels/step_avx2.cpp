@@ -5,8 +5,9 @@ namespace stylobate {
 
 namespace {
 struct Here {};
+using Arch = xsimd::fma3<xsimd::avx2>;
 } // namespace
 
-extern const KernelTable avx2_kernels = kernel_table<Wide<xsimd::fma3<xsimd::avx2>>, Here>(Isa::avx2);
+extern const KernelTable avx2_kernels = kernel_table<Wide<Arch>, Wide<Arch, float>, Here>(Isa::avx2);
 
 } // namespace stylobate

@@ -5,8 +5,9 @@ namespace stylobate {
 
 namespace {
 struct Here {};
+using Arch = xsimd::avx512dq;
 } // namespace
 
-extern const KernelTable avx512_kernels = kernel_table<Wide<xsimd::avx512dq>, Here>(Isa::avx512);
+extern const KernelTable avx512_kernels = kernel_table<Wide<Arch>, Wide<Arch, float>, Here>(Isa::avx512);
 
 } // namespace stylobate

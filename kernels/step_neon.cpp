@@ -5,8 +5,9 @@ namespace stylobate {
 
 namespace {
 struct Here {};
+using Arch = xsimd::neon64;
 } // namespace
 
-extern const KernelTable neon_kernels = kernel_table<Wide<xsimd::neon64>, Here>(Isa::neon);
+extern const KernelTable neon_kernels = kernel_table<Wide<Arch>, Wide<Arch, float>, Here>(Isa::neon);
 
 } // namespace stylobate

@@ -231,6 +231,7 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     } else {
         start = read_study(wanted.study, options.set);
     }
+    demand_double(start, wanted.study.empty() ? "--set" : wanted.study, "a calibration");
     CalibrationOptions search;
     search.keys = keys_of(start, wanted);
     search.forms = forms_of(wanted.forms);

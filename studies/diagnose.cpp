@@ -73,6 +73,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
                             ? parse_study(default_study(campaign).text,
                                           "the study that a diagnosis begins with by default", options.set)
                             : read_study(study_file, options.set);
+    demand_double(study, study_file.empty() ? "--set" : study_file, "a diagnosis");
     if (output.empty())
         output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
     check_output(measured, output);

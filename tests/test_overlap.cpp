@@ -452,6 +452,15 @@ struct Fine {
     friend Fine turn_sign(Fine a, Fine sign) { return std::signbit(sign.v) ? of(-a.v) : a; }
 };
 
+} // namespace
+
+template <>
+struct Lanes<Fine> {
+    using Number = double; ///< whose thresholds it takes
+};
+
+namespace {
+
 /// The stacked overlap when the upper block is moved down and turned (clockwise negative) about the origin of the
 /// frame.
 Overlap<Fine> moved(const Pair& p, long double down, long double turn, bool& fits)

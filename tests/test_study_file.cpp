@@ -126,6 +126,7 @@ TEST(StudyFile, ReadsEveryValueAndFillsInTheDefaults)
     EXPECT_EQ(study.initial.tilt_rad, 0);
     EXPECT_EQ(study.output.trajectory_rate_hz, 1000);
     EXPECT_EQ(study.outcome.collapse_height_fraction, 0.6);
+    EXPECT_EQ(study.run.precision, Precision::double_);
     EXPECT_EQ(study.run.step_fraction, 0.9);
     EXPECT_EQ(study.run.step_bound, StepBasis::block);
     EXPECT_FALSE(study.run.step_s);
@@ -379,6 +380,29 @@ TEST(StudyFile, RefusesContradictions)
     lines = surface_lines();
     lines[21] += "\n[run]\nstep_fraction = 1.5";
     expect_refused(joined(lines), "temple.toml:23", {"step_fraction = 1.5", "run.allow_step_above_bound = true"});
+}
+
+TEST(StudyFile, SinglePrecisionKnowsThePapersModelAlone)
+{
+    auto lines = surface_lines();
+    lines[21] += "\n[run]\nprecision = \"single\"";
+    EXPECT_EQ(read(lines).run.precision, Precision::single);
+    lines[21] += "\n[mechanisms]\nstribeck = { dynamic_friction = 0.5, velocity_m_s = 0.05 }";
+    expect_refused(joined(lines), "temple.toml:23",
+                   {"run.precision = \"single\"", "mechanisms.stribeck", "precision = \"double\""});
+    lines = surface_lines();
+    lines[13] += "\nform = \"points\"\n[run]\nprecision = \"single\"";
+    expect_refused(joined(lines), "temple.toml:16", {"run.precision", "contact.form = \"points\""});
+    lines = surface_lines();
+    lines[13] += "\ndamping = \"ends\"\n[run]\nprecision = \"single\"";
+    expect_refused(joined(lines), "temple.toml:16", {"run.precision", "contact.damping = \"ends\""});
+    lines = surface_lines();
+    EXPECT_NO_THROW(demand_double(read(lines), "temple.toml", "a diagnosis"));
+    lines[21] += "\n[run]\nprecision = \"single\"";
+    EXPECT_THROW(demand_double(read(lines), "temple.toml", "a diagnosis"), InputError);
+    lines = surface_lines();
+    lines[21] += "\n[run]\nprecision = \"half\"";
+    expect_refused(joined(lines), "temple.toml:23", {"run.precision", "half", "single"});
 }
 
 TEST(StudyFile, RefusesPerturbationsThatLeaveThePhysicalRange)

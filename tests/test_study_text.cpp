@@ -216,6 +216,7 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [&](Study& s) { up(s.outcome.collapse_height_fraction); },
         [&](Study& s) { up(s.outcome.rocking_threshold_rad); },
         [&](Study& s) { up(s.outcome.sliding_threshold); },
+        [](Study& s) { s.run.precision = Precision::single; },
         [&](Study& s) { up(s.run.step_fraction); },
         [](Study& s) { s.run.step_bound = StepBasis::structure; },
         [](Study& s) { s.run.step_s = 1e-5; },
