@@ -1,4 +1,4 @@
-/// Error against cost of the engine's own answers: `work_precision --help`.
+/// Error against cost of the engine's own answers, as tables in Markdown: `work_precision --help`.
 
 #include "bench/work_precision/page.hpp"
 
@@ -7,32 +7,27 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
+#include <cstdint>
+#include <exception>
+#include <string>
 
 int main(int argc, char** argv)
 {
     CLI::App app("Work and precision: errors of three answers against block-steps per simulated second.");
-    std::string page, picture;
+    std::string picture;
     std::uint64_t realizations = 1024;
-    app.add_option("--page", page, "write the tables there (Markdown) instead of to the terminal");
     app.add_option("--picture", picture, "draw the curves there (PNG)");
     app.add_option("--realizations", realizations, "of each ensemble")
         ->check(CLI::Range(8, 1 << 20))
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     try {
-        const stylobate::work::Report report = stylobate::work::measure(realizations);
+        stylobate::work::Report report;
+        stylobate::work::monolith_tables(report);
+        stylobate::work::collapse_tables(report, realizations);
         if (!picture.empty())
             stylobate::work::draw(report, picture);
-        if (page.empty()) {
-            fmt::print("{}", report.text);
-            return 0;
-        }
-        std::ofstream file(page);
-        file << report.text;
-        if (!file.flush())
-            throw std::runtime_error("cannot write " + page);
+        fmt::print("{}", report.text);
     } catch (const stylobate::InputError& e) {
         fmt::print(stderr, "work_precision: {}\n", e.what());
         return 2;

@@ -23,6 +23,8 @@ Realization monolith(const Setting& s, double part)
     Realization r = model::single(model::mono_stone, bed, 1, 2 * model::mono_stone.width);
     r.initial_tilt_rad = part * model::slenderness(model::mono_stone);
     r.form = s.form;
+    r.joints[0].tangential_stiffness_n_m *= s.shear;
+    r.joints[0].tangential_damping_n_s_m *= std::sqrt(s.shear); // the same ratio
     if (s.form == ContactForm::area && s.damping == DampingAt::ends)
         r.joints[0].extension.face_damping = 1;
     const StepBound bound = step_bound(r);
@@ -33,6 +35,27 @@ Realization monolith(const Setting& s, double part)
 verification::RigidBlock rigid()
 {
     return verification::rigid_block(model::mono_stone.width, model::mono_stone.height);
+}
+
+/// The specimen under 10 cycles of 3 Hz.
+Study shaken_specimen(const Setting& s)
+{
+    Study study = rocking_column(7);
+    study.contact.form = s.form;
+    study.contact.damping = s.damping;
+    study.run.step_bound = s.basis;
+    study.contact.normal_stiffness_n_m2 = s.K_n;
+    study.contact.tangential_stiffness_n_m = s.K_n * 0.048 * s.shear;
+    study.contact.normal_damping_ratio = study.contact.tangential_damping_ratio = s.xi;
+    study.excitation.frequency_hz = 3;
+    study.excitation.cycles = 10;
+    study.run.step_fraction = s.step_fraction;
+    Perturbation width;
+    width.quantity = Quantity::drum_width;
+    width.per = Per::block;
+    width.sd = 2e-4;
+    study.perturbations.push_back(width);
+    return study;
 }
 
 } // namespace
@@ -89,25 +112,19 @@ double Ensemble::probability() const
     return sum / static_cast<double>(collapsed.size());
 }
 
-Ensemble collapses(const Setting& s, std::uint64_t realizations)
+double specimen_cost(const Setting& setting)
 {
-    Study study = rocking_column(7);
+    Study study = shaken_specimen(setting);
+    study.excitation.pga_m_s2 = 1;
+    study.perturbations.clear();
+    return 6 / Sampler(study, nullptr).realization(0).step_s;
+}
+
+Ensemble collapses(const Setting& setting, double pga_m_s2, std::uint64_t realizations)
+{
+    Study study = shaken_specimen(setting);
     study.realizations = realizations;
-    study.contact.form = s.form;
-    study.contact.damping = s.damping;
-    study.run.step_bound = s.basis;
-    study.contact.normal_stiffness_n_m2 = s.K_n;
-    study.contact.tangential_stiffness_n_m = s.K_n * 0.048;
-    study.contact.normal_damping_ratio = study.contact.tangential_damping_ratio = s.xi;
-    study.excitation.frequency_hz = 3;
-    study.excitation.pga_m_s2 = 2.2;
-    study.excitation.cycles = 10;
-    study.run.step_fraction = s.step_fraction;
-    Perturbation width;
-    width.quantity = Quantity::drum_width;
-    width.per = Per::block;
-    width.sd = 2e-4;
-    study.perturbations.push_back(width);
+    study.excitation.pga_m_s2 = pga_m_s2;
 
     Ensemble all;
     all.collapsed.resize(realizations);
@@ -125,6 +142,21 @@ Ensemble collapses(const Setting& s, std::uint64_t realizations)
     run_ensemble(study, Sampler(study, nullptr), nullptr, {best_isa(), 1}, plan, quiet);
     all.cost = 6 * steps / simulated;
     return all;
+}
+
+double steep_place(const Setting& setting)
+{
+    double low = 1, high = 9, best = 0, least = 1;
+    for (int i = 0; i < 10; ++i) {
+        const double middle = (low + high) / 2;
+        const double excess = collapses(setting, middle, 64).probability() - 0.5;
+        if (std::fabs(excess) < least) { // it may not rise everywhere
+            least = std::fabs(excess);
+            best = middle;
+        }
+        (excess < 0 ? low : high) = middle;
+    }
+    return best;
 }
 
 std::uint64_t differing(const Ensemble& a, const Ensemble& b)
