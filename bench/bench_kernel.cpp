@@ -1,9 +1,7 @@
 /// The kernel alone, and what the machine could do at the most.
 
 #include "bench/counted.hpp"
-#include "bench/scenes.hpp"
-#include "ensemble/lanes.hpp"
-#include "kernels/step.hpp"
+#include "bench/warm_kernel.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -23,39 +21,6 @@ void peak_fma(benchmark::State& state, Isa isa)
     const double flops = 2.0 * count * kernels(isa).lanes;
     state.counters["flops_per_second"] =
         benchmark::Counter(flops, benchmark::Counter::kIsIterationInvariantRate, benchmark::Counter::kIs1000);
-}
-
-/// What a block costs in one step: the step counted on a bundle of one realization that rocks.
-OperationCounts operations_per_block_step(int blocks)
-{
-    const Study study = rocking_column(blocks);
-    const Sampler sampler(study, nullptr);
-    std::vector<TopologyJoint> joints;
-    for (int i = 1; i < blocks; ++i)
-        joints.push_back({i - 1, i});
-    Topology topology{blocks, 1, blocks - 1, blocks - 1, joints.data()};
-    std::vector<int> bed_lists(static_cast<std::size_t>(bed_lists_size(topology)));
-    list_beds(topology, bed_lists.data());
-    std::vector<double> memory(bundle_registers(topology), 0.0);
-    const Bundle b = bind_bundle(topology, 1, memory.data());
-    const Realization r = sampler.realization(0);
-    for (int i = 0; i < blocks; ++i) {
-        const Block& block = r.blocks[static_cast<std::size_t>(i)];
-        b.at(OfBlock::half_width, i, 0) = block.half_width_m;
-        b.at(OfBlock::half_height, i, 0) = block.half_height_m;
-        b.at(OfBlock::y, i, 0) = -1e-6 * i;
-    }
-    for (int j = 0; j < blocks - 1; ++j) {
-        b.at(OfJoint::height, j, 0) = 0.029;
-        b.at(OfJoint::depth_limit, j, 0) = 0.001;
-        b.at(OfJoint::K_n, j, 0) = 1e8;
-    }
-    counted = {};
-    Stepper<Counted, Baseline, false, true>(topology, b).run(0, 16);
-    const long block_steps = 16L * (blocks - 1);
-    return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
-            counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,
-            counted.store / block_steps};
 }
 
 /// A bundle as the ensemble runs it: base motion, steps, and the look at each realization after every chunk.
@@ -100,41 +65,22 @@ double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
 /// The steps alone, without base motion and looks: what of `chunks` is the kernel's.
 void kernel(benchmark::State& state, Isa isa, int blocks)
 {
-    static Topology topology;
-    static Bundle bundle;
-    static const KernelTable* table;
-    table = &kernels(isa);
-    KernelTable seen = *table;
-    seen.run = [](const Topology& t, const Bundle& b, int first, int last) {
-        topology = t;
-        bundle = b;
-        table->run(t, b, first, last);
-    };
-    const Study study = rocking_column(blocks);
-    const Sampler sampler(study, nullptr);
-    LaneSet lanes(study, nullptr, seen, sampler.realization(0));
-    for (int lane = 0; lane < lanes.lanes(); ++lane)
-        lanes.load(lane, sampler.realization(static_cast<std::uint64_t>(lane)));
-    for (int chunk = 0; chunk < 100; ++chunk)
-        lanes.advance();
-    const std::size_t size = bundle_registers(topology) * static_cast<std::size_t>(bundle.lanes);
-    const std::vector<double> start(bundle.blocks, bundle.blocks + size);
-    int left = 50; // the same chunk of base motion again and again: not for long
+    const WarmKernel warm(isa, blocks);
+    int left = 50;
     for (auto _ : state) {
-        table->run(topology, bundle, 0, chunk_steps);
+        warm.run();
         if (--left == 0) {
             state.PauseTiming();
-            std::copy(start.begin(), start.end(), bundle.blocks);
+            warm.restart();
             left = 50;
             state.ResumeTiming();
         }
     }
-    const double block_steps = static_cast<double>(lanes.lanes()) * (blocks - 1) * chunk_steps;
     const OperationCounts per = operations_per_block_step(blocks);
     using benchmark::Counter;
-    state.counters["block_steps_per_second"] = Counter(block_steps, Counter::kIsIterationInvariantRate);
+    state.counters["block_steps_per_second"] = Counter(warm.block_steps(), Counter::kIsIterationInvariantRate);
     state.counters["flops_per_second"] =
-        Counter(block_steps * static_cast<double>(per.flops()), Counter::kIsIterationInvariantRate);
+        Counter(warm.block_steps() * static_cast<double>(per.flops()), Counter::kIsIterationInvariantRate);
 }
 
 void step(benchmark::State& state, Isa isa, int blocks, Precision precision)

@@ -78,4 +78,7 @@ inline Counted turn_sign(Counted a, Counted sign)
     return turn_sign(a.v, sign.v);
 }
 
+/// What a block costs in one step: the step counted on a bundle of one realization that rocks (`counted_step.cpp`).
+OperationCounts operations_per_block_step(int blocks);
+
 } // namespace stylobate

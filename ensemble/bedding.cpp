@@ -10,15 +10,16 @@ namespace {
 /// the depth at the middle and the slope along the face, times L / 2.
 Bedding on_points(double per_root_depth, double L, double area, double e)
 {
+    constexpr FaceRule<5> rule = lobatto_rule();
     const double want = area / L;
     double depth = std::pow(want / per_root_depth, 2.0 / 3), slope = 0;
     for (int iteration = 0; iteration < 200; ++iteration) {
         double sum = 0, moment = 0, k = 0, k_x = 0, k_xx = 0;
         for (int i = 0; i < 5; ++i) {
-            const double x = 2 * lobatto_at[i] - 1, d = depth + slope * x;
+            const double x = 2 * rule.at[i] - 1, d = depth + slope * x;
             if (d <= 0)
                 continue;
-            const double p = lobatto_part[i] * per_root_depth * std::sqrt(d);
+            const double p = rule.part[i] * per_root_depth * std::sqrt(d);
             sum += p * d;
             moment += p * d * x;
             k += 1.5 * p;

@@ -1,22 +1,27 @@
 #include "ensemble/executor.hpp"
 
 #include "ensemble/lanes.hpp"
+#include "ensemble/slots.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 namespace stylobate {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t most_slots = 1 << 24;
 
 /// What the workers share.
 class Run {
@@ -30,19 +35,16 @@ public:
         handover_.fetch_add(1);
     }
 
-    /// One worker: a bundle that is refilled until nothing is left.
+    /// One worker of the processor: a bundle that is refilled until nothing is left.
     void work() noexcept
     {
-        handover_.fetch_add(1);
-        try {
+        guarded([this] {
             LaneSet lanes(study_, record_, kernels_, pattern_);
             for (int lane = 0; lane < lanes.lanes(); ++lane)
                 refill(lanes, lane);
             while (lanes.active() > 0 && !stopped_) {
-                const auto active = static_cast<std::uint64_t>(lanes.active());
+                count_chunks(lanes.lanes(), lanes.active());
                 lanes.advance();
-                lane_chunks_ += static_cast<std::uint64_t>(lanes.lanes());
-                active_chunks_ += active;
                 for (int lane = 0; lane < lanes.lanes(); ++lane)
                     if (lanes.outcome(lane)) {
                         deliver(lanes.realization(lane), *lanes.outcome(lane));
@@ -50,13 +52,30 @@ public:
                     }
                 report(false);
             }
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_)
-                error_ = std::current_exception();
-            stopped_ = true;
-        }
-        handover_.fetch_add(1);
+        });
+    }
+
+    /// One worker for a device: many slots, the same. Its thread waits for the device; what a realization takes at its
+    /// beginning is done on several.
+    void work(Device& device, int slots, int share) noexcept
+    {
+        guarded([&] {
+            // no more slots than this device's share of what is to do
+            const std::uint64_t left = plan_.total - std::min(plan_.total, plan_.before.done);
+            const auto most =
+                static_cast<int>(std::min<std::uint64_t>(left / static_cast<std::uint64_t>(share) + 1, most_slots));
+            SlotSet set(study_, record_, pattern_, device, slots, most);
+            tbb::parallel_for(0, set.slots(), [&](int slot) { refill(set, slot); });
+            for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
+                set.advance();
+                count_chunks(set.used(), active);
+                for (const int slot : set.ended())
+                    deliver(set.realization(slot), *set.outcome(slot));
+                tbb::parallel_for(std::size_t{0}, set.ended().size(),
+                                  [&](std::size_t i) { refill(set, set.ended()[i]); });
+                report(false);
+            }
+        });
     }
 
     Progress finish()
@@ -69,12 +88,35 @@ public:
     }
 
 private:
-    void refill(LaneSet& lanes, int lane)
+    /// What a thread does; an error stops all of them.
+    template <class F>
+    void guarded(const F& f) noexcept
+    {
+        handover_.fetch_add(1);
+        try {
+            f();
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!error_)
+                error_ = std::current_exception();
+            stopped_ = true;
+        }
+        handover_.fetch_add(1);
+    }
+
+    template <class Lanes>
+    void refill(Lanes& lanes, int lane)
     {
         if (const std::optional<std::uint64_t> index = next())
             lanes.load(lane, sampler_.realization(*index));
         else
             lanes.clear(lane);
+    }
+
+    void count_chunks(int lanes, int active)
+    {
+        lane_chunks_ += static_cast<std::uint64_t>(lanes);
+        active_chunks_ += static_cast<std::uint64_t>(active);
     }
 
     std::optional<std::uint64_t> next()
@@ -151,6 +193,16 @@ Progress run_ensemble(const Study& study, const Sampler& sampler, const Motion* 
     // TBB would otherwise not start more threads than there are cores
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(options.threads));
+    if (!options.devices.empty()) {
+        std::vector<std::thread> workers;
+        for (const std::shared_ptr<Device>& device : options.devices)
+            workers.emplace_back([&run, &options, &device] {
+                run.work(*device, options.slots, static_cast<int>(options.devices.size()));
+            });
+        for (std::thread& worker : workers)
+            worker.join();
+        return run.finish();
+    }
     tbb::task_arena arena(options.threads);
     arena.execute([&] {
         tbb::parallel_for(

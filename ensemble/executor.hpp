@@ -1,6 +1,7 @@
 #pragma once
 /// Many realizations: every core steps bundles, and a lane whose realization has ended takes the next one.
 
+#include "ensemble/device.hpp"
 #include "ensemble/observer.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/sampler.hpp"
@@ -9,13 +10,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace stylobate {
 
 struct RunOptions {
     Isa isa = Isa::scalar;
     int threads = 1;
+    /// Where to step instead of on the processor: each has a thread of its own that serves it, with the help of
+    /// `threads` threads where realizations begin and end.
+    std::vector<std::shared_ptr<Device>> devices{};
+    int slots = 0; ///< of each of them; 0: as many as it likes
 };
 
 /// What is left to do, and where results go.
@@ -33,7 +40,7 @@ struct RunPlan {
 ///
 /// The next index comes from one shared counter, so lanes and threads stay busy to the end; a realization's outcome
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set
-/// and the number of threads.
+/// and the number of threads, and on devices too (`docs/gpu.md` says what that rests on).
 ///
 /// @param record the base motion of a study of kind "record", else null
 /// @return the counts at the end; `done < total` if the observer asked to stop

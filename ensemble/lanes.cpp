@@ -23,10 +23,6 @@ constexpr double rest_slip = 1e-4;
 constexpr double rest_time = 2;
 // A block that has turned beyond its slenderness angle has fallen unless it comes back within 1 / p.
 constexpr double fall_time = 1;
-// What the energy balance may lack before a realization is set aside, over the energy that went through it.
-constexpr double energy_bound = 0.25;
-// Chunks between two audits: they cost as much as several steps.
-constexpr std::uint64_t audit_chunks = 16;
 // How far a block may stray before close pairs are looked for again, as a part of the smallest half size: small enough
 // that what stands apart stays out of the list, large enough that looking is rare.
 constexpr double skin_part = 0.25;
@@ -189,18 +185,17 @@ void LaneSet::first_increments(int lane)
         bundle_.at(OfBlock::dy, i, lane) = -0.5 * one.at(OfBlock::dy, i, 0);
         bundle_.at(OfBlock::dtheta, i, lane) = -0.5 * one.at(OfBlock::dtheta, i, 0);
     }
-    Place& place = places_[static_cast<std::size_t>(lane)];
-    place.start_potential_j =
-        one.at(OfRealization::potential, 0) / (place.realization.step_s * place.realization.step_s);
-    place.start_shear_j = spring_energy(lane);
-    place.start_spring_j = place.start_shear_j;
+    Watch& w = places_[static_cast<std::size_t>(lane)].watch;
+    w.start_potential_j = one.at(OfRealization::potential, 0) / (w.step_s * w.step_s);
+    w.start_shear_j = spring_energy(topology_, bundle_, lane);
+    w.start_spring_j = w.start_shear_j;
     for (int j = 0; j < topology_.joints; ++j)
-        place.start_spring_j += one.at(OfJoint::elastic, j, 0);
+        w.start_spring_j += one.at(OfJoint::elastic, j, 0);
     if (topology_.model.extended())
         for (int j = 0; j < topology_.beds(); ++j)
             for (const auto field : {OfJointExtension::dowel_at, OfJointExtension::dowel_force})
                 bundle_.at(field, j, lane) = one.at(field, j, 0);
-    place.start_dowel_j = dowel_energy(lane);
+    w.start_dowel_j = dowel_energy(topology_, bundle_, lane);
 }
 
 void LaneSet::load(int lane, Realization realization)
@@ -220,10 +215,17 @@ void LaneSet::load(int lane, Realization realization)
         place.vertical = BaseMotion::along(r.vertical, r.step_s, r.change.offset_s);
 
     const bool shaken = study_.excitation.kind != ExcitationKind::none;
-    place.shaking_end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
+    Watch& w = place.watch;
+    w.step_s = r.step_s;
+    w.shaking_end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
+    w.barrier_j = place.scales.barrier_j;
+    w.rest_energy_j = rest_energy * place.scales.barrier_j;
+    w.rest_slip_m = rest_slip * place.scales.width_m * place.scales.p_rad_s * chunk_steps * r.step_s;
     const double tail = shaken ? study_.excitation.tail_s.value_or(tail_after_shaking(r)) : 0;
-    place.last_step = whole_chunks(place.shaking_end_s + tail, r.step_s);
-    place.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
+    w.may_rest = shaken;
+    w.last_step = whole_chunks(w.shaking_end_s + tail, r.step_s);
+    w.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
+    w.seated = 1;
     const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
     place.limits = LimitStates(r, study_.outcome, base.y_m + base.half_height_m,
                                whole_chunks(fall_time / place.scales.p_rad_s, r.step_s));
@@ -253,34 +255,33 @@ void LaneSet::advance(int first, int last)
 /// The tables of the base's motion at the beginning of a chunk, and the steps.
 void LaneSet::run(int first, int last)
 {
-    if (first == 0) {
-        fill_base();
-        if (topology_.model.extended())
-            for (int lane = 0; lane < lanes(); ++lane)
-                if (!free(lane))
-                    fill_extension(lane);
-    }
+    if (first == 0)
+        fill_tables();
     if (single_)
         single_->run(first, last);
     else
         kernels_.run(topology_, bundle_, first, last);
 }
 
-void LaneSet::fill_base()
+void LaneSet::fill_tables()
 {
-    if (BaseMotion::on_host(study_)) {
+    const auto each_busy = [this](auto&& fill) {
         for (int lane = 0; lane < lanes(); ++lane)
             if (!free(lane))
-                motion(lane).fill(first_step_[lane], bundle_.base_table + lane, lanes());
+                fill(lane);
+    };
+    const MotionFormula formula = BaseMotion::formula(study_.excitation.kind);
+    if (BaseMotion::on_host(study_)) {
+        each_busy([this](int lane) { motion(lane).fill(first_step_[lane], bundle_.base_table + lane, lanes()); });
         if (single_)
             single_->take_base();
-        return;
-    }
-    const MotionFormula formula = BaseMotion::formula(study_.excitation.kind);
-    if (single_)
+    } else if (single_) {
         single_->fill_base(formula, parameters_, first_step_);
-    else
+    } else {
         kernels_.fill(formula, parameters_, first_step_, bundle_.base_table);
+    }
+    if (topology_.model.extended())
+        each_busy([this](int lane) { fill_extension(lane); });
 }
 
 /// Second differences of the base's displacement [m], for `chunk_steps` steps from one of the realization's own on.
@@ -339,64 +340,10 @@ void LaneSet::pull(int lane, int block, double x_m_s2, double y_m_s2, double the
     bundle_.at(OfBlockExtension::pull_theta, k, lane) = dt2 * theta_rad_s2;
 }
 
-double LaneSet::dowel_energy(int lane) const
-{
-    double energy = 0;
-    if (topology_.model.extended())
-        for (int j = 0; j < topology_.beds(); ++j) {
-            const double force = bundle_.at(OfJointExtension::dowel_force, j, lane);
-            energy += 0.5 * force * force * bundle_.at(OfJointExtension::per_dowel_stiffness, j, lane);
-        }
-    return energy;
-}
-
-double LaneSet::spring_energy(int lane) const
-{
-    double energy = 0;
-    for (int j = 0; j < topology_.joints; ++j) {
-        const double spring = bundle_.at(OfJoint::spring, j, lane);
-        energy += 0.5 * spring * spring * bundle_.at(OfJoint::per_K_t, j, lane);
-    }
-    return energy;
-}
-
-double LaneSet::audit(int lane, Outcome& o) const
-{
-    const Place& place = places_[static_cast<std::size_t>(lane)];
-    const double per_dt2 = 1 / (place.realization.step_s * place.realization.step_s);
-    double normal = 0;
-    for (int j = 0; j < topology_.joints; ++j)
-        normal += bundle_.at(OfJoint::elastic, j, lane);
-    const double tangential = spring_energy(lane);
-    o.energy_kinetic_j = 0.5 * bundle_.at(OfRealization::kinetic, lane) * per_dt2;
-    o.energy_potential_j = bundle_.at(OfRealization::potential, lane) * per_dt2 - place.start_potential_j;
-    o.energy_spring_j = normal + tangential - place.start_spring_j;
-    o.energy_friction_j = bundle_.at(OfRealization::friction_energy, lane);
-    o.energy_damping_j = 0.5 * bundle_.at(OfRealization::dashpot_energy, lane) +
-                         0.5 * bundle_.at(OfRealization::shear_energy, lane) - (tangential - place.start_shear_j) -
-                         o.energy_friction_j;
-    if (topology_.model.extended()) {
-        const double held = dowel_energy(lane) - place.start_dowel_j;
-        o.energy_spring_j += held;
-        o.energy_damping_j += 0.5 * bundle_.at(OfRealizationExtension::joint_energy, lane) - held +
-                              0.5 * bundle_.at(OfRealizationExtension::drag_energy, lane) * per_dt2;
-    }
-    o.energy_base_work_j = 0.5 * bundle_.at(OfRealization::base_energy, lane) * per_dt2;
-    const double lacks = o.energy_kinetic_j + o.energy_potential_j + o.energy_spring_j + o.energy_friction_j +
-                         o.energy_damping_j - o.energy_base_work_j;
-    return lacks / (place.scales.barrier_j + std::fabs(o.energy_friction_j) + std::fabs(o.energy_damping_j));
-}
-
 BlockMotion LaneSet::centre(int k, int lane) const
 {
-    const double theta = bundle_.at(OfBlock::theta, k, lane);
-    BlockMotion moved{bundle_.at(OfBlock::x, k, lane), bundle_.at(OfBlock::y, k, lane), theta};
-    if (topology_.model.extended()) {
-        const double e = bundle_.at(OfBlockExtension::eccentricity, k, lane);
-        moved.x_m += e * (1 - std::cos(theta));
-        moved.y_m -= e * std::sin(theta);
-    }
-    return moved;
+    const Planar<double> moved = centre_of(topology_, bundle_, k, lane);
+    return {moved.x, moved.y, moved.theta};
 }
 
 void LaneSet::read_motion(int lane)
@@ -407,51 +354,28 @@ void LaneSet::read_motion(int lane)
         place.moved[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = centre(k, lane);
 }
 
+/// Not finite? fallen? energy out of balance? at rest, or out of time?
 void LaneSet::look(int lane)
 {
     Place& place = places_[static_cast<std::size_t>(lane)];
-    const double dt = place.realization.step_s;
-    place.steps += chunk_steps;
-    first_step_[lane] = static_cast<double>(place.steps);
+    Watch& w = place.watch;
+    w.steps += chunk_steps;
+    first_step_[lane] = static_cast<double>(w.steps);
 
     read_motion(lane);
-    double sum = 0.5 * bundle_.at(OfRealization::kinetic, lane);
-    for (const BlockMotion& moved : place.moved)
-        sum += moved.x_m + moved.y_m + moved.theta_rad;
-    if (!std::isfinite(sum))
+    if (!is_finite(topology_, bundle_, lane))
         return end(lane, State::invalid, InvalidReason::not_finite);
 
-    place.limits.look(place.realization, place.steps, place.moved);
+    place.limits.look(place.realization, w.steps, place.moved);
+    w.undecided = place.limits.undecided();
+    w.seated = !place.limits.unseated();
     if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)
         return end(lane, State::collapsed, InvalidReason::none);
 
-    if (place.steps % (audit_chunks * chunk_steps) == 0) {
-        Outcome trial;
-        if (!(std::fabs(audit(lane, trial)) < energy_bound))
-            return end(lane, State::invalid, InvalidReason::energy);
-    }
+    if (unbalanced(topology_, bundle_, lane, w))
+        return end(lane, State::invalid, InvalidReason::energy);
 
-    const double kinetic = 0.5 * bundle_.at(OfRealization::kinetic, lane) / (dt * dt);
-    const double time = static_cast<double>(place.steps) * dt;
-    const double slip = bundle_.at(OfRealization::slip, lane) - place.slip_m;
-    place.slip_m += slip;
-    const bool slips = slip > rest_slip * place.scales.width_m * place.scales.p_rad_s * chunk_steps * dt;
-    if (time >= place.shaking_end_s && !place.limits.undecided() && !slips &&
-        std::fabs(kinetic) < rest_energy * place.scales.barrier_j) {
-        if (!place.quiet) {
-            place.quiet_since = place.steps;
-            place.quiet_top_m = 0;
-            place.quiet_looks = 0;
-        }
-        place.quiet = true;
-        place.quiet_top_m += centre(topology_.top, lane).x_m;
-        ++place.quiet_looks;
-    } else {
-        place.quiet = false;
-    }
-    const bool at_rest = study_.excitation.kind != ExcitationKind::none && place.quiet &&
-                         place.steps - place.quiet_since >= place.rest_steps;
-    if (at_rest || place.steps >= place.last_step) {
+    if (watch_rest(topology_, bundle_, lane, place.limits.undecided(), w)) {
         place.limits.conclude(place.realization);
         end(lane, place.limits.fallen() ? State::collapsed : State::stood, InvalidReason::none);
     }
@@ -463,10 +387,12 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     const Realization& r = place.realization;
     Outcome o;
     o.step_s = r.step_s;
-    o.steps = place.steps;
-    o.end_time_s = static_cast<double>(place.steps) * r.step_s;
+    o.steps = place.watch.steps;
+    o.end_time_s = static_cast<double>(place.watch.steps) * r.step_s;
     o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
-    const double top = place.quiet ? place.quiet_top_m / place.quiet_looks : centre(topology_.top, lane).x_m;
+    const Watch& w = place.watch;
+    const double top =
+        w.quiet != 0 ? w.quiet_top_m / static_cast<double>(w.quiet_looks) : centre(topology_.top, lane).x_m;
     o.residual_top_displacement_m = top - place.start_top_x_m;
     o.top_path_m = bundle_.at(OfRealization::top_path, lane);
     o.total_sliding_m = bundle_.at(OfRealization::slip, lane);
@@ -480,7 +406,14 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
         o.total_rocking_rad += rotation;
         o.max_relative_rotation_rad = std::max(o.max_relative_rotation_rad, rotation);
     }
-    o.energy_residual = audit(lane, o);
+    const EnergyBalance balance = energy_balance(topology_, bundle_, lane, w);
+    o.energy_kinetic_j = balance.kinetic;
+    o.energy_potential_j = balance.potential;
+    o.energy_spring_j = balance.spring;
+    o.energy_friction_j = balance.friction;
+    o.energy_damping_j = balance.damping;
+    o.energy_base_work_j = balance.base_work;
+    o.energy_residual = balance.residual;
     if (state != State::invalid && !(std::fabs(o.energy_residual) < energy_bound)) {
         state = State::invalid;
         reason = InvalidReason::energy;

@@ -8,6 +8,7 @@
 #include "ensemble/scales.hpp"
 #include "ensemble/single_bundle.hpp"
 #include "ensemble/study.hpp"
+#include "ensemble/watch.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>
@@ -70,6 +71,23 @@ public:
     /// What the last step added to it.
     BlockMotion increment(int lane, int block, int phase) const;
 
+    // ---- a realization that a device steps (`slots.hpp`): what it needs, and what comes back ----
+
+    const Topology& topology() const { return topology_; }
+    /// All of a realization's numbers, in the order of a slot's column (`slot_tasks.hpp`).
+    /// @param column (column_rows)
+    void write_column(int lane, double* column) const;
+    /// Takes its state and its watch over from a column.
+    void read_column(int lane, const double* column);
+    std::uint64_t steps(int lane) const { return places_[static_cast<std::size_t>(lane)].watch.steps; }
+    /// The look after a chunk, as `advance` does it.
+    void look(int lane);
+    /// Whether the tables of its base motion are made on the host.
+    bool tables_given(int lane) const;
+    /// Makes them, for the chunk that begins at a step.
+    /// @param tables (table_registers)
+    void write_tables(int lane, std::uint64_t step, double* tables);
+
     /// The outcome of a realization that has ended.
     const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
     /// Frees a lane; its place is at rest and does nothing until the next `load`.
@@ -88,19 +106,10 @@ private:
         BaseMotion motion;
         std::optional<BaseMotion> vertical; ///< where it has a record of its own
         std::optional<Outcome> outcome;
-        double shaking_end_s = 0; ///< no realization is at rest before
-        std::uint64_t steps = 0;
-        std::uint64_t last_step = 0;  ///< a multiple of chunk_steps
-        std::uint64_t rest_steps = 0; ///< needed in a row
-        std::uint64_t quiet_since = 0;
-        double slip_m = 0;      ///< at the last look
-        double quiet_top_m = 0; ///< sum over the looks since then
-        int quiet_looks = 0;
-        bool quiet = false;
+        Watch watch;
         LimitStates limits;
         std::vector<BlockMotion> moved;     ///< (blocks) at the last look
         std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
-        double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0, start_dowel_j = 0;
         double start_top_x_m = 0;
     };
 
@@ -108,21 +117,15 @@ private:
     void store_state(int lane, const Realization& r);
     void first_increments(int lane);
     void run(int first, int last);
-    /// Makes the table of base motion of the next chunk.
-    void fill_base();
     void begin_followed(int lane, int phase, std::uint64_t step);
     std::size_t state_registers() const { return bundle_registers(topology_) - chunk_steps; }
     std::array<double, chunk_steps> base_chunk(int lane, double first_step) const;
+    /// Makes the tables of the base's motion of the next chunk.
+    void fill_tables();
     /// Tables of the vertical motion and of the base's rotation for the next chunk.
     void fill_extension(int lane);
     /// Displacement of a (kernel's) block's geometric centre.
     BlockMotion centre(int k, int lane) const;
-    double spring_energy(int lane) const;
-    double dowel_energy(int lane) const;
-    /// Energy balance so far; also fills the energies of the outcome. Returns what it lacks, over its scale.
-    double audit(int lane, Outcome& outcome) const;
-    /// After every chunk: not finite? fallen? energy out of balance? at rest, or out of time?
-    void look(int lane);
     /// Where the blocks are, into `Place::moved`.
     void read_motion(int lane);
     void end(int lane, State state, InvalidReason reason);

@@ -43,6 +43,12 @@ public:
     bool fallen() const { return fallen_blocks_ > 0; }
     /// A block has turned too far, and may come back.
     bool undecided() const { return undecided_; }
+    bool fallen(std::size_t block) const { return fallen_since_[block] != never; }
+    /// An epistyle has lost a seat.
+    bool unseated() const { return unseated_since_ != never; }
+    double turn_limit_rad(std::size_t block) const { return turn_limit_rad_[block]; }
+    /// How far down a block's centre may be, from its place in the reference stack [m].
+    double lowest_m(const Block& block) const { return (height_fraction_ - 1) * (block.y_m - base_top_m_); }
 
     /// At the end of the realization: what has turned too far and not come back has fallen.
     void conclude(const Realization& realization);

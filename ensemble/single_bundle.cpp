@@ -37,9 +37,9 @@ SingleBundle::SingleBundle(const Topology& topology, const Bundle& host, const K
 
 void SingleBundle::take(int lane)
 {
-    // both bundles have their registers in one order, but for the remainders at the end
+    // both bundles have their registers in one order, but for the remainders before the tables, which come of their own
     const auto lanes = static_cast<std::size_t>(host_.lanes);
-    for (std::size_t i = 0; i < bundle_registers(topology_); ++i) {
+    for (std::size_t i = 0; i < bundle_registers(topology_) - table_registers(topology_); ++i) {
         const std::size_t at = i * lanes + static_cast<std::size_t>(lane);
         memory_[at] = static_cast<float>(host_.blocks[at]);
     }

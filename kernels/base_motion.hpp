@@ -28,7 +28,7 @@ struct FormulaParameters {
     double* end_velocity;          ///< pulse: velocity after it, over A w: 2 for half a sine, 0 for a full one
 
     /// From a later lane on.
-    FormulaParameters of_lane(int lane) const
+    constexpr FormulaParameters of_lane(int lane) const
     {
         return {cycles_per_step + lane,     amplitude_m + lane, cycles + lane,
                 phase_cycles + lane,        offset + lane,      start_ramps_per_cycle + lane,
@@ -76,13 +76,12 @@ STYLOBATE_INLINE Real base_displacement(MotionFormula formula, const FormulaPara
     return L::load(p.amplitude_m) * ramp * (sine_of_cycles(turn) - L::load(p.offset));
 }
 
-/// Fills the table for the chunk that begins at each realization's step `first_step` (lanes).
-/// @tparam Here see `kernel_table`
-template <class Real, class Here = void>
-void fill_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+/// Second differences for `chunk_steps` steps from `first` on, into table[k * stride].
+template <class Real>
+STYLOBATE_INLINE void fill_base_rows(MotionFormula formula, const FormulaParameters& p, Real first, double* table,
+                                     int stride)
 {
     using L = Lanes<Real>;
-    const Real first = L::load(first_step);
     Real before = base_displacement(formula, p, first - Real(1.0));
     Real now = base_displacement(formula, p, first);
     // once the motion is over for the whole of a step's reach, nothing but rounding is left of the difference
@@ -91,10 +90,18 @@ void fill_base_table(MotionFormula formula, const FormulaParameters& p, const do
         const Real n = first + Real(static_cast<double>(k));
         const Real next = base_displacement(formula, p, n + Real(1.0));
         const Real difference = (next - now) - (now - before);
-        L::store(table + k * L::count, select(n - Real(1.0) >= over, Real(0.0), difference));
+        L::store(table + k * stride, select(n - Real(1.0) >= over, Real(0.0), difference));
         before = now;
         now = next;
     }
+}
+
+/// Fills the table for the chunk that begins at each realization's step `first_step` (lanes).
+/// @tparam Here see `kernel_table`
+template <class Real, class Here = void>
+void fill_base_table(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+{
+    fill_base_rows(formula, p, Lanes<Real>::load(first_step), table, Lanes<Real>::count);
 }
 
 namespace detail {

@@ -203,32 +203,32 @@ struct BundleOf {
     Number* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
     Number* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
 
-    Number& at(OfBlock::Field field, int block, int lane) const
+    constexpr Number& at(OfBlock::Field field, int block, int lane) const
     {
         return blocks[(block * OfBlock::count + field) * lanes + lane];
     }
-    Number& at(OfJoint::Field field, int joint, int lane) const
+    constexpr Number& at(OfJoint::Field field, int joint, int lane) const
     {
         return joints[(joint * OfJoint::count + field) * lanes + lane];
     }
-    Number& at(OfRemainder::Field field, int block, int lane) const
+    constexpr Number& at(OfRemainder::Field field, int block, int lane) const
     {
         return remainders[(block * OfRemainder::count + field) * lanes + lane];
     }
-    Number& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
-    Number& at(OfBlockExtension::Field field, int block, int lane) const
+    constexpr Number& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
+    constexpr Number& at(OfBlockExtension::Field field, int block, int lane) const
     {
         return block_extensions[(block * OfBlockExtension::count + field) * lanes + lane];
     }
-    Number& at(OfJointExtension::Field field, int joint, int lane) const
+    constexpr Number& at(OfJointExtension::Field field, int joint, int lane) const
     {
         return joint_extensions[(joint * OfJointExtension::count + field) * lanes + lane];
     }
-    Number& at(OfRealizationExtension::Field field, int lane) const
+    constexpr Number& at(OfRealizationExtension::Field field, int lane) const
     {
         return realization_extensions[field * lanes + lane];
     }
-    Number& at(OfPitch::Field field, int step, int lane) const
+    constexpr Number& at(OfPitch::Field field, int step, int lane) const
     {
         return pitch_table[(step * OfPitch::count + field) * lanes + lane];
     }
@@ -236,18 +236,39 @@ struct BundleOf {
 
 using Bundle = BundleOf<double>;
 
-/// Registers that a bundle needs, each of `lanes` numbers.
+/// Registers of the tables of the base's motion.
+inline std::size_t table_registers(const Topology& topology)
+{
+    return static_cast<std::size_t>(chunk_steps * (topology.model.extended() ? 2 + OfPitch::count : 1));
+}
+
+/// Registers that a bundle needs, each of `lanes` numbers; the tables are the last of them.
 template <class Number = double>
 std::size_t bundle_registers(const Topology& topology)
 {
     const int neighbourhood = topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0;
     const int extensions = topology.model.extended()
                                ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
-                                     OfRealizationExtension::count + chunk_steps * (1 + OfPitch::count)
+                                     OfRealizationExtension::count
                                : 0;
     const int remainders = compensated<Number> ? topology.blocks * OfRemainder::count : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + neighbourhood + extensions + chunk_steps + remainders);
+                                    OfRealization::count + neighbourhood + extensions + remainders) +
+           table_registers(topology);
+}
+
+/// Gives the bundle its tables of the base's motion.
+/// @param memory `table_registers` x lanes numbers
+template <class Number>
+constexpr void bind_tables(const Topology& topology, BundleOf<Number>& b, Number* memory)
+{
+    const auto rows = static_cast<std::ptrdiff_t>(chunk_steps) * b.lanes;
+    b.base_table = memory;
+    if (topology.model.extended()) {
+        b.vertical_table = memory;
+        b.pitch_table = b.vertical_table + rows;
+        b.base_table = b.pitch_table + rows * OfPitch::count;
+    }
 }
 
 /// Lays a bundle out.
@@ -258,23 +279,43 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
 {
     BundleOf<Number> b;
     b.lanes = lanes;
-    b.blocks = memory;
-    b.joints = b.blocks + topology.blocks * OfBlock::count * lanes;
-    b.realizations = b.joints + topology.joints * OfJoint::count * lanes;
-    b.neighbourhood = b.realizations + OfRealization::count * lanes;
-    Number* tables = b.neighbourhood + (topology.watched > 0 ? topology.blocks * OfNeighbourhood::count * lanes : 0);
+    const auto take = [&memory, lanes](int registers) {
+        Number* const begin = memory;
+        memory += static_cast<std::ptrdiff_t>(registers) * lanes;
+        return begin;
+    };
+    b.blocks = take(topology.blocks * OfBlock::count);
+    b.joints = take(topology.joints * OfJoint::count);
+    b.realizations = take(OfRealization::count);
+    b.neighbourhood = take(topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0);
     if (topology.model.extended()) {
-        b.block_extensions = tables;
-        b.joint_extensions = b.block_extensions + topology.blocks * OfBlockExtension::count * lanes;
-        b.realization_extensions = b.joint_extensions + topology.joints * OfJointExtension::count * lanes;
-        b.vertical_table = b.realization_extensions + OfRealizationExtension::count * lanes;
-        b.pitch_table = b.vertical_table + chunk_steps * lanes;
-        tables = b.pitch_table + chunk_steps * OfPitch::count * lanes;
+        b.block_extensions = take(topology.blocks * OfBlockExtension::count);
+        b.joint_extensions = take(topology.joints * OfJointExtension::count);
+        b.realization_extensions = take(OfRealizationExtension::count);
     }
-    b.base_table = tables;
     if constexpr (compensated<Number>)
-        b.remainders = b.base_table + chunk_steps * lanes;
+        b.remainders = take(topology.blocks * OfRemainder::count);
+    bind_tables(topology, b, memory);
     b.close = close;
+    return b;
+}
+
+/// The bundle as seen from one of its lanes, for a stepper of that lane alone (`Strided`): the rows begin at its place,
+/// and are `lanes` numbers apart as before. Where there are watched pairs, `close` has (watched x lanes) integers.
+constexpr Bundle lane_of(Bundle b, int lane)
+{
+    const auto move = [lane](auto*& rows) { rows = rows == nullptr ? nullptr : rows + lane; };
+    move(b.blocks);
+    move(b.joints);
+    move(b.realizations);
+    move(b.neighbourhood);
+    move(b.close);
+    move(b.base_table);
+    move(b.block_extensions);
+    move(b.joint_extensions);
+    move(b.realization_extensions);
+    move(b.vertical_table);
+    move(b.pitch_table);
     return b;
 }
 

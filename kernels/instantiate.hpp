@@ -7,8 +7,9 @@
 
 namespace stylobate {
 
-template <class Real, class Here>
-double peak_fma(long count)
+/// `count` multiply-adds on registers.
+template <class Real>
+STYLOBATE_INLINE Real multiply_adds(long count)
 {
     // enough independent chains to hide the latency of the multiply-add
     constexpr int chains = 12;
@@ -23,8 +24,14 @@ double peak_fma(long count)
     Real total(0.0);
     for (int i = 0; i < chains; ++i)
         total = total + sums[i];
+    return total;
+}
+
+template <class Real, class Here>
+double peak_fma(long count)
+{
     alignas(64) double out[Lanes<Real>::count];
-    Lanes<Real>::store(out, total);
+    Lanes<Real>::store(out, multiply_adds<Real>(count));
     return out[0];
 }
 

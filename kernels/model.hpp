@@ -16,7 +16,7 @@ struct Model {
     bool mechanisms = false; ///< an extension of a joint, a block or the base may be other than neutral
     ContactForm form = ContactForm::area;
     /// Whether the bundle has the rows of the extensions: some belong to the forms.
-    bool extended() const { return mechanisms || form != ContactForm::area; }
+    constexpr bool extended() const { return mechanisms || form != ContactForm::area; }
     friend bool operator==(const Model&, const Model&) = default;
 };
 

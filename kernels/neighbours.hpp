@@ -6,17 +6,18 @@
 
 namespace stylobate {
 
-template <class Real, class Mechanism>
-class Neighbours : protected Rows<Real> {
+template <class Real, class Mechanism, class Layout = Packed>
+class Neighbours : protected Rows<Real, Layout> {
 protected:
-    Neighbours(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
-        : Rows<Real>(bundle), topology_(topology)
+    using Base = Rows<Real, Layout>;
+    STYLOBATE_INLINE Neighbours(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
+        : Base(bundle), topology_(topology)
     {
     }
 
-    using Rows<Real>::get;
-    using Rows<Real>::put;
-    using Rows<Real>::b_;
+    using Base::b_;
+    using Base::get;
+    using Base::put;
 
     /// Displacement of a block's geometric centre.
     STYLOBATE_INLINE Real centre_x(int i) const
@@ -84,8 +85,17 @@ protected:
         int close = 0;
         for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
             if (any(meets(joint, margin)))
-                b_.close[close++] = joint;
+                listed(close++) = joint;
         return close;
+    }
+
+    /// The n-th pair of the list: one list for all realizations of a register, or one for each lane.
+    STYLOBATE_INLINE int& listed(int n) const
+    {
+        if constexpr (Layout::strided)
+            return b_.close[static_cast<long>(n) * b_.lanes];
+        else
+            return b_.close[n];
     }
 
     const Topology& topology_;

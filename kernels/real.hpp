@@ -20,6 +20,16 @@
 #define STYLOBATE_INLINE inline
 #endif
 
+// For what is rare: kept out of the way of the rest. (Not on a device: a call needs the stepper in memory, and with it
+// every pointer to its rows. Inlined, no kernel has a stack frame; docs/gpu.md has the registers.)
+#if defined(__CUDACC__)
+#define STYLOBATE_APART STYLOBATE_INLINE
+#elif defined(__GNUC__)
+#define STYLOBATE_APART __attribute__((noinline))
+#else
+#define STYLOBATE_APART
+#endif
+
 namespace stylobate {
 
 /// Number of realizations in a register, and how to move it from and to memory.
@@ -75,13 +85,26 @@ STYLOBATE_INLINE double select(bool mask, double yes, double no)
 {
     return mask ? yes : no;
 }
+// (Where b is a constant, nvcc makes PTX's min and max of the selections, which choose otherwise between 0 and -0.)
 STYLOBATE_INLINE double min_of(double a, double b)
 {
+#if defined(__CUDA_ARCH__)
+    double least;
+    asm("{ .reg .pred p; setp.lt.f64 p, %1, %2; selp.f64 %0, %1, %2, p; }" : "=d"(least) : "d"(a), "d"(b));
+    return least;
+#else
     return a < b ? a : b;
+#endif
 }
 STYLOBATE_INLINE double max_of(double a, double b)
 {
+#if defined(__CUDA_ARCH__)
+    double most;
+    asm("{ .reg .pred p; setp.gt.f64 p, %1, %2; selp.f64 %0, %1, %2, p; }" : "=d"(most) : "d"(a), "d"(b));
+    return most;
+#else
     return a > b ? a : b;
+#endif
 }
 STYLOBATE_INLINE double abs_of(double a)
 {

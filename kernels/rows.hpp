@@ -12,14 +12,30 @@ struct Planar {
     Real x, y, theta;
 };
 
-template <class Real>
+/// How a stepper finds its rows, and how many joints it takes through a phase at a time (`step.hpp`).
+///
+/// On a processor: register after register, a distance that the compiler knows; joints in groups, as neighbouring ones
+/// are independent and the processor works on several at once.
+struct Packed {
+    static constexpr bool strided = false;
+    static constexpr int joint_group = 8;
+};
+/// On a device, where a thread steps one realization: its numbers are `Bundle::lanes` apart, those of neighbouring
+/// threads side by side; joint after joint, so that what the phases hand on stays in registers (the other threads give
+/// the independent work).
+struct Strided {
+    static constexpr bool strided = true;
+    static constexpr int joint_group = 1;
+};
+
+template <class Real, class Layout = Packed>
 class Rows {
 public:
-    explicit Rows(const BundleOf<NumberOf<Real>>& bundle) : b_(bundle) {}
+    STYLOBATE_INLINE explicit Rows(const BundleOf<NumberOf<Real>>& bundle) : b_(bundle) {}
 
     STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
     STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
-    STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * L::count]); }
+    STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * stride()]); }
     STYLOBATE_INLINE Real get(OfNeighbourhood::Field f, int i) const
     {
         return L::load(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)]);
@@ -34,7 +50,7 @@ public:
     }
     STYLOBATE_INLINE Real get(OfRealizationExtension::Field f) const
     {
-        return L::load(&b_.realization_extensions[f * L::count]);
+        return L::load(&b_.realization_extensions[f * stride()]);
     }
     STYLOBATE_INLINE Real get(OfPitch::Field f, int step) const
     {
@@ -44,8 +60,8 @@ public:
     {
         return L::load(&b_.remainders[row(i, OfRemainder::count, f)]);
     }
-    STYLOBATE_INLINE Real base(int step) const { return L::load(&b_.base_table[step * L::count]); }
-    STYLOBATE_INLINE Real vertical(int step) const { return L::load(&b_.vertical_table[step * L::count]); }
+    STYLOBATE_INLINE Real base(int step) const { return L::load(&b_.base_table[step * stride()]); }
+    STYLOBATE_INLINE Real vertical(int step) const { return L::load(&b_.vertical_table[step * stride()]); }
 
     STYLOBATE_INLINE void put(OfBlock::Field f, int i, Real v) const
     {
@@ -55,7 +71,7 @@ public:
     {
         L::store(&b_.joints[row(i, OfJoint::count, f)], v);
     }
-    STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * L::count], v); }
+    STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * stride()], v); }
     STYLOBATE_INLINE void put(OfNeighbourhood::Field f, int i, Real v) const
     {
         L::store(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)], v);
@@ -66,7 +82,7 @@ public:
     }
     STYLOBATE_INLINE void put(OfRealizationExtension::Field f, Real v) const
     {
-        L::store(&b_.realization_extensions[f * L::count], v);
+        L::store(&b_.realization_extensions[f * stride()], v);
     }
     STYLOBATE_INLINE void put(OfRemainder::Field f, int i, Real v) const
     {
@@ -88,10 +104,14 @@ public:
 
 protected:
     using L = Lanes<Real>;
-    STYLOBATE_INLINE static long row(int i, int fields, int f)
+    STYLOBATE_INLINE int stride() const
     {
-        return (static_cast<long>(i) * fields + f) * L::count;
+        if constexpr (Layout::strided)
+            return b_.lanes;
+        else
+            return L::count;
     }
+    STYLOBATE_INLINE long row(int i, int fields, int f) const { return (static_cast<long>(i) * fields + f) * stride(); }
 
     const BundleOf<NumberOf<Real>> b_;
 };

@@ -30,18 +30,20 @@ namespace stylobate {
 
 /// @tparam watching whether there are watched pairs
 /// @tparam stack `Topology::stack`: then what meets where is known beforehand, and need not be looked up
-template <class Real, class Mechanism, bool watching, bool stack>
-class Stepper : Neighbours<Real, Mechanism> {
+/// @tparam Layout how the rows lie, and how many joints go through the phases together (`rows.hpp`)
+template <class Real, class Mechanism, bool watching, bool stack, class Layout = Packed>
+class Stepper : Neighbours<Real, Mechanism, Layout> {
+    using Near = Neighbours<Real, Mechanism, Layout>;
+
 public:
-    Stepper(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
-        : Neighbours<Real, Mechanism>(topology, bundle)
+    STYLOBATE_INLINE Stepper(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle) : Near(topology, bundle)
     {
     }
 
     /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
     STYLOBATE_INLINE void run(int first, int last) const
     {
-        Scratch scratch[detail::joint_group];
+        Scratch scratch[joint_group];
         const int beds = topology_.beds();
         [[maybe_unused]] int close = -1;
         for (int i = topology_.fixed; i < topology_.blocks; ++i)
@@ -54,10 +56,10 @@ public:
                     put(OfBlock::force_y, i, Real(0.0));
                     put(OfBlock::moment, i, Real(0.0));
                 }
-            for (int begin = 0; begin < beds; begin += detail::joint_group)
+            for (int begin = 0; begin < beds; begin += joint_group)
                 contacts<detail::Bed>(
-                    beds - begin < detail::joint_group ? beds - begin : detail::joint_group,
-                    [begin](int j) { return begin + j; }, scratch, audit);
+                    beds - begin < joint_group ? beds - begin : joint_group, [begin](int j) { return begin + j; },
+                    scratch, audit);
             if constexpr (watching)
                 close = pairs(close, scratch, audit);
             update(step, audit);
@@ -65,6 +67,7 @@ public:
     }
 
 private:
+    static constexpr int joint_group = Layout::joint_group;
     using Scratch = detail::JointScratch<Real, Mechanism::points>;
 
     /// Whether forces act on the blocks besides those of the beds: these are summed up in the blocks' rows.
@@ -72,11 +75,10 @@ private:
     /// Whether beds meet as in the paper: by the closed form of their overlap.
     static constexpr bool paper = !Mechanism::extended && Mechanism::form == ContactForm::area;
 
-    using Rows<Real>::add;
-    using Rows<Real>::get;
-    using Rows<Real>::put;
-    using Rows<Real>::b_;
-    using Near = Neighbours<Real, Mechanism>;
+    using Rows<Real, Layout>::add;
+    using Rows<Real, Layout>::get;
+    using Rows<Real, Layout>::put;
+    using Rows<Real, Layout>::b_;
     using Near::centre_x;
     using Near::centre_y;
     using Near::topology_;
@@ -251,12 +253,8 @@ private:
     }
 
     template <class Mask, int count>
-#if defined(__GNUC__)
-    __attribute__((noinline))
-#endif
-    void
-    fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits, Overlap<Real>& o,
-              FormPoints<Real, count>& points) const
+    STYLOBATE_APART void fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits,
+                                   Overlap<Real>& o, FormPoints<Real, count>& points) const
     {
         take_general(place, sizes, fits, o, points);
     }
@@ -271,11 +269,7 @@ private:
 
     /// The general overlap, for the realizations whose closed form does not hold. Rare, so kept out of the way.
     template <class Mask>
-#if defined(__GNUC__)
-    __attribute__((noinline))
-#endif
-    void
-    fall_back(int joint, Mask fits, Overlap<Real>& o) const
+    STYLOBATE_APART void fall_back(int joint, Mask fits, Overlap<Real>& o) const
     {
         Real x, y;
         const auto [lower, upper] = topology_.joint[joint];
@@ -350,7 +344,9 @@ private:
         Real friction_energy = get(OfRealization::friction_energy);
         Real slip_sum = get(OfRealization::slip), path = get(OfRealization::path);
         Real rocking_path = get(OfRealization::rocking_path);
-        [[maybe_unused]] Real joint_energy(0.0);
+        [[maybe_unused]] Real joint_energy(0.0); // from what there is on, so that groups of any size sum up alike
+        if constexpr (Mechanism::extended && Kind::at_rest)
+            joint_energy = get(OfRealizationExtension::joint_energy);
         for (int j = 0; j < count; ++j) {
             const int joint = joint_of(j);
             const Scratch& s = scratch[j];
@@ -419,9 +415,8 @@ private:
                 dashpot_energy = fnma(couple + get(OfJointExtension::couple, joint), turning, dashpot_energy);
                 put(OfJointExtension::couple, joint, couple);
             }
-            if constexpr (extended) {
-                joint_energy = joint_energy + after_force<Real>(*this, topology_.joint[joint], joint, s, f, turning);
-            }
+            if constexpr (extended)
+                joint_energy = joint_energy + after_force(*this, topology_.joint[joint], joint, s, f, turning);
             put(OfJoint::dashpot_force, joint, dashpot);
             shear_energy = fma(f.tangential + get(OfJoint::shear_force, joint), s.sliding, shear_energy);
             put(OfJoint::shear_force, joint, f.tangential);
@@ -440,17 +435,13 @@ private:
         put(OfRealization::path, path);
         put(OfRealization::rocking_path, rocking_path);
         if constexpr (Mechanism::extended && Kind::at_rest)
-            put(OfRealizationExtension::joint_energy, get(OfRealizationExtension::joint_energy) + joint_energy);
+            put(OfRealizationExtension::joint_energy, joint_energy);
     }
 
     /// The watched pairs that meet, in the order of the list. Kept out of the way of the beds.
     /// @param close how many pairs are listed as close; -1: none has been looked for
     /// @return how many are now
-#if defined(__GNUC__)
-    __attribute__((noinline))
-#endif
-    int
-    pairs(int close, Scratch* scratch, bool audit) const
+    STYLOBATE_APART int pairs(int close, Scratch* scratch, bool audit) const
     {
         if (close < 0 || Near::strayed())
             close = Near::look_around();
@@ -460,10 +451,10 @@ private:
         // boxes that touch to rounding are let in
         const Real margin = get(OfRealization::skin) * Real(1e-3);
         for (int next = 0; next < close;) {
-            int group[detail::joint_group], count = 0;
-            for (; next < close && count < detail::joint_group; ++next)
-                if (any(Near::meets(b_.close[next], margin)))
-                    group[count++] = b_.close[next];
+            int group[joint_group] = {}, count = 0;
+            for (; next < close && count < joint_group; ++next)
+                if (any(Near::meets(Near::listed(next), margin)))
+                    group[count++] = Near::listed(next);
             contacts<detail::Pair>(
                 count, [&group](int j) { return group[j]; }, scratch, audit);
         }
@@ -512,7 +503,7 @@ private:
         const Real push = gx - base;
         [[maybe_unused]] auto pull = [&] {
             if constexpr (Mechanism::extended)
-                return ExtendedPull<Real>(*this, step);
+                return ExtendedPull<Real, Layout>(*this, step);
             else
                 return 0;
         }();

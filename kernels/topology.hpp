@@ -26,8 +26,8 @@ struct Topology {
     Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
     const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes
     bool stack = false;                   ///< the beds are those of one column: bed j has block j below, j + 1 above
-    int beds() const { return joints - watched; }
-    int free_blocks() const { return blocks - fixed; }
+    constexpr int beds() const { return joints - watched; }
+    constexpr int free_blocks() const { return blocks - fixed; }
 };
 
 /// How many integers `list_beds` writes.

@@ -10,12 +10,13 @@ if [[ $# -eq 0 ]]; then
 else
     results=$1
 fi
-[[ -n ${STYLOBATE_BUILD:-} ]] || cmake --build build/release --target performance_page >/dev/null
+[[ -n ${STYLOBATE_BUILD:-} ]] || cmake --build build/release --target performance_page instructions >/dev/null
+bench=${STYLOBATE_BUILD:-build/release}/bench
 
 page=docs/performance.md
 tables=$(mktemp)
 trap 'rm -f "$tables" "$tables.page"' EXIT
-"${STYLOBATE_BUILD:-build/release}/bench/performance_page" "$results" >"$tables"
+{ "$bench/performance_page" "$results"; echo; "$bench/instructions"; } >"$tables"
 awk -v tables="$tables" '
     /<!-- end of what scripts\/performance.sh writes -->/ { inside = 0 }
     !inside { print }

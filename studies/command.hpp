@@ -1,6 +1,7 @@
 #pragma once
 /// The verbs of the command line and the options that they share.
 
+#include "ensemble/executor.hpp"
 #include "kernels/isa.hpp"
 
 #include <string>
@@ -15,12 +16,16 @@ struct CommonOptions {
     std::vector<std::string> set; ///< KEY=VALUE, any key of the study file
     int threads = 0;              ///< 0: as many as the process may use
     std::string simd = "auto";
+    std::string backend = "cpu";
     bool quiet = false;
     bool json = false;
 
     /// @throws InputError if the instruction set is unknown, or if this machine lacks it
     Isa isa() const;
     int thread_count() const;
+    /// Where and how to run.
+    /// @throws InputError as `isa`, or if the backend has no device here
+    RunOptions run_options() const;
 };
 
 /// What `export` is asked for; empty, or -1: not said.

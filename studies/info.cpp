@@ -230,12 +230,24 @@ int CommonOptions::thread_count() const
     return threads > 0 ? threads : tbb::info::default_concurrency();
 }
 
+RunOptions CommonOptions::run_options() const
+{
+    RunOptions options{isa(), thread_count()};
+    if (backend == "cuda")
+        options.devices = open_cuda_devices();
+    return options;
+}
+
 int info_command(const CommonOptions& options, const std::string& file)
 {
     if (!file.empty())
         return info_of_file(options, file);
     const std::vector<Isa> usable = usable_isas();
+    const CudaDevices gpus = cuda_devices();
     if (options.json) {
+        Json devices = Json::list();
+        for (const std::string& name : gpus.names)
+            devices.item(name);
         Json sets = Json::list();
         for (const Isa isa : usable)
             sets.item(to_string(isa));
@@ -245,7 +257,8 @@ int info_command(const CommonOptions& options, const std::string& file)
                                .member("simd_used", to_string(options.isa()))
                                .member("lanes", kernels(options.isa()).lanes)
                                .member("threads", options.thread_count())
-                               .member("gpu", false)
+                               .member("gpu", !gpus.names.empty())
+                               .member("gpus", devices)
                                .member("mpi", false)
                                .text());
         return exit_done;
@@ -256,7 +269,11 @@ int info_command(const CommonOptions& options, const std::string& file)
         fmt::print("{} ", to_string(isa));
     fmt::print("(used: {}, {} realizations in a register)\n", to_string(options.isa()), kernels(options.isa()).lanes);
     fmt::print("threads: {}\n", options.thread_count());
-    fmt::print("GPU: not in this version\nMPI: not in this version\n");
+    for (const std::string& name : gpus.names)
+        fmt::print("GPU: {}\n", name);
+    if (gpus.names.empty())
+        fmt::print("GPU: none ({})\n", gpus.reason);
+    fmt::print("MPI: not in this version\n");
     return exit_done;
 }
 

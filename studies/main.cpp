@@ -19,7 +19,8 @@ using namespace stylobate;
 
 namespace {
 
-void add_common(CLI::App& verb, CommonOptions& options)
+/// @param backends where the verb can compute
+void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"})
 {
     verb.add_option("--set", options.set, "KEY=VALUE: any key of the study file; may be given several times")
         ->type_name("KEY=VALUE")
@@ -30,7 +31,9 @@ void add_common(CLI::App& verb, CommonOptions& options)
     verb.add_option("--simd", options.simd, "instruction set")
         ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512", "neon"}))
         ->capture_default_str();
-    verb.add_option("--backend", "where to compute")->check(CLI::IsMember({"cpu"}))->default_str("cpu");
+    verb.add_option("--backend", options.backend, "where to compute")
+        ->check(CLI::IsMember(backends))
+        ->capture_default_str();
     verb.add_flag("--quiet", options.quiet, "no progress, no words: only results and errors");
     verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
 }
@@ -78,7 +81,7 @@ int main(int argc, char** argv)
     auto* run = app.add_subcommand("run", "run a study; continues an unfinished result of the same study");
     run->add_option("STUDY", study, "study file (TOML)")->required();
     run->add_option("-o,--output", results, "results file (default: the study's name with .h5)");
-    add_common(*run, options);
+    add_common(*run, options, {"cpu", "cuda"});
     run->callback([&] { status = run_command(options, study, results); });
 
     std::string trajectory;

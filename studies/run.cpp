@@ -210,6 +210,7 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("realizations_per_second", p.rate)
             .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
             .member("occupancy", p.occupancy)
+            .member("backend", options.backend)
             .member("simd", to_string(run.isa))
             .member("threads", run.threads);
         if (adaptive)
@@ -220,7 +221,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
                    p.invalid);
         if (p.seconds > 0)
             fmt::print("; {} with {} threads of {}, {:.0f} realizations/s", duration_text(p.seconds), run.threads,
-                       to_string(run.isa), p.rate);
+                       run.devices.empty() ? to_string(run.isa) : "the host and " + run.devices.front()->name(),
+                       p.rate);
         fmt::print("\n");
         if (adaptive)
             fmt::print("  {}\n", describe_adaptive(*adaptive));
@@ -231,14 +233,28 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
     }
 }
 
+/// @throws InputError for a study that no device runs
+void demand_of_device(const Study& study, const std::string& file)
+{
+    const auto refuse = [&file](const char* why) {
+        throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", file, why));
+    };
+    if (!study.surface)
+        refuse("is of kind \"single\", whose realizations are followed step by step on the processor");
+    if (study.run.precision == Precision::single)
+        refuse("asks for run.precision = \"single\", which is the processor's");
+}
+
 } // namespace
 
 int run_command(const CommonOptions& options, const std::string& study, std::string results)
 {
     if (results.empty())
         results = default_results(study);
-    const RunOptions run{options.isa(), options.thread_count()};
     const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
+    if (options.backend == "cuda")
+        demand_of_device(loaded.study(), study);
+    const RunOptions run = options.run_options();
     check_realizations(loaded);
     const ResultHeader header = loaded.result_header();
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};

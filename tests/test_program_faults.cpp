@@ -1,5 +1,6 @@
 /// Bad input: one message that says where, what, and what to do; exit status 2; nothing written or changed.
 
+#include "ensemble/device.hpp"
 #include "program.hpp"
 
 #include "io/result_store.hpp"
@@ -124,7 +125,12 @@ TEST_F(Faults, WrongCommandLines)
     expect_refused({"run", column_study, "--simd", "avx51"}, {"--simd", "avx51", "avx512"});
     expect_refused({"run", column_study, "--threads", "0"}, {"--threads", "0", "1"});
     expect_refused({"run", column_study, "--threads", "two"}, {"--threads", "two"});
-    expect_refused({"run", column_study, "--backend", "gpu"}, {"--backend", "gpu", "cpu"});
+    expect_refused({"run", column_study, "--backend", "gpu"}, {"--backend", "gpu", "cpu", "cuda"});
+    expect_refused({"replay", "out.h5", "--realization", "0", "--backend", "cuda"}, {"--backend", "cuda", "cpu"});
+    expect_refused({"run", column_study, "--backend", "cuda", "--set", "run.precision=single"},
+                   {"--backend cuda", "precision"});
+    if (const CudaDevices gpus = cuda_devices(); gpus.names.empty())
+        expect_refused({"run", column_study, "--backend", "cuda"}, {"--backend cuda", gpus.reason});
     expect_refused({"replay", "out.h5"}, {"--realization"});
     expect_refused({"replay", "out.h5", "--realization", "8"}, {"--realization 8", "0 to 7", "out.h5"});
     expect_refused({"replay", "out.h5", "--realization", "-1"}, {"--realization -1", "0 to 7"});

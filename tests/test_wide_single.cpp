@@ -27,7 +27,11 @@ using SingleState = std::vector<float>;
 SingleState rounded(const Column& column, const State& state)
 {
     SingleState single(bundle_registers<float>(column.topology));
-    std::transform(state.begin(), state.end(), single.begin(), [](double v) { return static_cast<float>(v); });
+    // in one order, but for the remainders before the tables
+    const auto as_float = [](double v) { return static_cast<float>(v); };
+    const auto tables = static_cast<std::ptrdiff_t>(table_registers(column.topology));
+    std::transform(state.begin(), state.end() - tables, single.begin(), as_float);
+    std::transform(state.end() - tables, state.end(), single.end() - tables, as_float);
     State copy = state;
     const Bundle from = bind_bundle(column.topology, 1, copy.data());
     const auto to = bind_bundle(column.topology, 1, single.data());

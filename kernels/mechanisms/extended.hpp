@@ -145,9 +145,9 @@ STYLOBATE_INLINE ContactForce<Real> points_force(Real dashpot, const JointLaw<Re
 
 /// The contact law of a bed with its mechanisms.
 /// @param points shares and arms of the form's springs, in `FormPoints::area` and `x`
-template <class Real, int count>
-STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real>& rows, int joint, const JointLaw<Real>& law, Real spring,
-                                          const BedMotion<Real>& m, const FormPoints<Real, count>& points)
+template <class Real, class Layout, int count>
+STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real, Layout>& rows, int joint, const JointLaw<Real>& law,
+                                          Real spring, const BedMotion<Real>& m, const FormPoints<Real, count>& points)
 {
     using J = OfJointExtension;
     const Real zero(0.0), one(1.0);
@@ -196,9 +196,9 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real>& rows, int joint, con
 /// @param place of the upper block's bottom face, from the lower one;  @param apart_x, apart_y from the lower centre of
 ///        mass to the upper one, frame of the base
 /// @return 2 x the work of this step against it [J]
-template <class Real>
-STYLOBATE_INLINE Real add_dowel(const Rows<Real>& rows, int joint, int lower, int upper, const Placement<Real>& place,
-                                Real apart_x, Real apart_y)
+template <class Real, class Layout>
+STYLOBATE_INLINE Real add_dowel(const Rows<Real, Layout>& rows, int joint, int lower, int upper,
+                                const Placement<Real>& place, Real apart_x, Real apart_y)
 {
     using J = OfJointExtension;
     const Real stiffness = rows.get(J::dowel_stiffness, joint);
@@ -233,12 +233,12 @@ STYLOBATE_INLINE Real add_dowel(const Rows<Real>& rows, int joint, int lower, in
 /// What follows the contact force of a bed: its dowel, and what its slip and its rocking wear off.
 /// @param s what the step knows of the bed (`JointScratch`);  @param turning as in `BedMotion`
 /// @return 2 x the energy that these took [J]
-template <class Real, class Scratch>
-STYLOBATE_INLINE Real after_force(const Rows<Real>& rows, TopologyJoint blocks, int joint, const Scratch& s,
+template <class Real, class Layout, class Scratch>
+STYLOBATE_INLINE Real after_force(const Rows<Real, Layout>& rows, TopologyJoint blocks, int joint, const Scratch& s,
                                   const ContactForce<Real>& f, Real turning)
 {
     using J = OfJointExtension;
-    Real energy = add_dowel<Real>(rows, joint, blocks.lower, blocks.upper, s.place, s.apart_x, s.apart_y);
+    Real energy = add_dowel(rows, joint, blocks.lower, blocks.upper, s.place, s.apart_x, s.apart_y);
     rows.put(J::slip, joint, fma(f.excess, rows.get(OfJoint::per_K_t, joint), rows.get(J::slip, joint)));
     const Real wear = rows.get(J::corner_wear, joint);
     if (any(wear != Real(0.0))) {
@@ -251,10 +251,10 @@ STYLOBATE_INLINE Real after_force(const Rows<Real>& rows, TopologyJoint blocks, 
 }
 
 /// What moves the blocks in one step besides the contacts, times dt2.
-template <class Real>
+template <class Real, class Layout>
 class ExtendedPull {
 public:
-    STYLOBATE_INLINE ExtendedPull(const Rows<Real>& rows, int step)
+    STYLOBATE_INLINE ExtendedPull(const Rows<Real, Layout>& rows, int step)
         : rows_(rows), pitch_{rows.get(OfPitch::angle, step), rows.get(OfPitch::increment, step),
                               rows.get(OfPitch::second, step)},
           gravity_x_(rows.get(OfRealization::gravity_dx)), gravity_y_(rows.get(OfRealization::gravity_dy)),
@@ -317,7 +317,7 @@ public:
     }
 
 private:
-    const Rows<Real>& rows_;
+    const Rows<Real, Layout>& rows_;
     const Pitch<Real> pitch_;
     const Real gravity_x_, gravity_y_, base_, vertical_, base_dx_, base_dy_;
     const Real level_x_, level_y_; ///< gravity and the base's acceleration, in the level frame

@@ -12,8 +12,11 @@
 
 namespace stylobate {
 
-inline constexpr double lobatto_at[5] = {0, 0.17267316464601146, 0.5, 0.8273268353539885, 1};
-inline constexpr double lobatto_part[5] = {1.0 / 20, 49.0 / 180, 16.0 / 45, 49.0 / 180, 1.0 / 20};
+constexpr FaceRule<5> lobatto_rule()
+{
+    return {{0, 0.17267316464601146, 0.5, 0.8273268353539885, 1},
+            {1.0 / 20, 49.0 / 180, 16.0 / 45, 49.0 / 180, 1.0 / 20}};
+}
 
 template <class Real>
 struct HertzPressure {
@@ -32,8 +35,9 @@ STYLOBATE_INLINE Overlap<Real> points_overlap(const Placement<Real>& p, Real low
                                               Real depth_limit, Real per_root_depth, FormPoints<Real, 5>& points,
                                               Mask& fits)
 {
-    return spring_points(p, lower_half_width, upper_half_width, depth_limit, lobatto_at, lobatto_part,
-                         HertzPressure<Real>{per_root_depth}, points, fits);
+    constexpr FaceRule<5> rule = lobatto_rule();
+    return spring_points(p, lower_half_width, upper_half_width, depth_limit, rule, HertzPressure<Real>{per_root_depth},
+                         points, fits);
 }
 
 } // namespace stylobate

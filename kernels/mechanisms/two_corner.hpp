@@ -36,30 +36,37 @@ STYLOBATE_INLINE CommonFace<Real> common_face(const Placement<Real>& p, Real low
     return {left, max_of(right - left, Real(0.0)), p.sine / p.cosine};
 }
 
-/// Springs at `count` points: `at[i]` from 0 to 1 along the face, `part[i]` of the stiffness (sum 1); `pressure` takes
-/// a depth [m] to the depth [m] of a linear bed with the same pressure, and its energy [m2].
+/// Where along the face the springs are, from 0 to 1, and what part of the stiffness each has (sum 1).
+template <int count>
+struct FaceRule {
+    double at[count];
+    double part[count];
+};
+
+/// Springs at the points of a rule; `pressure` takes a depth [m] to the depth [m] of a linear bed with the same
+/// pressure, and its energy [m2].
 /// @param fits as in `stacked_overlap`: where not, the overlap of the area form is taken
 template <class Real, int count, class Pressure, class Mask>
 STYLOBATE_INLINE Overlap<Real> spring_points(const Placement<Real>& p, Real lower_half_width, Real upper_half_width,
-                                             Real depth_limit, const double (&at)[count], const double (&part)[count],
-                                             const Pressure& pressure, FormPoints<Real, count>& points, Mask& fits)
+                                             Real depth_limit, const FaceRule<count>& rule, const Pressure& pressure,
+                                             FormPoints<Real, count>& points, Mask& fits)
 {
     const Real zero(0.0);
     const CommonFace<Real> face = common_face(p, lower_half_width, upper_half_width);
     Overlap<Real> o{zero, zero, zero, zero, face.length, zero};
     Real deepest(0.0);
     for (int i = 0; i < count; ++i) {
-        const Real x = fma(face.length, Real(at[i]), face.left);
+        const Real x = fma(face.length, Real(rule.at[i]), face.left);
         const Real depth = max_of(fnma(x - p.x, face.slope, p.depth), zero);
         Real energy;
-        const Real area = face.length * Real(part[i]) * pressure(depth, energy);
+        const Real area = face.length * Real(rule.part[i]) * pressure(depth, energy);
         points.x[i] = x;
         points.area[i] = area;
-        points.weight[i] = select(depth > zero, Real(part[i]), zero);
+        points.weight[i] = select(depth > zero, Real(rule.part[i]), zero);
         o.area = o.area + area;
         o.moment_x = fma(x, area, o.moment_x);
         o.moment_depth = fma(Real(0.5) * depth, area, o.moment_depth);
-        o.elastic = fma(face.length * Real(part[i]), energy, o.elastic);
+        o.elastic = fma(face.length * Real(rule.part[i]), energy, o.elastic);
         deepest = max_of(deepest, depth);
     }
     points.moment = o.moment_x;
@@ -77,15 +84,13 @@ struct LinearPressure {
     }
 };
 
-inline constexpr double corner_at[2] = {0, 1}, corner_part[2] = {0.5, 0.5};
-
 template <class Real, class Mask>
 STYLOBATE_INLINE Overlap<Real> two_corner_overlap(const Placement<Real>& p, Real lower_half_width,
                                                   Real upper_half_width, Real depth_limit, FormPoints<Real, 2>& points,
                                                   Mask& fits)
 {
-    return spring_points(p, lower_half_width, upper_half_width, depth_limit, corner_at, corner_part, LinearPressure{},
-                         points, fits);
+    constexpr FaceRule<2> ends{{0, 1}, {0.5, 0.5}};
+    return spring_points(p, lower_half_width, upper_half_width, depth_limit, ends, LinearPressure{}, points, fits);
 }
 
 } // namespace stylobate

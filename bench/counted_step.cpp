@@ -1,0 +1,43 @@
+/// The step counted on the number that counts (`counted.hpp`).
+
+#include "bench/counted.hpp"
+#include "bench/scenes.hpp"
+#include "kernels/step.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+OperationCounts operations_per_block_step(int blocks)
+{
+    const Study study = rocking_column(blocks);
+    const Sampler sampler(study, nullptr);
+    std::vector<TopologyJoint> joints;
+    for (int i = 1; i < blocks; ++i)
+        joints.push_back({i - 1, i});
+    Topology topology{blocks, 1, blocks - 1, blocks - 1, joints.data()};
+    std::vector<int> bed_lists(static_cast<std::size_t>(bed_lists_size(topology)));
+    list_beds(topology, bed_lists.data());
+    std::vector<double> memory(bundle_registers(topology), 0.0);
+    const Bundle b = bind_bundle(topology, 1, memory.data());
+    const Realization r = sampler.realization(0);
+    for (int i = 0; i < blocks; ++i) {
+        const Block& block = r.blocks[static_cast<std::size_t>(i)];
+        b.at(OfBlock::half_width, i, 0) = block.half_width_m;
+        b.at(OfBlock::half_height, i, 0) = block.half_height_m;
+        b.at(OfBlock::y, i, 0) = -1e-6 * i;
+    }
+    for (int j = 0; j < blocks - 1; ++j) {
+        b.at(OfJoint::height, j, 0) = 0.029;
+        b.at(OfJoint::depth_limit, j, 0) = 0.001;
+        b.at(OfJoint::K_n, j, 0) = 1e8;
+    }
+    counted = {};
+    Stepper<Counted, Baseline, false, true>(topology, b).run(0, 16);
+    const long block_steps = 16L * (blocks - 1);
+    return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
+            counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,
+            counted.store / block_steps};
+}
+
+} // namespace stylobate

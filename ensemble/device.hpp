@@ -1,0 +1,61 @@
+#pragma once
+/// A device that steps many realizations at once, one by each of its threads: memory, copies, and launches of the
+/// tasks of `slot_tasks.hpp`. All else about it is ordinary code (`slots.hpp`), the same for every device.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct SlotMemory;
+struct MoveColumns;
+struct MarkSlots;
+struct MultiplyAdds;
+
+/// One queue of work. Calls return at once and are done in order; `download` waits for them. Used by one thread at a
+/// time. Every member throws std::runtime_error where the device fails.
+class Device {
+public:
+    virtual ~Device() = default;
+    /// What it is, for people.
+    virtual std::string name() const = 0;
+    /// How many realizations it steps best at a time.
+    /// @param bytes of memory for each;  @param model, watched pairs and so on: which step will run
+    virtual int best_slots(const SlotMemory& memory, std::size_t bytes) const = 0;
+
+    /// @return memory of the device, all zero
+    virtual void* allocate(std::size_t bytes) = 0;
+    virtual void release(void* memory) noexcept = 0;
+    /// @return memory of the host that can be copied from and to without detours
+    virtual void* allocate_host(std::size_t bytes) = 0;
+    virtual void release_host(void* memory) noexcept = 0;
+
+    /// `from` is to stay as it is until the next `download`.
+    virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
+    virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+
+    /// `AdvanceSlot` for slots 0 .. count - 1.
+    virtual void advance(const SlotMemory& memory, int chunks, int count) = 0;
+    virtual void run(const MoveColumns& task, int count) = 0;
+    virtual void run(const MarkSlots& task, int count) = 0;
+    virtual void run(const MultiplyAdds& task, int count) = 0;
+};
+
+/// A device that is the processor: it runs the tasks in a loop. With it, all of the devices' code but the launches is
+/// tested where there is no device; it is slower than the processor's own lanes.
+std::shared_ptr<Device> host_device();
+
+/// What there is to compute on.
+struct CudaDevices {
+    std::vector<std::string> names; ///< of each device: model, compute capability, memory
+    std::string reason;             ///< why there are none, if so
+};
+CudaDevices cuda_devices();
+
+/// Queues of all of them: two for each, so that one computes while the host serves the other.
+/// @throws InputError if there is no device
+std::vector<std::shared_ptr<Device>> open_cuda_devices();
+
+} // namespace stylobate

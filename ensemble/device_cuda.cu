@@ -1,0 +1,184 @@
+// The devices of CUDA. Compiled only where there is a CUDA compiler, with --fmad=false and IEEE division and roots:
+// what is to be fused is written as fma, so that a step has the bits of the processor's.
+
+#include "ensemble/device.hpp"
+#include "ensemble/input_error.hpp"
+#include "ensemble/slot_tasks.hpp"
+
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace stylobate {
+
+namespace {
+
+// Threads of a block: one warp for each of a multiprocessor's four schedulers.
+constexpr int block_threads = 128;
+// Threads of a multiprocessor at the most: their states are to stay in its first-level cache (`docs/gpu.md`).
+constexpr int resident_threads = 256;
+
+void check(cudaError_t status, const char* what)
+{
+    if (status != cudaSuccess)
+        throw std::runtime_error(std::string("the GPU failed: ") + what + ": " + cudaGetErrorString(status));
+}
+
+} // namespace
+
+/// Whose file the kernels are of.
+struct OnCuda {};
+
+template <class Task>
+__global__ void __launch_bounds__(block_threads, resident_threads / block_threads) run_task(const Task task, int count)
+{
+    const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    if (i < count)
+        task(i);
+}
+
+namespace {
+
+class CudaQueue : public Device {
+public:
+    explicit CudaQueue(int device) : device_(device)
+    {
+        use();
+        check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a queue cannot be made");
+    }
+    ~CudaQueue() override
+    {
+        if (cudaSetDevice(device_) == cudaSuccess)
+            cudaStreamDestroy(stream_);
+    }
+
+    std::string name() const override
+    {
+        cudaDeviceProp p{};
+        check(cudaGetDeviceProperties(&p, device_), "its properties cannot be read");
+        char text[400];
+        std::snprintf(text, sizeof text, "%s (compute capability %d.%d, %d multiprocessors, %.0f GiB)", p.name, p.major,
+                      p.minor, p.multiProcessorCount, static_cast<double>(p.totalGlobalMem) / (1 << 30));
+        return text;
+    }
+
+    int best_slots(const SlotMemory& memory, std::size_t bytes) const override
+    {
+        use();
+        int processors = 0, blocks = 0;
+        check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_),
+              "its properties cannot be read");
+        with_model<OnCuda>(memory, 1, [&](const auto& task) {
+            using Task = std::decay_t<decltype(task)>;
+            check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_task<Task>, block_threads, 0),
+                  "the kernel does not fit");
+        });
+        const int threads = std::min(resident_threads, blocks * block_threads);
+        std::size_t free = 0, total = 0;
+        check(cudaMemGetInfo(&free, &total), "its memory cannot be read");
+        const std::size_t fit = free / 4 / std::max<std::size_t>(bytes, 1); // of two queues, half of the memory
+        return static_cast<int>(std::clamp<std::size_t>(fit, 1, static_cast<std::size_t>(processors * threads)));
+    }
+
+    void* allocate(std::size_t bytes) override
+    {
+        use();
+        void* memory = nullptr;
+        check(cudaMalloc(&memory, bytes), "no memory");
+        check(cudaMemsetAsync(memory, 0, bytes, stream_), "its memory cannot be written");
+        return memory;
+    }
+    void release(void* memory) noexcept override
+    {
+        if (cudaSetDevice(device_) == cudaSuccess)
+            cudaFree(memory);
+    }
+    void* allocate_host(std::size_t bytes) override
+    {
+        use();
+        void* memory = nullptr;
+        check(cudaMallocHost(&memory, bytes), "no memory of the host for its copies");
+        return memory;
+    }
+    void release_host(void* memory) noexcept override { cudaFreeHost(memory); }
+
+    void upload(void* to, const void* from, std::size_t bytes) override
+    {
+        use();
+        check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_), "a copy to it");
+    }
+    void download(void* to, const void* from, std::size_t bytes) override
+    {
+        use();
+        check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_), "a copy from it");
+        check(cudaStreamSynchronize(stream_), "a kernel or a copy");
+    }
+
+    void advance(const SlotMemory& memory, int chunks, int count) override
+    {
+        with_model<OnCuda>(memory, chunks, [&](const auto& task) { launch(task, count); });
+    }
+    void run(const MoveColumns& task, int count) override { launch(task, count); }
+    void run(const MarkSlots& task, int count) override { launch(task, count); }
+    void run(const MultiplyAdds& task, int count) override { launch(task, count); }
+
+private:
+    void use() const { check(cudaSetDevice(device_), "it cannot be used"); }
+
+    template <class Task>
+    void launch(const Task& task, int count)
+    {
+        if (count <= 0)
+            return;
+        use();
+        run_task<<<static_cast<unsigned>((count + block_threads - 1) / block_threads), block_threads, 0, stream_>>>(
+            task, count);
+        check(cudaGetLastError(), "a kernel does not start");
+    }
+
+    int device_ = 0;
+    cudaStream_t stream_ = nullptr;
+};
+
+int count_devices(std::string& reason)
+{
+    int count = 0;
+    const cudaError_t status = cudaGetDeviceCount(&count);
+    if (status != cudaSuccess || count == 0) {
+        reason = status == cudaSuccess || status == cudaErrorNoDevice
+                     ? std::string("no CUDA device is found")
+                     : std::string("no CUDA device can be used: ") + cudaGetErrorString(status);
+        return 0;
+    }
+    return count;
+}
+
+} // namespace
+
+CudaDevices cuda_devices()
+{
+    CudaDevices found;
+    const int count = count_devices(found.reason);
+    for (int device = 0; device < count; ++device)
+        found.names.push_back(CudaQueue(device).name());
+    return found;
+}
+
+std::vector<std::shared_ptr<Device>> open_cuda_devices()
+{
+    std::string reason;
+    const int count = count_devices(reason);
+    if (count == 0)
+        throw InputError("--backend cuda: " + reason);
+    std::vector<std::shared_ptr<Device>> queues;
+    for (int half = 0; half < 2; ++half)
+        for (int device = 0; device < count; ++device)
+            queues.push_back(std::make_shared<CudaQueue>(device));
+    return queues;
+}
+
+} // namespace stylobate

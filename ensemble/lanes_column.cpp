@@ -1,0 +1,71 @@
+/// Lanes whose realizations a device steps (`lanes.hpp`): the same state, watch and limit states, packed as its slots
+/// have them.
+
+#include "ensemble/lanes.hpp"
+#include "ensemble/slot_tasks.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+// What the host and a device may compute otherwise of a height, as a part of it: the alarm is to be on the safe side.
+constexpr double height_tolerance = 1e-9;
+
+} // namespace
+
+void LaneSet::write_column(int lane, double* column) const
+{
+    const Place& place = places_[static_cast<std::size_t>(lane)];
+    const auto at = static_cast<std::size_t>(lane);
+    const std::size_t state = bundle_registers(topology_) - table_registers(topology_);
+    for (std::size_t i = 0; i < state; ++i)
+        *column++ = memory_[i * lanes_ + at];
+    for (std::size_t i = 0; i < formula_rows; ++i) // they lie one behind the other
+        *column++ = parameters_.cycles_per_step[i * lanes_ + at];
+    for (const std::uint64_t word : std::bit_cast<detail::WatchWords>(place.watch).word)
+        *column++ = std::bit_cast<double>(word);
+    for (int k = 0; k < topology_.blocks; ++k) {
+        const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
+        const Block& block = place.realization.blocks[i];
+        const bool over = k < topology_.fixed || place.limits.fallen(i); // nothing more is to come of it
+        const double infinite = std::numeric_limits<double>::infinity();
+        const double safe = height_tolerance * std::fabs(block.y_m) + 2.001 * std::fabs(block.extension.eccentricity_m);
+        *column++ = over ? -infinite : place.limits.lowest_m(block) + safe;
+        *column++ = over ? infinite : place.limits.turn_limit_rad(i);
+    }
+}
+
+void LaneSet::read_column(int lane, const double* column)
+{
+    const std::size_t state = bundle_registers(topology_) - table_registers(topology_);
+    for (std::size_t i = 0; i < state; ++i)
+        memory_[i * lanes_ + static_cast<std::size_t>(lane)] = *column++;
+    column += formula_rows;
+    detail::WatchWords words;
+    for (std::uint64_t& word : words.word)
+        word = std::bit_cast<std::uint64_t>(*column++);
+    places_[static_cast<std::size_t>(lane)].watch = std::bit_cast<Watch>(words);
+}
+
+bool LaneSet::tables_given(int lane) const
+{
+    const Place& place = places_[static_cast<std::size_t>(lane)];
+    const BaseExtension& base = place.realization.base;
+    return BaseMotion::on_host(study_) || place.vertical || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
+}
+
+void LaneSet::write_tables(int lane, std::uint64_t step, double* tables)
+{
+    assert(lanes_ == 1 && "the tables of all lanes are made at once");
+    first_step_[lane] = static_cast<double>(step);
+    fill_tables();
+    const std::size_t state = bundle_registers(topology_) - table_registers(topology_);
+    for (std::size_t i = 0; i < table_registers(topology_); ++i)
+        tables[i] = memory_[state + i];
+}
+
+} // namespace stylobate

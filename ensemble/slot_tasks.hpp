@@ -1,0 +1,222 @@
+#pragma once
+/// What a device does with its slots: functors that are run once for each index, on the processor in a loop (tests) or
+/// by as many threads of a device. `SlotSet` says when.
+///
+/// A slot is a place for one realization. Its numbers are a column of the device's memory: row r of slot s is number
+/// r * slots + s, so that threads side by side read and write side by side.
+
+#include "ensemble/watch.hpp"
+#include "kernels/base_motion.hpp"
+#include "kernels/instantiate.hpp"
+
+#include <bit>
+#include <cstdint>
+
+namespace stylobate {
+
+/// Rows of a column behind those of the bundle's state.
+inline constexpr int formula_rows = 8;
+inline constexpr int watch_rows = static_cast<int>(sizeof(Watch) / 8);
+static_assert(sizeof(Watch) % 8 == 0);
+/// Rows of alarms, of each block: what tells a device that the limit states want to be looked at.
+struct OfAlarm {
+    enum Field : int {
+        low,    ///< displacement upwards below which the block may have fallen [m]
+        turned, ///< |rotation| above which it may have [rad]
+        count
+    };
+};
+
+/// Rows of a column in all.
+inline std::size_t column_rows(const Topology& topology)
+{
+    return bundle_registers(topology) - table_registers(topology) + formula_rows + watch_rows +
+           static_cast<std::size_t>(topology.blocks * OfAlarm::count);
+}
+
+enum class SlotState : int {
+    empty,
+    busy,
+    asks ///< the host is to look at it: its watch is that of before the last chunk's look
+};
+
+/// A device's memory. Every pointer is the device's.
+struct SlotMemory {
+    int slots = 0;
+    Topology topology{};
+    Bundle bundle{};
+    FormulaParameters formula{}; ///< each (slots)
+    MotionFormula motion{};      ///< by which the base's tables are made,
+    bool tables_given = false;   ///< unless the host has made them
+    double* watch = nullptr;     ///< (watch_rows x slots) `Watch`, number by number
+    double* alarms = nullptr;    ///< (blocks x OfAlarm::count x slots)
+    double* tables = nullptr;    ///< (chunks of a launch x table_registers x slots)
+    SlotState* state = nullptr;  ///< (slots)
+    const int* seats = nullptr;  ///< (seat_count) the beds on which epistyles lie
+    int seat_count = 0;
+};
+
+namespace detail {
+
+/// A watch's numbers, whatever they stand for.
+struct WatchWords {
+    std::uint64_t word[watch_rows];
+};
+
+STYLOBATE_INLINE Watch load_watch(const SlotMemory& m, int slot)
+{
+    WatchWords words;
+    for (int i = 0; i < watch_rows; ++i)
+        words.word[i] = std::bit_cast<std::uint64_t>(m.watch[static_cast<long>(i) * m.slots + slot]);
+    return std::bit_cast<Watch>(words);
+}
+
+STYLOBATE_INLINE void store_watch(const SlotMemory& m, int slot, const Watch& w)
+{
+    const WatchWords words = std::bit_cast<WatchWords>(w);
+    for (int i = 0; i < watch_rows; ++i)
+        m.watch[static_cast<long>(i) * m.slots + slot] = std::bit_cast<double>(words.word[i]);
+}
+
+/// Whether an epistyle may have lost a seat: as `LimitStates` has it, with an eye to what the two compute otherwise.
+STYLOBATE_INLINE bool unseats(const Topology& topology, const Bundle& b, int bed, int lane)
+{
+    const int lower = topology.joint[bed].lower, upper = topology.joint[bed].upper;
+    const Planar<double> l = centre_of(topology, b, lower, lane), u = centre_of(topology, b, upper, lane);
+    const Angle<double> al = angle(l.theta), au = angle(u.theta), turn = angle(u.theta - l.theta);
+    const double hu = b.at(OfBlock::half_height, upper, lane);
+    const double x = b.at(OfJoint::reference_x, bed, lane) + (u.x - l.x) + hu * au.sine;
+    const double y = b.at(OfJoint::height, bed, lane) + (u.y - l.y) - hu * (1 - au.versine);
+    const double offset = x * (1 - al.versine) + y * al.sine;
+    const double wu = b.at(OfBlock::half_width, upper, lane);
+    const double reach = b.at(OfBlock::half_width, lower, lane) + wu * abs_of(1 - turn.versine);
+    return !(abs_of(offset) < reach - 1e-6 * wu);
+}
+
+/// Whether `LimitStates::look` might find anything: never false where it does.
+STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
+{
+    if (w.undecided != 0)
+        return true;
+    for (int k = m.topology.fixed; k < m.topology.blocks; ++k) {
+        const long row = static_cast<long>(k) * OfAlarm::count;
+        if (m.bundle.at(OfBlock::y, k, slot) < m.alarms[(row + OfAlarm::low) * m.slots + slot] ||
+            abs_of(m.bundle.at(OfBlock::theta, k, slot)) > m.alarms[(row + OfAlarm::turned) * m.slots + slot])
+            return true;
+    }
+    if (w.seated != 0)
+        for (int i = 0; i < m.seat_count; ++i)
+            if (unseats(m.topology, m.bundle, m.seats[i], slot))
+                return true;
+    return false;
+}
+
+/// The look after a chunk, as far as it is the same every time.
+/// @return whether the host is to look instead; `w` is then not to be used
+STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
+{
+    w.steps += chunk_steps;
+    return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
+           watch_rest(m.topology, m.bundle, slot, false, w);
+}
+
+} // namespace detail
+
+/// Steps a slot by up to `chunks` chunks: less if the host is to look at it.
+/// @tparam Mechanism, watching, stack as in `Stepper`
+template <class Mechanism, bool watching, bool stack>
+struct AdvanceSlot {
+    SlotMemory m;
+    int chunks = 1;
+
+    STYLOBATE_INLINE void operator()(int slot) const
+    {
+        if (m.state[slot] != SlotState::busy)
+            return;
+        Watch w = detail::load_watch(m, slot);
+        const FormulaParameters mine = m.formula.of_lane(slot);
+        Bundle all = m.bundle;
+        for (int chunk = 0; chunk < chunks; ++chunk) {
+            const int tables = chunk_steps * (m.topology.model.extended() ? 2 + OfPitch::count : 1);
+            bind_tables(m.topology, all, m.tables + static_cast<long>(chunk) * tables * m.slots);
+            const Bundle b = lane_of(all, slot);
+            if (!m.tables_given)
+                fill_base_rows<double>(m.motion, mine, static_cast<double>(w.steps), b.base_table, m.slots);
+            Stepper<double, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
+            Watch next = w;
+            if (detail::asks(m, slot, next)) {
+                m.state[slot] = SlotState::asks;
+                break;
+            }
+            w = next;
+        }
+        detail::store_watch(m, slot, w);
+    }
+};
+
+/// Between packed columns, one whole column after the other, and those of slots; index i is row i / columns of column
+/// i % columns.
+struct MoveColumns {
+    double* packed = nullptr;        ///< (columns x rows)
+    double* rows_of_slots = nullptr; ///< (rows x slots)
+    const int* slot = nullptr;       ///< (columns) the slot of each
+    int columns = 0, rows = 0, slots = 0;
+    bool into_slots = false;
+
+    int count() const { return columns * rows; }
+    STYLOBATE_INLINE void operator()(int i) const
+    {
+        const int row = i / columns, column = i % columns;
+        double& one = packed[static_cast<long>(column) * rows + row];
+        double& other = rows_of_slots[static_cast<long>(row) * slots + slot[column]];
+        if (into_slots)
+            other = one;
+        else
+            one = other;
+    }
+};
+
+/// Marks slots.
+struct MarkSlots {
+    SlotState* state = nullptr; ///< (slots)
+    const int* slot = nullptr;  ///< (count)
+    SlotState mark = SlotState::empty;
+    STYLOBATE_INLINE void operator()(int i) const { state[slot[i]] = mark; }
+};
+
+/// What a device can do at the most: `count` multiply-adds for each index.
+struct MultiplyAdds {
+    double* out = nullptr;
+    long count = 0;
+    STYLOBATE_INLINE void operator()(int i) const { out[i] = multiply_adds<double>(count); }
+};
+
+/// Calls f(AdvanceSlot<...>) of the model and topology that the memory has.
+/// @tparam Here as in `kernel_table`
+template <class Here, class F>
+void with_model(const SlotMemory& m, int chunks, F&& f)
+{
+    const Topology& t = m.topology;
+    const auto of_topology = [&]<class Mechanism, bool stack>() {
+        using Own = OfFile<Here, Mechanism>;
+        t.watched > 0 ? f(AdvanceSlot<Own, true, stack>{m, chunks}) : f(AdvanceSlot<Own, false, stack>{m, chunks});
+    };
+    const auto of_form = [&]<ContactForm form>() {
+        if (t.model.mechanisms)
+            of_topology.template operator()<Extended<form>, false>();
+        else if (t.stack)
+            of_topology.template operator()<Plain<form>, true>();
+        else
+            of_topology.template operator()<Plain<form>, false>();
+    };
+    switch (t.model.form) {
+    case ContactForm::area:
+        return of_form.template operator()<ContactForm::area>();
+    case ContactForm::two_corner:
+        return of_form.template operator()<ContactForm::two_corner>();
+    case ContactForm::points:
+        return of_form.template operator()<ContactForm::points>();
+    }
+}
+
+} // namespace stylobate

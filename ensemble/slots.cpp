@@ -1,0 +1,281 @@
+#include "ensemble/slots.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+
+namespace stylobate {
+
+struct SlotSet::Memory {
+    using Doubles = DeviceArray<double>;
+    using Ints = DeviceArray<int>;
+    using States = DeviceArray<SlotState>;
+
+    Memory(Device& device, std::size_t slots, std::size_t rows, std::size_t table_rows, const Topology& topology)
+        : columns(device, rows * slots), close(device, static_cast<std::size_t>(topology.watched) * slots),
+          state(device, slots), tables(device, chunks_per_launch * table_rows * slots),
+          joints(device, static_cast<std::size_t>(topology.joints)),
+          bed_lists(device, static_cast<std::size_t>(bed_lists_size(topology))),
+          seats(device, static_cast<std::size_t>(topology.beds())), packed(device, rows * slots), list(device, slots),
+          host_packed(device, rows * slots, Doubles::Where::host), host_list(device, slots, Ints::Where::host),
+          host_state(device, slots, States::Where::host)
+    {
+    }
+    Doubles columns; ///< (rows x slots)
+    Ints close;      ///< (watched x slots)
+    States state;
+    Doubles tables;
+    DeviceArray<TopologyJoint> joints;
+    Ints bed_lists, seats;
+    Doubles packed; ///< columns on their way, one after the other
+    Ints list;
+    Doubles host_packed;
+    Ints host_list;
+    States host_state;
+    std::unique_ptr<Doubles> packed_tables, host_tables; ///< once they are needed
+    std::unique_ptr<Ints> all;                           ///< 0, 1, 2 and so on
+};
+
+void SlotSet::each(std::size_t count, const std::function<void(std::size_t)>& f)
+{
+    tbb::parallel_for(std::size_t{0}, count, f);
+}
+
+SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots,
+                 int most)
+    : study_(study), record_(record), pattern_(pattern), device_(device)
+{
+    const LaneSet first(study, record, kernels(Isa::scalar), pattern);
+    const Topology& host = first.topology();
+    rows_ = static_cast<int>(column_rows(host));
+    tables_ = static_cast<int>(table_registers(host));
+    memory_.topology = host;
+    memory_.motion = BaseMotion::formula(study.excitation.kind);
+    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(2 * rows_ + chunks_per_launch * tables_);
+    if (slots <= 0)
+        slots = device.best_slots(memory_, bytes);
+    // a place within the rows is counted by an int
+    slots = std::clamp(std::min(slots, most), 1, std::numeric_limits<int>::max() / std::max(rows_, 1));
+    slots_.resize(static_cast<std::size_t>(slots));
+
+    own_ = std::make_unique<Memory>(device, static_cast<std::size_t>(slots), static_cast<std::size_t>(rows_),
+                                    static_cast<std::size_t>(tables_), host);
+    Memory& own = *own_;
+    std::vector<int> seats;
+    for (int j = 0; j < host.beds(); ++j)
+        if (pattern.blocks[static_cast<std::size_t>(pattern.joints[static_cast<std::size_t>(j)].upper)].role ==
+            BlockRole::epistyle)
+            seats.push_back(j);
+    const auto upload = [&device](auto& to, const auto* from, std::size_t count) {
+        if (count > 0)
+            device.upload(to.data(), from, count * sizeof(*from));
+    };
+    upload(own.joints, host.joint, static_cast<std::size_t>(host.joints));
+    upload(own.bed_lists, host.bed_lists, static_cast<std::size_t>(bed_lists_size(host)));
+    upload(own.seats, seats.data(), seats.size());
+
+    memory_.slots = slots;
+    memory_.topology.joint = own.joints.data();
+    memory_.topology.bed_lists = own.bed_lists.data();
+    memory_.bundle = bind_bundle(memory_.topology, slots, own.columns.data(), own.close.data());
+    const auto stride = static_cast<std::ptrdiff_t>(slots);
+    double* at =
+        own.columns.data() + static_cast<std::ptrdiff_t>(bundle_registers(host) - table_registers(host)) * stride;
+    FormulaParameters& f = memory_.formula;
+    for (double** row : {&f.cycles_per_step, &f.amplitude_m, &f.cycles, &f.phase_cycles, &f.offset,
+                         &f.start_ramps_per_cycle, &f.end_ramps_per_cycle, &f.end_velocity}) {
+        *row = at;
+        at += stride;
+    }
+    memory_.watch = at;
+    memory_.alarms = at + watch_rows * stride;
+    memory_.tables = own.tables.data();
+    memory_.state = own.state.data();
+    memory_.seats = own.seats.data();
+    memory_.seat_count = static_cast<int>(seats.size());
+    // the copies above are from memory that goes away with this call
+    device.download(own.host_state.data(), own.state.data(), sizeof(SlotState));
+}
+
+SlotSet::~SlotSet() = default;
+
+int SlotSet::active() const
+{
+    return static_cast<int>(std::count_if(slots_.begin(), slots_.end(), [](const Slot& s) { return s.busy; }));
+}
+
+void SlotSet::load(int slot, Realization realization)
+{
+    Slot& s = slots_[static_cast<std::size_t>(slot)];
+    if (!s.lane)
+        s.lane = std::make_unique<LaneSet>(study_, record_, kernels(Isa::scalar), pattern_);
+    s.lane->load(0, std::move(realization));
+    s.steps = 0;
+    s.busy = s.changed = true;
+}
+
+void SlotSet::clear(int slot)
+{
+    Slot& s = slots_[static_cast<std::size_t>(slot)];
+    if (s.lane)
+        s.lane->clear(0);
+    s.busy = s.changed = false;
+}
+
+void SlotSet::advance()
+{
+    ended_.clear();
+    close_gaps();
+    upload_columns();
+    if (tables_given_)
+        upload_tables();
+    device_.advance(memory_, chunks_per_launch, used_);
+    take_those_that_ask();
+}
+
+/// The list on the device. Waits for the device only where the host's copy of another list may still be on its way.
+void SlotSet::upload_list(const std::vector<int>& which)
+{
+    std::copy(which.begin(), which.end(), own_->host_list.data());
+    device_.upload(own_->list.data(), own_->host_list.data(), which.size() * sizeof(int));
+}
+
+void SlotSet::move(const std::vector<int>& which, bool into_slots)
+{
+    const MoveColumns task{own_->packed.data(),
+                           own_->columns.data(),
+                           own_->list.data(),
+                           static_cast<int>(which.size()),
+                           rows_,
+                           memory_.slots,
+                           into_slots};
+    device_.run(task, task.count());
+}
+
+void SlotSet::mark(const std::vector<int>& which, SlotState state)
+{
+    device_.run(MarkSlots{own_->state.data(), own_->list.data(), state}, static_cast<int>(which.size()));
+}
+
+/// Once there is nothing left to fill slots with, the busy ones move together: threads side by side then all work.
+void SlotSet::close_gaps()
+{
+    const auto used_end = std::find_if(slots_.rbegin(), slots_.rend(), [](const Slot& s) { return s.busy; });
+    const int end = static_cast<int>(slots_.rend() - used_end);
+    const int busy = active();
+    if (2 * busy > end) {
+        used_ = end;
+        return;
+    }
+    std::vector<int> from, to;
+    for (int i = busy; i < end; ++i)
+        if (slots_[static_cast<std::size_t>(i)].busy)
+            from.push_back(i);
+    for (int i = 0; i < busy; ++i)
+        if (!slots_[static_cast<std::size_t>(i)].busy)
+            to.push_back(i);
+    assert(from.size() == to.size());
+    used_ = busy;
+    if (from.empty())
+        return;
+    upload_list(from);
+    move(from, false);
+    mark(from, SlotState::empty);
+    // (waits: the list is to be written again)
+    device_.download(own_->host_state.data(), own_->state.data(), sizeof(SlotState));
+    upload_list(to);
+    move(to, true);
+    mark(to, SlotState::busy);
+    device_.download(own_->host_state.data(), own_->state.data(), sizeof(SlotState));
+    for (std::size_t i = 0; i < from.size(); ++i)
+        std::swap(slots_[static_cast<std::size_t>(from[i])], slots_[static_cast<std::size_t>(to[i])]);
+}
+
+void SlotSet::upload_columns()
+{
+    std::vector<int> changed;
+    for (int i = 0; i < used_; ++i)
+        if (slots_[static_cast<std::size_t>(i)].changed)
+            changed.push_back(i);
+    if (changed.empty())
+        return;
+    const auto rows = static_cast<std::size_t>(rows_);
+    each(changed.size(), [&](std::size_t i) { lane(changed[i]).write_column(0, own_->host_packed.data() + i * rows); });
+    for (const int slot : changed) {
+        tables_given_ = tables_given_ || lane(slot).tables_given(0);
+        slots_[static_cast<std::size_t>(slot)].changed = false;
+    }
+    device_.upload(own_->packed.data(), own_->host_packed.data(), changed.size() * rows * sizeof(double));
+    upload_list(changed);
+    move(changed, true);
+    mark(changed, SlotState::busy);
+}
+
+/// Tables that the host makes, for all chunks of a launch.
+void SlotSet::upload_tables()
+{
+    Memory& own = *own_;
+    const auto slots = static_cast<std::size_t>(memory_.slots), tables = static_cast<std::size_t>(tables_);
+    const std::size_t column = chunks_per_launch * tables;
+    if (!own.packed_tables) {
+        using Doubles = Memory::Doubles;
+        own.packed_tables = std::make_unique<Doubles>(device_, column * slots);
+        own.host_tables = std::make_unique<Doubles>(device_, column * slots, Doubles::Where::host);
+        own.all = std::make_unique<Memory::Ints>(device_, slots);
+        std::vector<int> all(slots);
+        std::iota(all.begin(), all.end(), 0);
+        device_.upload(own.all->data(), all.data(), slots * sizeof(int));
+        device_.download(own.host_state.data(), own.state.data(), sizeof(SlotState));
+        memory_.tables_given = true;
+    }
+    each(static_cast<std::size_t>(used_), [&](std::size_t slot) {
+        Slot& s = slots_[slot];
+        if (s.busy)
+            for (std::size_t chunk = 0; chunk < chunks_per_launch; ++chunk)
+                s.lane->write_tables(0, s.steps + chunk * chunk_steps,
+                                     own.host_tables->data() + slot * column + chunk * tables);
+    });
+    const auto used = static_cast<std::size_t>(used_);
+    device_.upload(own.packed_tables->data(), own.host_tables->data(), used * column * sizeof(double));
+    const MoveColumns task{own.packed_tables->data(),
+                           own.tables.data(),
+                           own.all->data(),
+                           used_,
+                           static_cast<int>(column),
+                           memory_.slots,
+                           true};
+    device_.run(task, task.count());
+}
+
+void SlotSet::take_those_that_ask()
+{
+    const auto used = static_cast<std::size_t>(used_), rows = static_cast<std::size_t>(rows_);
+    device_.download(own_->host_state.data(), own_->state.data(), used * sizeof(SlotState));
+    std::vector<int> asking;
+    for (std::size_t i = 0; i < used; ++i) {
+        if (own_->host_state[i] == SlotState::asks)
+            asking.push_back(static_cast<int>(i));
+        slots_[i].steps += chunks_per_launch * chunk_steps;
+    }
+    if (asking.empty())
+        return;
+    upload_list(asking);
+    move(asking, false);
+    mark(asking, SlotState::empty);
+    device_.download(own_->host_packed.data(), own_->packed.data(), asking.size() * rows * sizeof(double));
+    each(asking.size(), [&](std::size_t i) {
+        Slot& s = slots_[static_cast<std::size_t>(asking[i])];
+        s.lane->read_column(0, own_->host_packed.data() + i * rows);
+        s.lane->look(0);
+        s.steps = s.lane->steps(0);
+        s.changed = !s.lane->outcome(0); // goes on, and the device is to hear of what the look found
+    });
+    for (const int slot : asking)
+        if (outcome(slot))
+            ended_.push_back(slot);
+}
+
+} // namespace stylobate

@@ -1,0 +1,111 @@
+#pragma once
+/// Many realizations on a device: put into its slots, stepped together, looked at where it matters, and taken out.
+///
+/// What begins and ends a realization is the host's `LaneSet`, of one lane for each slot: it makes the state that the
+/// device steps from. After every chunk the device asks itself whether a look would do anything but count
+/// (`slot_tasks.hpp`). If so, the slot stops, its column comes back, and the host's lane takes it over and looks. So
+/// every decision, and every number of an outcome, is made by the code that the processor's own runs are made by.
+
+#include "ensemble/device.hpp"
+#include "ensemble/lanes.hpp"
+#include "ensemble/slot_tasks.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+/// Memory of a device, or of the host for its copies.
+template <class T>
+class DeviceArray {
+public:
+    enum class Where { device, host };
+    DeviceArray() = default;
+    DeviceArray(Device& device, std::size_t size, Where where = Where::device) : device_(&device), where_(where)
+    {
+        const std::size_t bytes = (size > 0 ? size : 1) * sizeof(T);
+        data_ = static_cast<T*>(where == Where::device ? device.allocate(bytes) : device.allocate_host(bytes));
+    }
+    DeviceArray(const DeviceArray&) = delete;
+    DeviceArray& operator=(const DeviceArray&) = delete;
+    ~DeviceArray()
+    {
+        if (data_ != nullptr)
+            where_ == Where::device ? device_->release(data_) : device_->release_host(data_);
+    }
+    T* data() const { return data_; }
+    T& operator[](std::size_t i) const { return data_[i]; }
+
+private:
+    Device* device_ = nullptr;
+    T* data_ = nullptr;
+    Where where_ = Where::device;
+};
+
+class SlotSet {
+public:
+    /// @param record as in `LaneSet`
+    /// @param slots 0: as many as the device likes;  @param most of them, whatever it likes
+    SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots, int most);
+    ~SlotSet();
+
+    int slots() const { return memory_.slots; }
+    /// Slots below this number are the ones that the device goes through: those above have been emptied for good.
+    int used() const { return used_; }
+    int active() const;
+    const Realization& realization(int slot) const { return lane(slot).realization(0); }
+
+    /// Puts a realization into a slot that is free or has ended. Different slots may be loaded at the same time.
+    void load(int slot, Realization realization);
+    /// Frees a slot. What is busy may move to other slots in the next `advance`, to close the gaps.
+    void clear(int slot);
+
+    /// Steps all busy slots by `chunks_per_launch` chunks, those that end in between by less.
+    void advance();
+    /// Slots whose realizations have ended in the last `advance`, in order.
+    const std::vector<int>& ended() const { return ended_; }
+    const std::optional<Outcome>& outcome(int slot) const { return lane(slot).outcome(0); }
+
+    /// A slot that has ended waits for the end of the launch: at the most 7 of the hundreds of chunks of a realization.
+    static constexpr int chunks_per_launch = 8;
+
+private:
+    struct Slot {
+        std::unique_ptr<LaneSet> lane; ///< of the host
+        std::uint64_t steps = 0;       ///< done
+        bool busy = false;
+        bool changed = false; ///< the device has not its column yet
+    };
+
+    LaneSet& lane(int slot) const { return *slots_[static_cast<std::size_t>(slot)].lane; }
+    /// Calls f(i) for i from 0 to count - 1, on several threads of the host.
+    static void each(std::size_t count, const std::function<void(std::size_t)>& f);
+    void close_gaps();
+    void upload_columns();
+    void upload_tables();
+    void take_those_that_ask();
+    void move(const std::vector<int>& which, bool into_slots);
+    void mark(const std::vector<int>& which, SlotState state);
+    void upload_list(const std::vector<int>& which);
+
+    const Study& study_;
+    const Motion* record_;
+    const Realization pattern_;
+    Device& device_;
+    std::vector<Slot> slots_;
+    int used_ = 0;
+    int rows_ = 0;   ///< of a column
+    int tables_ = 0; ///< numbers of the tables of one chunk
+    bool tables_given_ = false;
+    std::vector<int> ended_;
+    SlotMemory memory_;
+
+    struct Memory; ///< what `memory_` points to, and the host's copies
+    std::unique_ptr<Memory> own_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,153 @@
+#pragma once
+/// What is kept of a realization from look to look, and those parts of a look that are arithmetic alone: they have the
+/// same bits on the processor, whose `LaneSet` decides by them, and on a device, which asks by them whether a look
+/// would change anything.
+
+#include "kernels/bundle.hpp"
+#include "kernels/rows.hpp"
+#include "kernels/trig.hpp"
+
+#include <cstdint>
+
+namespace stylobate {
+
+/// What the energy balance may lack before a realization is set aside, over the energy that went through it.
+inline constexpr double energy_bound = 0.25;
+/// Chunks between two audits: they cost as much as several steps.
+inline constexpr std::uint64_t audit_chunks = 16;
+
+/// Plain numbers of eight bytes each: a column of a device's memory holds them as they are.
+struct Watch {
+    // fixed at the start
+    double step_s = 0;
+    double shaking_end_s = 0; ///< no realization is at rest before
+    double barrier_j = 0;     ///< scale of the energy balance
+    double rest_energy_j = 0; ///< at rest it has less kinetic energy than this,
+    double rest_slip_m = 0;   ///< and slips less than this in a chunk
+    double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0, start_dowel_j = 0;
+    std::uint64_t may_rest = 0;   ///< 1: it ends when it has come to rest
+    std::uint64_t last_step = 0;  ///< a multiple of chunk_steps
+    std::uint64_t rest_steps = 0; ///< needed in a row
+    // from look to look
+    std::uint64_t steps = 0;
+    std::uint64_t quiet = 0;       ///< 1: at the last look it seemed at rest,
+    std::uint64_t quiet_since = 0; ///< and has since this step
+    std::uint64_t quiet_looks = 0;
+    double quiet_top_m = 0; ///< sum over the looks since then
+    double slip_m = 0;      ///< at the last look
+    // what a device has to know of the limit states
+    std::uint64_t undecided = 0; ///< 1: a block has turned too far, and may come back
+    std::uint64_t seated = 0;    ///< 1: epistyles are watched, and none has lost a seat yet
+};
+
+/// Displacement of a block's geometric centre.
+STYLOBATE_INLINE Planar<double> centre_of(const Topology& topology, const Bundle& b, int block, int lane)
+{
+    const double theta = b.at(OfBlock::theta, block, lane);
+    Planar<double> moved{b.at(OfBlock::x, block, lane), b.at(OfBlock::y, block, lane), theta};
+    if (topology.model.extended()) {
+        const Angle<double> a = angle(theta);
+        const double e = b.at(OfBlockExtension::eccentricity, block, lane);
+        moved.x += e * a.versine;
+        moved.y -= e * a.sine;
+    }
+    return moved;
+}
+
+/// Whether all that the next steps depend on is a number: what is not spreads to the energy or to a position at once.
+STYLOBATE_INLINE bool is_finite(const Topology& topology, const Bundle& b, int lane)
+{
+    double sum = 0.5 * b.at(OfRealization::kinetic, lane);
+    for (int k = topology.fixed; k < topology.blocks; ++k)
+        sum += b.at(OfBlock::x, k, lane) + b.at(OfBlock::y, k, lane) + b.at(OfBlock::theta, k, lane);
+    return abs_of(sum) <= 0x1.fffffffffffffp+1023;
+}
+
+STYLOBATE_INLINE double dowel_energy(const Topology& topology, const Bundle& b, int lane)
+{
+    double energy = 0;
+    if (topology.model.extended())
+        for (int j = 0; j < topology.beds(); ++j) {
+            const double force = b.at(OfJointExtension::dowel_force, j, lane);
+            energy += 0.5 * force * force * b.at(OfJointExtension::per_dowel_stiffness, j, lane);
+        }
+    return energy;
+}
+
+/// Of the tangential springs.
+STYLOBATE_INLINE double spring_energy(const Topology& topology, const Bundle& b, int lane)
+{
+    double energy = 0;
+    for (int j = 0; j < topology.joints; ++j) {
+        const double spring = b.at(OfJoint::spring, j, lane);
+        energy += 0.5 * spring * spring * b.at(OfJoint::per_K_t, j, lane);
+    }
+    return energy;
+}
+
+/// [J], against the start but for the kinetic one.
+struct EnergyBalance {
+    double kinetic, potential, spring, friction, damping, base_work;
+    double residual; ///< what the balance lacks, over its scale
+};
+
+/// After the last step of a chunk.
+STYLOBATE_INLINE EnergyBalance energy_balance(const Topology& topology, const Bundle& b, int lane, const Watch& w)
+{
+    const double per_dt2 = 1 / (w.step_s * w.step_s);
+    double normal = 0;
+    for (int j = 0; j < topology.joints; ++j)
+        normal += b.at(OfJoint::elastic, j, lane);
+    const double tangential = spring_energy(topology, b, lane);
+    EnergyBalance o;
+    o.kinetic = 0.5 * b.at(OfRealization::kinetic, lane) * per_dt2;
+    o.potential = b.at(OfRealization::potential, lane) * per_dt2 - w.start_potential_j;
+    o.spring = normal + tangential - w.start_spring_j;
+    o.friction = b.at(OfRealization::friction_energy, lane);
+    o.damping = 0.5 * b.at(OfRealization::dashpot_energy, lane) + 0.5 * b.at(OfRealization::shear_energy, lane) -
+                (tangential - w.start_shear_j) - o.friction;
+    if (topology.model.extended()) {
+        const double held = dowel_energy(topology, b, lane) - w.start_dowel_j;
+        o.spring += held;
+        o.damping += 0.5 * b.at(OfRealizationExtension::joint_energy, lane) - held +
+                     0.5 * b.at(OfRealizationExtension::drag_energy, lane) * per_dt2;
+    }
+    o.base_work = 0.5 * b.at(OfRealization::base_energy, lane) * per_dt2;
+    const double lacks = o.kinetic + o.potential + o.spring + o.friction + o.damping - o.base_work;
+    o.residual = lacks / (w.barrier_j + abs_of(o.friction) + abs_of(o.damping));
+    return o;
+}
+
+/// Whether this look's audit, if one is due, finds the balance out of bounds.
+STYLOBATE_INLINE bool unbalanced(const Topology& topology, const Bundle& b, int lane, const Watch& w)
+{
+    return w.steps % (audit_chunks * chunk_steps) == 0 &&
+           !(abs_of(energy_balance(topology, b, lane, w).residual) < energy_bound);
+}
+
+/// Sees whether the realization lies still.
+/// @return whether it has for so long, or is out of time, that it is over
+STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int lane, bool undecided, Watch& w)
+{
+    const double kinetic = 0.5 * b.at(OfRealization::kinetic, lane) / (w.step_s * w.step_s);
+    const double time = static_cast<double>(w.steps) * w.step_s;
+    const double slip = b.at(OfRealization::slip, lane) - w.slip_m;
+    w.slip_m += slip;
+    const bool slips = slip > w.rest_slip_m;
+    if (time >= w.shaking_end_s && !undecided && !slips && abs_of(kinetic) < w.rest_energy_j) {
+        if (w.quiet == 0) {
+            w.quiet_since = w.steps;
+            w.quiet_top_m = 0;
+            w.quiet_looks = 0;
+        }
+        w.quiet = 1;
+        w.quiet_top_m += centre_of(topology, b, topology.top, lane).x;
+        ++w.quiet_looks;
+    } else {
+        w.quiet = 0;
+    }
+    const bool at_rest = w.may_rest != 0 && w.quiet != 0 && w.steps - w.quiet_since >= w.rest_steps;
+    return at_rest || w.steps >= w.last_step;
+}
+
+} // namespace stylobate
