@@ -76,7 +76,7 @@ StepBound step_bound_to_rest(const Realization& realization);
 /// A longer step that is safe too: of the whole structure instead of its blocks one by one. The largest one for which
 /// 4 M - 2 dt C - dt2 K of all beds at full contact is positive definite (K without gravity, which only softens), to
 /// 1e-4 on the safe side, by Cholesky factors. `step_bound` takes twice the worst block, and adds the worst ones of C
-/// and K; for stacks of drums it asks for about 1.2 times the steps (`docs/work_precision.md`).
+/// and K; for stacks of drums it asks for about 1.3 times the steps (`docs/work_precision.md`).
 ///
 /// Every other state of the contacts must have a part of this K and C. Dashpots at the ends have: of a part s of the
 /// face, s / 2 (f1 + f2) of the squares at its ends is at most the half of those at the ends of the face, since s (2 -
