@@ -379,8 +379,9 @@ void Sampler::watch(const Values& values, Realization& realization) const
 
 double Sampler::step(const Realization& realization) const
 {
-    const StepBound bound =
-        study_.outcome.follow == Follow::rest ? step_bound_to_rest(realization) : step_bound(realization);
+    StepBound bound = study_.outcome.follow == Follow::rest ? step_bound_to_rest(realization) : step_bound(realization);
+    if (study_.run.step_bound == StepBasis::structure)
+        bound = structure_step_bound(realization, bound);
     if (!study_.run.step_s)
         return study_.run.step_fraction * bound.dt_s;
     if (*study_.run.step_s > bound.dt_s && !study_.run.allow_step_above_bound)

@@ -3,6 +3,7 @@
 #include "ensemble/extension.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cassert>
@@ -304,6 +305,7 @@ StepBound step_bound_to_rest(const Realization& r)
         }
     constexpr double steps = 6;
     const double flat_s = 1 / (steps * std::sqrt(w2));
+    bound.flat_s = flat_s;
     if (flat_s < bound.dt_s) {
         bound.dt_s = flat_s;
         bound.governed_by = StepLimit::flat_fall;
@@ -314,52 +316,74 @@ StepBound step_bound_to_rest(const Realization& r)
 
 namespace {
 
-LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
-                           const std::vector<FullContact>& contacts, double gravity_m_s2)
+/// Matrices of the free blocks' displacements (x, y, theta each), all contacts full, without gravity.
+struct Vibration {
+    std::vector<Eigen::Index> first; ///< a block's first unknown, -1: fixed
+    Eigen::MatrixXd K, C;
+    Eigen::MatrixXd opening;   ///< (unknowns x beds) of each bed
+    Eigen::VectorXd root_mass; ///< square roots of the masses and inertias
+};
+
+Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
+                   const std::vector<FullContact>& contacts)
 {
     const std::size_t beds = contacts.size();
-    // unknowns: (x, y, theta) of each free block
-    std::vector<Eigen::Index> first(blocks.size(), -1);
+    Vibration v;
+    v.first.assign(blocks.size(), -1);
     Eigen::Index size = 0;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         if (!blocks[b].fixed) {
-            first[b] = size;
+            v.first[b] = size;
             size += 3;
         }
     }
-
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd opening = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(beds));
+    v.K = v.C = Eigen::MatrixXd::Zero(size, size);
+    v.opening = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(beds));
     for (std::size_t j = 0; j < beds; ++j) {
         const Joint& joint = joints[j];
         const FullContact& contact = contacts[j];
         Eigen::VectorXd slide = Eigen::VectorXd::Zero(size);
         Eigen::VectorXd turn = Eigen::VectorXd::Zero(size);
-        auto open = opening.col(static_cast<Eigen::Index>(j));
+        auto open = v.opening.col(static_cast<Eigen::Index>(j));
         for (const bool upper : {false, true}) {
             const std::size_t b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
             if (blocks[b].fixed)
                 continue;
             const FaceMotion face =
                 face_motion(blocks[b], upper, contact.x - blocks[b].x_m - blocks[b].extension.eccentricity_m);
-            open.segment<3>(first[b]) = face.opening;
-            slide.segment<3>(first[b]) = face.sliding;
-            turn(first[b] + 2) = upper ? 1 : -1;
+            open.segment<3>(v.first[b]) = face.opening;
+            slide.segment<3>(v.first[b]) = face.sliding;
+            turn(v.first[b] + 2) = upper ? 1 : -1;
         }
-        K += contact.k_n * open * open.transpose() + contact.k_t * slide * slide.transpose() +
-             contact.k_theta * turn * turn.transpose();
-        C += contact.c_n * open * open.transpose() + contact.c_t * slide * slide.transpose() +
-             contact.c_theta * turn * turn.transpose();
+        v.K += contact.k_n * open * open.transpose() + contact.k_t * slide * slide.transpose() +
+               contact.k_theta * turn * turn.transpose();
+        v.C += contact.c_n * open * open.transpose() + contact.c_t * slide * slide.transpose() +
+               contact.c_theta * turn * turn.transpose();
     }
+    v.root_mass.resize(size);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (!blocks[b].fixed) {
+            const double root = std::sqrt(blocks[b].mass_kg);
+            v.root_mass.segment<3>(v.first[b]) = Eigen::Vector3d(root, root, std::sqrt(blocks[b].inertia_kg_m2));
+        }
+    return v;
+}
 
-    Eigen::VectorXd root_mass(size);
+LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
+                           const std::vector<FullContact>& contacts, double gravity_m_s2)
+{
+    const std::size_t beds = contacts.size();
+    const Vibration v = assemble(blocks, joints, contacts);
+    const std::vector<Eigen::Index>& first = v.first;
+    const Eigen::MatrixXd &C = v.C, &opening = v.opening;
+    const Eigen::VectorXd& root_mass = v.root_mass;
+    Eigen::MatrixXd K = v.K;
+    const Eigen::Index size = K.rows();
+
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(size);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         if (blocks[b].fixed)
             continue;
-        const double root = std::sqrt(blocks[b].mass_kg);
-        root_mass.segment<3>(first[b]) = Eigen::Vector3d(root, root, std::sqrt(blocks[b].inertia_kg_m2));
         weight(first[b] + 1) = -blocks[b].mass_kg * gravity_m_s2;
     }
 
@@ -396,7 +420,64 @@ LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<J
     return response;
 }
 
+/// Whether all normal dashpots are at the ends of their contacts, so that none of a smaller contact has more of them.
+bool damped_at_ends(const Realization& r)
+{
+    return r.form == ContactForm::area &&
+           std::all_of(r.joints.begin(), r.joints.begin() + r.beds(), [](const Joint& joint) {
+               const JointExtension& e = joint.extension;
+               return (joint.normal_damping_n_s_m == 0 || e.face_damping == 1) && e.rate_s_m == 0;
+           });
+}
+
+/// How long a step is stable where pairs catch a block between them.
+double caught_step(const Realization& r)
+{
+    const CaughtPairs caught = caught_pairs(r.blocks, r.joints, static_cast<std::size_t>(r.beds()));
+    const double w = std::sqrt(caught.w2), z = caught.beta * w / 2;
+    return w > 0 ? 2 / (w * (std::sqrt(1 + z * z) + z)) : std::numeric_limits<double>::infinity();
+}
+
 } // namespace
+
+StepBound structure_step_bound(const Realization& r, StepBound bound)
+{
+    if (!damped_at_ends(r))
+        return bound;
+    std::vector<FullContact> contacts;
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+        const double load = joint.extension.force_exponent < 1 ? least_load : bound_load;
+        contacts.push_back(is_extended(r) ? extended_contact(r, j, load) : full_contact(r.blocks, joint));
+    }
+    const Vibration v = assemble(r.blocks, r.joints, contacts);
+    const Eigen::SparseMatrix<double> K = v.K.sparseView(), C = v.C.sparseView();
+    Eigen::SparseMatrix<double> M(K.rows(), K.cols());
+    M.setIdentity();
+    M.diagonal() = v.root_mass.cwiseAbs2();
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors;
+    factors.analyzePattern(Eigen::SparseMatrix<double>(4 * M + C + K));
+    const auto stable = [&](double dt) {
+        factors.factorize(Eigen::SparseMatrix<double>(4 * M - 2 * dt * C - dt * dt * K));
+        return factors.info() == Eigen::Success;
+    };
+    const double other = std::min(bound.flat_s, caught_step(r));
+    double low = bound.dt_s, high = 2 * low;
+    while (low < other && stable(high)) {
+        low = high;
+        high *= 2;
+    }
+    while (high - low > 1e-4 * low)
+        (stable((low + high) / 2) ? low : high) = (low + high) / 2;
+    bound.dashpot_s = low;
+    bound.dt_s = std::min(low, other);
+    bound.edge_s = std::numeric_limits<double>::infinity(); // the matrices have what is left of them
+    if (bound.dt_s == bound.flat_s)
+        bound.governed_by = StepLimit::flat_fall;
+    else
+        bound.governed_by = v.C.isZero(0) ? StepLimit::stiffness : StepLimit::dashpot;
+    return bound;
+}
 
 LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
                                int watched)

@@ -10,6 +10,7 @@
 
 #include "ensemble/realization.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace stylobate {
@@ -30,6 +31,7 @@ struct StepBound {
     double stiffness_s = 0; ///< full contacts without dashpots: 2 / w
     double dashpot_s = 0;   ///< full contacts with dashpots: (2 / w) (sqrt(1 + z2) - z)
     double edge_s = 0;      ///< dashpots at an edge; infinity where there are none
+    double flat_s = std::numeric_limits<double>::infinity(); ///< of `step_bound_to_rest`: a long face
     StepLimit governed_by = StepLimit::stiffness;
     int block = 0; ///< that sets w
 };
@@ -70,6 +72,20 @@ StepBound step_bound(const Realization& realization);
 /// bound with steps of .9 / w, one of 1440 did with .45 / w; of 96 faster ones one did with .3 / w and none with .15 /
 /// w, whose largest residual was .026. So the bound is 1 / (6 w).
 StepBound step_bound_to_rest(const Realization& realization);
+
+/// A longer step that is safe too: of the whole structure instead of its blocks one by one. The largest one for which
+/// 4 M - 2 dt C - dt2 K of all beds at full contact is positive definite (K without gravity, which only softens), to
+/// 1e-4 on the safe side, by Cholesky factors. `step_bound` takes twice the worst block, and adds the worst ones of C
+/// and K; for stacks of drums it asks for about 1.3 times the steps (`docs/work_precision.md`).
+///
+/// Every other state of the contacts must have a part of this K and C. Dashpots at the ends have: of a part s of the
+/// face, s / 2 (f1 + f2) of the squares at its ends is at most the half of those at the ends of the face, since s (2 -
+/// s) <= 1. A dashpot at the centroid has not (at an edge it works on the rotation too, which it leaves alone at full
+/// contact), and one that keeps its coefficient there still less. So this is for `damping = "ends"` and for no normal
+/// damping; else the bound stays as it is. So do what catches a block between others, and the long face of a lone one.
+///
+/// @param by_block what `step_bound` or `step_bound_to_rest` says
+StepBound structure_step_bound(const Realization& realization, StepBound by_block);
 
 /// The linear vibrations of the whole structure about its static equilibrium, all contacts full, no slip.
 struct LinearResponse {

@@ -279,6 +279,12 @@ struct OutcomeSpec {
     double sliding_threshold = 0.005;      ///< total sliding over drum width below which a column has not slid
 };
 
+/// From what the safe bound of the step is taken (`step_bound.hpp`).
+enum class StepBasis {
+    block,    ///< each block by itself, held by its neighbours
+    structure ///< the whole structure: a longer step
+};
+
 /// What the steps are computed in.
 enum class Precision {
     double_, ///< 53 binary digits
@@ -287,7 +293,8 @@ enum class Precision {
 
 struct RunSpec {
     Precision precision = Precision::double_;
-    double step_fraction = 0.9;          ///< of the safe bound of each realization (see README.md of this folder)
+    double step_fraction = 0.9; ///< of the safe bound of each realization (see README.md of this folder)
+    StepBasis step_bound = StepBasis::block;
     std::optional<double> step_s;        ///< a fixed step instead
     bool allow_step_above_bound = false; ///< run such a step all the same
     double max_invalid_fraction = 0.001; ///< more invalid realizations than this: exit status 3

@@ -152,7 +152,8 @@ void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
 
 RunSpec read_run(const KeyReader& keys)
 {
-    keys.allow_only({"precision", "step_fraction", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
+    keys.allow_only(
+        {"precision", "step_fraction", "step_bound", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
     RunSpec r;
     r.precision = keys.choice_or("precision", precision_names, r.precision);
     if (keys.has("step_fraction") && keys.has("step_s"))
@@ -161,6 +162,7 @@ RunSpec read_run(const KeyReader& keys)
     const Range stable{1e-6, 1, false,
                        "It is a part of the largest safe step; beyond 1 needs run.allow_step_above_bound = true.", 0};
     const Range meant{1e-6, 100, false, stable.hint, 0};
+    r.step_bound = keys.choice_or("step_bound", step_basis_names, r.step_bound);
     r.step_fraction = keys.number_or("step_fraction", r.allow_step_above_bound ? meant : stable, r.step_fraction);
     r.step_s = keys.maybe_number("step_s", {1e-12, 1, false, "Times are in seconds.", 1e-3});
     r.max_invalid_fraction = keys.number_or("max_invalid_fraction", {0, 1, false, "A part of all realizations.", 0.01},

@@ -52,6 +52,8 @@ inline constexpr std::array contact_form_names = {Name<ContactForm>{"area", Cont
                                                   Name<ContactForm>{"points", ContactForm::points}};
 inline constexpr std::array damping_per_names = {Name<DampingPer>{"contact", DampingPer::contact},
                                                  Name<DampingPer>{"chord", DampingPer::chord}};
+inline constexpr std::array step_basis_names = {Name<StepBasis>{"block", StepBasis::block},
+                                                Name<StepBasis>{"structure", StepBasis::structure}};
 inline constexpr std::array spacing_names = {Name<Spacing>{"linear", Spacing::linear},
                                              Name<Spacing>{"log", Spacing::log}};
 inline constexpr std::array distribution_names = {Name<DistributionKind>{"normal", DistributionKind::normal},

@@ -382,6 +382,8 @@ std::string study_text(const Study& study)
         out.number("step_s", *study.run.step_s);
     else
         out.number("step_fraction", study.run.step_fraction);
+    if (study.run.step_bound != StepBasis::block) // results of before there was a choice go on
+        out.word("step_bound", word_for(step_basis_names, study.run.step_bound));
     out.boolean("allow_step_above_bound", study.run.allow_step_above_bound);
     out.number("max_invalid_fraction", study.run.max_invalid_fraction);
     return out.text();

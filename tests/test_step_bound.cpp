@@ -1,5 +1,6 @@
 /// The safe step and the linear vibrations, against published digits and against a stack assembled another way.
 
+#include "ensemble/lanes.hpp"
 #include "ensemble/step_bound.hpp"
 
 #include <Eigen/Dense>
@@ -19,6 +20,7 @@ struct Column {
     double ratio = 1; ///< K_T / (K_N B)
     double xi = 0;
     bool chord = false;
+    bool ends = false; ///< normal dashpots at the ends of the contact
 };
 
 /// A fixed block and equal free ones on it.
@@ -45,6 +47,7 @@ Realization make(const Column& column)
         joint.normal_damping_n_s_m = 2 * column.xi * std::sqrt(k_n * column.mass);
         joint.tangential_damping_n_s_m = 2 * column.xi * std::sqrt(column.ratio * k_n * column.mass);
         joint.damping_chord_m = column.chord ? column.width : 0;
+        joint.extension.face_damping = column.ends ? 1 : 0;
         r.joints.push_back(joint);
     }
     r.drums = column.free_blocks + 1;
@@ -120,8 +123,14 @@ Matrices springs(const Realization& r, const std::vector<Part>& parts)
         const Eigen::VectorXd open = relative(true, middle);
         const double share = joint.damping_chord_m > 0 ? 2 * half / joint.damping_chord_m : 1;
         m.K += joint.tangential_stiffness_n_m * slide * slide.transpose();
-        m.C += share * (joint.normal_damping_n_s_m * open * open.transpose() +
-                        joint.tangential_damping_n_s_m * slide * slide.transpose());
+        m.C += share * joint.tangential_damping_n_s_m * slide * slide.transpose();
+        if (joint.extension.face_damping == 0)
+            m.C += share * joint.normal_damping_n_s_m * open * open.transpose();
+        else
+            for (const double side : {-half, half}) {
+                const Eigen::VectorXd end = relative(true, middle + side);
+                m.C += half / (2 * b) * joint.normal_damping_n_s_m * end * end.transpose();
+            }
     }
     return m;
 }
@@ -364,5 +373,102 @@ TEST(StepBound, OffsetBlocks)
         for (Block& block : r.blocks)
             block.x_m = uniform(random);
         EXPECT_LE(step_bound(r.blocks, r.joints).dt_s, linear_response(r.blocks, r.joints, 0).step_s);
+    }
+}
+
+StepBound structure_bound(const Column& column)
+{
+    const Realization r = make(column);
+    return structure_step_bound(r, step_bound(r));
+}
+
+TEST(StructureStepBound, IsTheExactCriticalStepAtFullContact)
+{
+    for (const int n : {1, 2, 6, 12})
+        for (const double ratio : {0.2, 1.0, 4.0})
+            for (const double xi : {0.0, 0.05, 0.1, 0.3, 0.5, 1.0}) {
+                Column column = with(spec, 1e8, xi);
+                column.free_blocks = n;
+                column.ratio = ratio;
+                column.ends = true;
+                // from the eigenvalues of the companion matrix, another way altogether, with the weight's 1e-5
+                const double exact = linear_response(make(column)).step_s;
+                const double got = structure_bound(column).dt_s;
+                EXPECT_LE(got, exact * (1 + 1e-9)) << n << ' ' << ratio << ' ' << xi;
+                EXPECT_GE(got, exact * (1 - 2e-4)) << n << ' ' << ratio << ' ' << xi;
+            }
+}
+
+TEST(StructureStepBound, IsSafeForPartialContactsAndLongerThanThatOfTheBlocks)
+{
+    std::mt19937_64 random(17);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int trial = 0; trial < 2000; ++trial) {
+        Column column = spec;
+        column.free_blocks = 1 + trial % 7;
+        column.height = column.width * std::exp(std::log(0.2) + uniform(random) * std::log(40.0));
+        column.ratio = std::exp(std::log(0.1) + uniform(random) * std::log(50.0));
+        column.xi = trial % 3 == 0 ? 0 : 0.5 * uniform(random);
+        column.chord = trial % 2 == 1;
+        column.ends = true;
+        std::vector<Part> parts;
+        for (int j = 0; j < column.free_blocks; ++j) {
+            const double length = 2 * std::pow(uniform(random), 3);
+            const double kind = uniform(random);
+            parts.push_back(kind < 0.4 ? Part{-1, -1 + length} : kind < 0.8 ? Part{1 - length, 1} : Part{});
+        }
+        const double dt = structure_bound(column).dt_s;
+        EXPECT_GE(dt, step_bound(make(column)).dt_s * (1 - 1e-9)) << trial;
+        EXPECT_TRUE(stable(springs(make(column), parts), dt * (1 - 1e-9))) << trial;
+    }
+}
+
+TEST(StructureStepBound, LeavesDashpotsElsewhereAlone)
+{
+    Realization r = make(with(spec, 1e8, 0.1));
+    EXPECT_EQ(structure_step_bound(r, step_bound(r)).dt_s, step_bound(r).dt_s);
+    r.form = ContactForm::two_corner;
+    EXPECT_EQ(structure_step_bound(r, step_bound(r)).dt_s, step_bound(r).dt_s);
+    r.form = ContactForm::area;
+    for (Joint& joint : r.joints)
+        joint.extension.face_damping = 1; // at the ends, in proportion to the contact's length
+    EXPECT_GT(structure_step_bound(r, step_bound(r)).dt_s, 1.1 * step_bound(r).dt_s);
+}
+
+/// The engine itself: a stack at rest, in which rounding alone is there to grow.
+TEST(StructureStepBound, LargestStableStepOfTheEngineIsJustAboveIt)
+{
+    for (const double xi : {0.05, 0.1, 0.3, 0.5}) {
+        Column column = with(spec, 1e8, xi);
+        column.ends = true;
+        Realization r = make(column);
+        for (std::size_t i = 0; i < r.blocks.size(); ++i)
+            r.blocks[i].half_width_m *= 1 - 2e-3 * static_cast<double>(i); // no two sides are flush
+        for (Joint& joint : r.joints)
+            joint.friction = 0.68;
+        const double bound = structure_step_bound(r, step_bound(r)).dt_s;
+        Study study;
+        study.excitation.kind = ExcitationKind::none;
+        study.excitation.duration_s = 1000;
+        const auto grows = [&](double dt) {
+            r.step_s = dt;
+            LaneSet set(study, nullptr, kernels(Isa::scalar), r);
+            set.load(0, r);
+            const Snapshot rest = set.snapshot(0);
+            for (int n = 0; n < 100; ++n)
+                set.advance();
+            const Snapshot now = set.snapshot(0);
+            double moved = 0;
+            for (std::size_t i = 0; i < now.x_m.size(); ++i)
+                moved = std::max({moved, std::abs(now.x_m[i] - rest.x_m[i]), std::abs(now.y_m[i] - rest.y_m[i])});
+            return !(moved < 1e-8);
+        };
+        double low = 0.7 * bound, high = 1.5 * bound;
+        EXPECT_FALSE(grows(low)) << xi;
+        EXPECT_TRUE(grows(high)) << xi;
+        while (high - low > 2e-3 * bound)
+            (grows((low + high) / 2) ? high : low) = (low + high) / 2;
+        EXPECT_GT(low / bound, 0.995) << xi;
+        EXPECT_LT(high / bound, 1.06) << xi;
     }
 }

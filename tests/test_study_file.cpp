@@ -128,6 +128,7 @@ TEST(StudyFile, ReadsEveryValueAndFillsInTheDefaults)
     EXPECT_EQ(study.outcome.collapse_height_fraction, 0.6);
     EXPECT_EQ(study.run.precision, Precision::double_);
     EXPECT_EQ(study.run.step_fraction, 0.9);
+    EXPECT_EQ(study.run.step_bound, StepBasis::block);
     EXPECT_FALSE(study.run.step_s);
     EXPECT_FALSE(study.run.allow_step_above_bound);
     EXPECT_EQ(study.run.max_invalid_fraction, 0.001);
@@ -370,6 +371,9 @@ TEST(StudyFile, RefusesContradictions)
     lines[13] = "friction = 0.68\nnormal_damping_n_s_m = 3";
     lines[21] = "damping_ratio = { distribution = \"log_uniform\", from = 0.05, to = 0.5 }";
     expect_refused(joined(lines), "temple.toml:22", {"perturbation.damping_ratio", "damping coefficient"});
+    lines = surface_lines();
+    lines[21] += "\n[run]\nstep_bound = \"joint\"";
+    expect_refused(joined(lines), "temple.toml:23", {"run.step_bound", "\"block\", \"structure\""});
     lines = surface_lines();
     lines[21] += "\n[run]\nstep_fraction = 0.5\nstep_s = 1e-5";
     expect_refused(joined(lines), "temple.toml:24", {"run.step_s", "exclude each other"});

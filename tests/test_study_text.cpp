@@ -100,7 +100,8 @@ friction = 0.68
     studies.push_back(
         single(still, {"structure.capital={ width_m = 0.05, height_m = 0.01, mass_kg = 0.1, offset_m = 0.001, "
                        "friction = 0.3, normal_stiffness_n_m2 = 1e9, tangential_stiffness_n_m = 1e8 }"}));
-    studies.push_back(single(still, {"run.allow_step_above_bound=true", "run.step_fraction=1.001"}));
+    studies.push_back(
+        single(still, {"run.allow_step_above_bound=true", "run.step_fraction=1.001", "run.step_bound=structure"}));
     return studies;
 }
 
@@ -217,6 +218,7 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [&](Study& s) { up(s.outcome.sliding_threshold); },
         [](Study& s) { s.run.precision = Precision::single; },
         [&](Study& s) { up(s.run.step_fraction); },
+        [](Study& s) { s.run.step_bound = StepBasis::structure; },
         [](Study& s) { s.run.step_s = 1e-5; },
         [](Study& s) { s.run.allow_step_above_bound = true; },
         [&](Study& s) { up(s.run.max_invalid_fraction); },

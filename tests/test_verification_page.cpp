@@ -45,6 +45,11 @@ TEST(Convergence, FindsOrderAndLimit)
     }
     EXPECT_NEAR(convergence("K", "v", at, value, 3).order, -0.5, 1e-9);
     EXPECT_NEAR(aitken(value), 3, 1e-12);
+    EXPECT_NEAR(richardson({value[0], value[1]}, 100, {0.5}), 3, 1e-12);
+    for (std::size_t i = 0; i < at.size(); ++i)
+        value[i] -= 7 / std::cbrt(at[i]);
+    EXPECT_NEAR(richardson(value, 100, {0.5, 1 / 3.0}), 3, 1e-12);
+    EXPECT_GT(std::fabs(aitken(value) - 3), 1e-4) << "two powers are no geometric series";
 }
 
 TEST(Page, PutsFailuresFirstAndCountsThem)
@@ -70,6 +75,25 @@ TEST(Page, PutsFailuresFirstAndCountsThem)
     EXPECT_LT(text.find("### Bad: failed"), text.find("### Good: passed"));
     EXPECT_NE(text.find("it broke"), std::string::npos);
     EXPECT_NE(text.find("two \\| three"), std::string::npos) << "a bar would end the cell";
+}
+
+TEST(Page, GivesTheLimitOfAGeometricSeries)
+{
+    const auto text = [](std::vector<double> at) {
+        Case converging{"Converging", "B", "right", "o", "t", [=] {
+                            Finding f;
+                            std::vector<double> value;
+                            for (double K : at)
+                                value.push_back(3 + 50 / std::sqrt(K));
+                            f.convergences.push_back(convergence("K", "v", at, value, 3.001));
+                            return f;
+                        }};
+        return page(run_cases({converging}), "images/", "Made here.");
+    };
+    const std::string geometric = text({1e6, 1e8, 1e10});
+    EXPECT_NE(geometric.find("| limit of the last three | exact |"), std::string::npos) << geometric;
+    EXPECT_NE(geometric.find("| -0.001 | order"), std::string::npos) << geometric;
+    EXPECT_EQ(text({1e6, 1e8, 1e9}).find("limit of"), std::string::npos) << "no one factor";
 }
 
 TEST(Cases, HaveNamesOfTheirOwnAndSayWhatTheyAre)

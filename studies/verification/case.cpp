@@ -45,6 +45,18 @@ double aitken(const std::vector<double>& values)
     return values[n - 1] + d2 * d2 / (d1 - d2);
 }
 
+double richardson(std::vector<double> values, double factor, const std::vector<double>& exponents)
+{
+    assert(values.size() == exponents.size() + 1 && "each value takes one power away");
+    for (const double exponent : exponents) {
+        const double ratio = std::pow(factor, exponent);
+        for (std::size_t i = 0; i + 1 < values.size(); ++i)
+            values[i] = (ratio * values[i + 1] - values[i]) / (ratio - 1);
+        values.pop_back();
+    }
+    return values.front();
+}
+
 bool Finding::passed() const
 {
     bool all = !checks.empty();

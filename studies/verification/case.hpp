@@ -40,6 +40,11 @@ Convergence convergence(std::string parameter, std::string quantity, std::vector
 /// factor (Aitken); with `values` longer than three, of the last three.
 double aitken(const std::vector<double>& values);
 
+/// The limit of values whose errors are a sum of powers of the parameter, which grows by `factor` from one value to the
+/// next (Richardson): c1 / parameter^exponents[0] + c2 / parameter^exponents[1] + ...
+/// @pre one value more than exponents
+double richardson(std::vector<double> values, double factor, const std::vector<double>& exponents);
+
 /// A picture to be drawn with `io/gnuplot.hpp`.
 struct Picture {
     std::string name; ///< of the file, without folder and extension

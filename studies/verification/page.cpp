@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <tbb/parallel_for.h>
 
 namespace stylobate::verification {
@@ -51,17 +52,30 @@ std::string table(const std::vector<Check>& checks)
     return text;
 }
 
+/// Aitken's limit of the last three, where the parameter grows by one factor; else not a number.
+double limit(const Convergence& c)
+{
+    const std::size_t n = c.at.size();
+    if (n < 3 || std::fabs(c.at[n - 1] / c.at[n - 2] - c.at[n - 2] / c.at[n - 3]) > 1e-6 * c.at[n - 1] / c.at[n - 2])
+        return std::numeric_limits<double>::quiet_NaN();
+    return aitken(c.value);
+}
+
 std::string table(const Convergence& c)
 {
     std::string text = fmt::format("\n| {} |", cell(c.parameter));
     std::string rule = "|---|", row = fmt::format("| {} |", cell(c.quantity)), error = "| error |";
-    for (std::size_t i = 0; i < c.at.size(); ++i) {
-        const double e = c.value[i] - c.exact;
-        text += fmt::format(" {:.3g} |", c.at[i]);
+    const auto column = [&](const std::string& head, double value) {
+        const double e = value - c.exact;
+        text += fmt::format(" {} |", head);
         rule += "---|";
-        row += fmt::format(" {} |", number(c.value[i], std::fabs(e)));
+        row += fmt::format(" {} |", number(value, std::fabs(e)));
         error += fmt::format(" {:+.2g} |", e);
-    }
+    };
+    for (std::size_t i = 0; i < c.at.size(); ++i)
+        column(fmt::format("{:.3g}", c.at[i]), c.value[i]);
+    if (const double all = limit(c); std::isfinite(all))
+        column("limit of the last three", all);
     return text + fmt::format(" exact |\n{}---|\n{} {:.8g} |\n{} order {:.2f} |\n", rule, row, c.exact, error, c.order);
 }
 
@@ -130,7 +144,8 @@ std::string page(const std::vector<RunCase>& runs, const std::string& images, co
         "computed elsewhere; only where it says so is the program compared with itself at another step. Two different "
         "questions are asked: whether "
         "the program solves *its* equations (these hold to many digits), and how far those are from rigid blocks "
-        "(these converge as the contact stiffness K_N grows, slowly: the tables give the order).\n\n"
+        "(these converge as the contact stiffness K_N grows, slowly: the tables give the order, and "
+        "the limit that the last three values have if their errors form a geometric series).\n\n"
         "SPEC is a column of six free drums of 48 x 29 mm and 0.1355 kg on a fixed one, MONO the same as one block of "
         "48 x 174 mm, COLO two columns of 60 x 100 mm (0.75 kg) that carry a block of 150 x 60 mm (1.14 kg). "
         "alpha = atan(width / height), p = sqrt(3 g / (4 R)), eta = a / (g tan alpha), xi the damping ratio of the "
