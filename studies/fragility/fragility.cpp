@@ -18,8 +18,6 @@ namespace {
 
 static_assert(fewest_motions == static_cast<int>(least_records));
 constexpr std::size_t grid_points = 60;
-/// Of the tests of sufficiency: a finding by chance is to be rare among some dozen of them.
-constexpr double sufficiency_level = 0.99;
 
 /// Where a realization stands in the design.
 struct Place {
@@ -209,34 +207,30 @@ private:
         return dispersion_shares(runs);
     }
 
-    /// Which measure tells most of the collapse, and whether it tells all.
+    /// Which measure tells most of the collapse, and whether it tells all that scaling does not change.
     void rank(const std::vector<std::uint8_t>& reached)
     {
-        const double trials = static_cast<double>(reached.size());
-        const double ones = static_cast<double>(std::count(reached.begin(), reached.end(), 1));
-        if (ones == 0 || ones == trials)
+        const auto ones = std::count(reached.begin(), reached.end(), 1);
+        if (ones == 0 || ones == static_cast<std::ptrdiff_t>(reached.size()))
             return;
-        const double constant = ones * std::log(ones / trials) + (trials - ones) * std::log(1 - ones / trials);
-        std::vector<std::string> scaling, fixed;
-        for (std::size_t m = 0; m < header_.motions.measures.size(); ++m)
-            (header_.motions.exponent[m] > 0 ? scaling : fixed).push_back(header_.motions.measures[m]);
-        out_.measures.resize(scaling.size());
-        tbb::parallel_for(std::size_t{0}, scaling.size(), [&](std::size_t m) {
-            MeasureFit& fit = out_.measures[m];
-            fit.measure = scaling[m];
-            fit.curve = fragility_curve(data({scaling[m]}, reached), {});
-            fit.information = (fit.curve.log_likelihood - constant) / trials;
-            for (const std::string& covariate : fixed) {
-                CurveOptions both;
-                both.level = sufficiency_level;
-                const FragilityCurve curve = fragility_curve(data({scaling[m], covariate}, reached), both);
-                if (curve.maximum == Maximum::inside &&
-                    (curve.coefficients[2].records.lower > 0 || curve.coefficients[2].records.upper < 0))
-                    fit.insufficient.push_back(covariate);
+        std::vector<bool> seen(out_.motions);
+        for (const Place& p : places_)
+            seen[p.motion] = true;
+        std::vector<std::string> scaling, features;
+        std::vector<std::vector<double>> values;
+        for (std::size_t m = 0; m < header_.motions.measures.size(); ++m) {
+            const std::string& name = header_.motions.measures[m];
+            if (header_.motions.exponent[m] > 0) {
+                scaling.push_back(name);
+                continue;
             }
-        });
-        std::stable_sort(out_.measures.begin(), out_.measures.end(),
-                         [](const MeasureFit& a, const MeasureFit& b) { return a.information > b.information; });
+            features.push_back(name);
+            values.emplace_back();
+            for (std::size_t motion = 0; motion < out_.motions; ++motion)
+                if (seen[motion])
+                    values.back().push_back(measured(motion, name));
+        }
+        out_.measures = ranked_measures(data(scaling, reached), scaling, features, values);
     }
 
     const ResultHeader& header_;

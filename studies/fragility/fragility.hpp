@@ -5,6 +5,7 @@
 #include "ensemble/estimators/dispersion_shares.hpp"
 #include "ensemble/estimators/fragility_curve.hpp"
 #include "ensemble/estimators/lack_of_fit.hpp"
+#include "ensemble/estimators/measure_ranking.hpp"
 #include "ensemble/estimators/stripe_shares.hpp"
 #include "ensemble/study.hpp"
 #include "io/result_store.hpp"
@@ -16,15 +17,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// How well a measure of the shaking tells whether a limit state is reached.
-struct MeasureFit {
-    std::string measure;
-    FragilityCurve curve;   ///< lognormal in this measure
-    double information = 0; ///< log likelihood gained over a constant probability, per realization [nats]
-    /// What motions differ in besides, and tells more: the covariates whose coefficient beside this measure is not 0.
-    std::vector<std::string> insufficient;
-};
 
 struct StateFragility {
     DamageState state;
@@ -44,8 +36,8 @@ struct Fragility {
     std::uint64_t valid = 0, invalid = 0;
     std::vector<double> grid; ///< intensities at which curves are given
     std::vector<StateFragility> states;
-    std::vector<MeasureFit> measures; ///< of the collapse, the most efficient first
-    std::vector<std::string> says;    ///< what a reader must know of the whole
+    std::vector<RankedMeasure> measures; ///< of the collapse, the most efficient first
+    std::vector<std::string> says;       ///< what a reader must know of the whole
 };
 
 /// @throws InputError if the results are of another kind of study

@@ -89,9 +89,9 @@ std::string fragility_text(const Fragility& f)
             text += fmt::format("      scatter at a given intensity: {}\n", share_text(*s.shares));
     }
     if (!f.measures.empty()) {
-        const MeasureFit& best = f.measures.front();
-        text += fmt::format("  the collapse is told best by {}: dispersion {} ({})\n", describe_measure(best.measure),
-                            number(best.curve.dispersion.value), interval(best.curve.dispersion.records));
+        const RankedMeasure& best = f.measures.front();
+        text += fmt::format("  the collapse is told best by {}: dispersion {} ({})\n", describe_measure(best.name),
+                            number(best.dispersion), interval(best.dispersion_limits));
     }
     for (const std::string& line : f.says)
         text += "  " + line + "\n";
@@ -142,15 +142,25 @@ Json fragility_json(const Fragility& f)
         states.item(state.member("says", says));
     }
     Json measures = Json::list();
-    for (const MeasureFit& m : f.measures) {
-        Json insufficient = Json::list();
-        for (const std::string& name : m.insufficient)
-            insufficient.item(name);
+    for (const RankedMeasure& m : f.measures) {
+        Json features = Json::list();
+        for (const Sufficiency& feature : m.sufficiency)
+            features.item(Json::object()
+                              .member("feature", feature.feature)
+                              .member("coefficient", feature.coefficient)
+                              .member("lower", feature.limits.lower)
+                              .member("upper", feature.limits.upper)
+                              .member("p", feature.p_value));
         measures.item(Json::object()
-                          .member("measure", m.measure)
-                          .member("dispersion", limits_json(m.curve.dispersion))
-                          .member("information_nats", m.information)
-                          .member("insufficient_beside", insufficient));
+                          .member("measure", m.name)
+                          .member("dispersion", m.dispersion)
+                          .member("dispersion_lower", m.dispersion_limits.lower)
+                          .member("dispersion_upper", m.dispersion_limits.upper)
+                          .member("gain_nats", m.gain)
+                          .member("behind_lower_nats", m.behind.lower)
+                          .member("behind_upper_nats", m.behind.upper)
+                          .member("sufficient", m.sufficient)
+                          .member("features", features));
     }
     Json says = Json::list();
     for (const std::string& line : f.says)
@@ -213,19 +223,22 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
     if (f.measures.empty())
         return;
     page.heading("Which measure tells most of the collapse");
-    HtmlTable ranks{"lrrrl", {"measure", "dispersion", "95 %", "information", "not sufficient beside"}, {}, ""};
-    for (const MeasureFit& m : f.measures) {
+    HtmlTable ranks{
+        "lrrrrl", {"measure", "dispersion", "95 %", "information", "behind the best", "tells not all beside"}, {}, ""};
+    for (const RankedMeasure& m : f.measures) {
         std::string beside;
-        for (const std::string& name : m.insufficient)
-            beside += (beside.empty() ? "" : ", ") + describe_measure(name);
-        ranks.rows.push_back({describe_measure(m.measure), number(m.curve.dispersion.value),
-                              interval(m.curve.dispersion.records), fmt::format("{:.3f}", m.information),
-                              beside.empty() ? "–" : beside});
+        const double level = 0.05 / static_cast<double>(std::max<std::size_t>(m.sufficiency.size(), 1));
+        for (const Sufficiency& feature : m.sufficiency)
+            if (feature.p_value < level)
+                beside += (beside.empty() ? "" : ", ") + describe_measure(feature.feature);
+        ranks.rows.push_back({describe_measure(m.name), number(m.dispersion), interval(m.dispersion_limits),
+                              fmt::format("{:.3f}", m.gain), interval(m.behind), beside.empty() ? "–" : beside});
     }
     page.table(ranks);
-    page.note("The smaller the dispersion, the more efficient a measure; information: log likelihood gained over a "
-              "constant probability, in nats a realization. A measure is not sufficient where what motions differ in "
-              "besides still shifts the curve (99 %, by the motions).");
+    page.note(
+        "Information: log likelihood gained over the mean share, in nats a realization; behind the best: by how "
+        "much, 95 %, by the motions. A measure tells not all where what motions differ in besides still shifts the "
+        "curve (5 %, all looked at together).");
 }
 
 } // namespace stylobate
