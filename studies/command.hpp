@@ -30,8 +30,8 @@ struct CommonOptions {
 
 /// What `export` is asked for; empty, or -1: not said.
 struct ExportOptions {
-    std::string format;              ///< "csv" or "png"
-    std::string picture;             ///< "surface", "slice", "strip" or "order"
+    std::string format;              ///< "csv", "png", "nrml" or "json"
+    std::string picture;             ///< "surface", "slice", "fragility", "strip" or "order"
     std::string output;              ///< file of the picture, folder of the tables
     std::string limit;               ///< limit state of a surface or slice
     long long realization = -1;      ///< of a strip

@@ -1,11 +1,13 @@
 /// `stylobate export`: results in other tools' formats.
 
 #include "ensemble/input_error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/export_csv.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/fragility/exchange.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/json.hpp"
 #include "studies/limit_state.hpp"
@@ -79,8 +81,26 @@ fs::path export_csv(const std::string& results, const std::string& output)
     const ResultReader reader(results);
     const fs::path folder = output.empty() ? beside(results, "_csv") : fs::path(output);
     write_csv(folder, reader.header(), reader.rows(), reader.complete() ? reader.surface() : SurfaceTable{});
+    if (reader.header().kind == "fragility" && reader.complete()) {
+        write_whole(folder / "motions.csv", motions_csv(reader.header().motions));
+        const Fragility fragility = fragility_of(reader, results);
+        if (!fragility.states.empty())
+            write_models(fragility_models(fragility, fs::path(results).stem().string()), "csv", folder);
+    }
     for (const std::uint64_t index : reader.trajectory_indices())
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
+    return folder;
+}
+
+/// Fragility functions for other tools.
+fs::path export_models(const std::string& results, const ExportOptions& wanted)
+{
+    const ResultReader reader(results);
+    if (!reader.complete())
+        throw InputError(results + ": the study is not finished; run it again to go on");
+    const fs::path folder = wanted.output.empty() ? beside(results, "_" + wanted.format) : fs::path(wanted.output);
+    write_models(fragility_models(fragility_of(reader, results), fs::path(results).stem().string()), wanted.format,
+                 folder);
     return folder;
 }
 
@@ -89,13 +109,15 @@ fs::path export_csv(const std::string& results, const std::string& output)
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted)
 {
     check_output(results, wanted.output);
-    const bool csv = wanted.format == "csv";
-    if (csv && !(wanted.limit.empty() && wanted.picture.empty() && wanted.cell < 0))
+    const bool csv = wanted.format == "csv", png = wanted.format == "png";
+    if (!png && !(wanted.limit.empty() && wanted.picture.empty() && wanted.cell < 0))
         throw InputError(fmt::format("{}: is for --to png; the tables hold every realization and every limit state",
                                      !wanted.limit.empty()     ? "--limit " + wanted.limit
                                      : !wanted.picture.empty() ? "--picture " + wanted.picture
                                                                : fmt::format("--cell {}", wanted.cell)));
-    const fs::path written = csv ? export_csv(results, wanted.output) : export_png(options, results, wanted);
+    const fs::path written = png   ? export_png(options, results, wanted)
+                             : csv ? export_csv(results, wanted.output)
+                                   : export_models(results, wanted);
     if (options.json)
         fmt::print("{}\n", Json::object().member("written", written.string()).text());
     else if (!options.quiet)

@@ -164,7 +164,9 @@ int main(int argc, char** argv)
     ExportOptions wanted;
     auto* exporting = app.add_subcommand("export", "write a result in other formats");
     exporting->add_option("RESULTS", results, "results file (HDF5)")->required();
-    exporting->add_option("--to", wanted.format, "csv or png")->required()->check(CLI::IsMember({"csv", "png"}));
+    exporting->add_option("--to", wanted.format, "csv, png, or of fragility studies nrml or json")
+        ->required()
+        ->check(CLI::IsMember({"csv", "png", "nrml", "json"}));
     exporting
         ->add_option("--picture", wanted.picture,
                      "png: surface, slice, fragility, strip or order (default: the study's, or strip if there is none)")
@@ -179,7 +181,7 @@ int main(int argc, char** argv)
         ->check(CLI::Range(0LL, 999999999999LL));
     exporting->add_option("--frequency", wanted.frequencies, "slice: frequencies in Hz (default: three over the axis)")
         ->delimiter(',');
-    exporting->add_option("-o,--output", wanted.output, "the picture, or the folder of the CSV files");
+    exporting->add_option("-o,--output", wanted.output, "the picture, or the folder of the files");
     add_common(*exporting, options);
     exporting->callback([&] { status = export_command(options, results, wanted); });
 

@@ -1,6 +1,7 @@
 #include "studies/report_study.hpp"
 
 #include "ensemble/mechanism_spec.hpp"
+#include "ensemble/motion_set.hpp"
 #include "ensemble/structure.hpp"
 #include "io/study_names.hpp"
 
@@ -107,6 +108,14 @@ std::string excitation_text(const Study& study)
 {
     const ExcitationSpec& e = study.excitation;
     std::string text = excitation_name(e.kind);
+    if (const std::optional<FragilitySpec>& f = study.fragility) {
+        text += fmt::format(": {} motions", f->motions);
+        if (e.frequency_hz > 0)
+            text += fmt::format(" about {:.4g} Hz", e.frequency_hz);
+        return text + (f->method == FragilityMethod::cloud
+                           ? fmt::format(", each {:.4g} times as strong as it stands", f->scale)
+                           : "; " + measure_name(f->measure, f->period_s) + ": " + axis_text(f->intensity, ""));
+    }
     if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)
         text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
     if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)

@@ -1,0 +1,156 @@
+#include "studies/fragility/exchange.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/fragility_exchange.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace stylobate {
+
+namespace {
+
+using Kind = DamageState::Kind;
+
+struct Group {
+    const char* id;
+    const char* describe;
+    Kind first;
+};
+constexpr Group groups[] = {{"peak", "peak displacement of the top over the width at the base", Kind::peak},
+                            {"residual", "residual dislocation of a joint over its width", Kind::residual},
+                            {"seat", "seats of epistyles", Kind::unseated}};
+
+/// OpenQuake's name.
+std::string measure_of(const std::string& name)
+{
+    static const std::pair<const char*, const char*> names[] = {
+        {"pga_m_s2", "PGA"}, {"pgv_m_s", "PGV"}, {"pgd_m", "PGD"}, {"arias_m_s", "IA"}, {"cav_m_s", "CAV"}};
+    for (const auto& [own, theirs] : names)
+        if (name == own)
+            return theirs;
+    return fmt::format("SA({})", name.substr(3, name.find("s_m") - 3));
+}
+
+FragilityValue value_of(const CurveEstimate& e)
+{
+    return {e.value, e.records.lower, e.records.upper};
+}
+
+FragilityFunction lognormal(const Fragility& f, const std::vector<const StateFragility*>& states)
+{
+    FragilityFunction function;
+    function.id = "lognormal";
+    function.measure = measure_of(f.measure);
+    function.least = f.grid.front();
+    function.most = f.grid.back();
+    for (const StateFragility* s : states) {
+        function.states.push_back({value_of(s->curve.median), value_of(s->curve.dispersion), {}});
+        if (s->fit.p_value < 0.05)
+            function.note += s->state.name + ": " + s->fit.says + " ";
+    }
+    return function;
+}
+
+FragilityFunction stripes(const Fragility& f, const std::vector<const StateFragility*>& states)
+{
+    FragilityFunction function;
+    function.id = "stripes";
+    function.measure = measure_of(f.measure);
+    function.discrete = true;
+    for (const StripeShare& share : states.front()->stripes->stripes)
+        function.intensity.push_back(share.intensity);
+    for (const StateFragility* s : states) {
+        FragilityState state;
+        for (const StripeShare& share : s->stripes->stripes)
+            state.probability.push_back({share.share, share.limits.lower, share.limits.upper});
+        function.states.push_back(std::move(state));
+    }
+    return function;
+}
+
+} // namespace
+
+std::vector<FragilityModel> fragility_models(const Fragility& f, const std::string& study)
+{
+    std::vector<FragilityModel> models;
+    for (const Group& group : groups) {
+        std::vector<const StateFragility*> states;
+        for (const StateFragility& s : f.states)
+            if (s.state.kind == group.first || s.state.kind == Kind::collapse || s.state.kind == Kind::total)
+                states.push_back(&s);
+        if (states.empty() || states.front()->state.kind != group.first)
+            continue;
+        FragilityModel model;
+        model.id = group.id;
+        model.description = fmt::format("{}: {}; {} motions, {} structures under each; intervals by the motions", study,
+                                        group.describe, f.motions, f.structures);
+        for (const StateFragility* s : states)
+            model.limit_states.push_back(s->state.name);
+        if (states.front()->stripes)
+            model.functions.push_back(stripes(f, states));
+        const bool curves = std::all_of(states.begin(), states.end(), [](const StateFragility* s) {
+            return s->curve.maximum == Maximum::inside && s->curve.median.value > 0;
+        });
+        if (curves) {
+            FragilityModel alone = model;
+            alone.functions = {lognormal(f, states)};
+            try {
+                check_fragility_model(alone);
+                model.functions.push_back(alone.functions.front());
+            } catch (const InputError& error) {
+                model.description += fmt::format("; the lognormal curves are left out: {}", error.what());
+            }
+        } else {
+            model.description += "; not every limit state has a lognormal curve";
+        }
+        if (!model.functions.empty())
+            models.push_back(std::move(model));
+    }
+    if (models.empty())
+        throw InputError(study + ": no limit state has a curve or shares by stripe that could be passed on" +
+                         (f.says.empty() ? "" : ":\n  " + f.says.front()));
+    return models;
+}
+
+void write_models(const std::vector<FragilityModel>& models, const std::string& format,
+                  const std::filesystem::path& folder)
+{
+    std::vector<std::pair<std::string, std::string>> files; // all texts first: nothing is written if one is refused
+    for (const FragilityModel& model : models) {
+        if (format == "nrml")
+            files.emplace_back(model.id + ".xml", fragility_nrml(model));
+        else if (format == "json")
+            files.emplace_back(model.id + ".json", fragility_json(model));
+        else
+            files.emplace_back("fragility_" + model.id + ".csv", fragility_csv(model));
+    }
+    std::error_code error;
+    std::filesystem::create_directory(folder, error);
+    if (!std::filesystem::is_directory(folder))
+        throw InputError(folder.string(), 0, "cannot be made a folder: " + error.message());
+    for (const auto& [name, text] : files)
+        write_whole(folder / name, text);
+}
+
+std::string motions_csv(const MotionTable& motions)
+{
+    std::string text = "motion,name";
+    for (const std::string& measure : motions.measures)
+        text += "," + measure;
+    text += "\n";
+    for (std::size_t i = 0; i < motions.names.size(); ++i) {
+        std::string name = motions.names[i];
+        std::replace(name.begin(), name.end(), ',', ';');
+        text += fmt::format("{},{}", i, name);
+        for (std::size_t m = 0; m < motions.measures.size(); ++m)
+            text += fmt::format(",{}", motions.value[i * motions.measures.size() + m]);
+        text += "\n";
+    }
+    return text;
+}
+
+} // namespace stylobate

@@ -1,0 +1,28 @@
+#pragma once
+/// A fragility study as functions for other tools.
+
+#include "ensemble/estimators/fragility_model.hpp"
+#include "studies/fragility/fragility.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Limit states that follow upon each other are one model: "peak", "residual", and of a colonnade "seat", each up to
+/// the collapse. A model has the shares of the stripes as a discrete function, and the lognormal curves where all its
+/// states have one and these do not cross within the study's intensities (`FragilityFunction::note` says where they
+/// do).
+/// @throws InputError if there is no curve and no stripe to pass on
+std::vector<FragilityModel> fragility_models(const Fragility& fragility, const std::string& study);
+
+/// Writes each model as ID.xml (NRML 0.5), ID.json or ID.csv into a folder, which is made; each file appears whole.
+/// @param format "nrml", "json" or "csv"
+void write_models(const std::vector<FragilityModel>& models, const std::string& format,
+                  const std::filesystem::path& folder);
+
+/// The motions and what they measure, a line for each.
+std::string motions_csv(const MotionTable& motions);
+
+} // namespace stylobate
