@@ -25,6 +25,7 @@ struct MotionSet {
     std::vector<std::shared_ptr<const Motion>> motions;
     std::vector<std::string> names; ///< (motions)
     std::vector<MotionMeasure> measures;
+    std::vector<std::vector<double>> ends_s; ///< (motions x shakings) of sequences: when each shaking is over
 
     std::size_t size() const { return motions.size(); }
     /// @throws std::invalid_argument if there is none of this name
@@ -33,6 +34,19 @@ struct MotionSet {
 
 /// How many times as strong as it stands a motion is in a stripe of a fragility study.
 double motion_scale(const FragilitySpec& fragility, const MotionSet& set, std::size_t motion, int stripe);
+
+/// Shakings one after the other with pauses between them, each as strong as the first by the study's measure (of a
+/// cloud: as it stands). Motion i of the result begins with shaking i of the set, which its measures are of.
+///
+/// Synthetic motions are `shakings` times as many, and are used once each. Records are drawn again: those that follow
+/// record i are others of the set, by random numbers of the study's seed, each of them once in a sequence.
+///
+/// The samples are those of the shortest spacing in a sequence; the acceleration is linear between a record's own.
+/// @pre the set is measured; `fragility.shakings` > 1
+MotionSet in_sequence(const Study& study, const MotionSet& set);
+
+/// Motions of which the sequences of a study are made.
+int motions_needed(const FragilitySpec& fragility);
 
 /// The motions that a study with a synthetic excitation draws from its seed: what its perturbations make of the
 /// excitation, and noise, one after the other; each with a PGA of `excitation.pga_m_s2`. Not measured yet.

@@ -181,6 +181,11 @@ struct FragilitySpec {
     Axis intensity;      ///< of `stripes`; in the measure's unit
     double scale = 1;    ///< of `cloud`: every motion so many times as strong as it stands
 
+    // A monument has survived many earthquakes: so many shake it one after the other, each as strong as its stripe says,
+    // and what one has displaced the next one finds so.
+    int shakings = 1;
+    double pause_s = 5; ///< between two of them, in which it comes to rest
+
     // Where the scatter comes from: of the structures of a motion, every `contacts` x `twins` have the same
     // imperfections, and every `twins` of these the same contacts too.
     int contacts = 1;

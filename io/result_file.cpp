@@ -50,6 +50,9 @@ ResultHeader read_header(hid_t file)
         motions.measures = split_names(hdf5::read_text(group.id(), names::measure_names));
         motions.value = hdf5::read_doubles(file, names::motion_values, {motions.names.size(), motions.measures.size()});
         motions.exponent = hdf5::read_doubles(file, names::motion_exponents, {motions.measures.size()});
+        if (hdf5::exists(file, names::shaking_ends))
+            motions.shaking_end_s =
+                hdf5::read_doubles(file, names::shaking_ends, hdf5::dims_of(file, names::shaking_ends));
     }
     return header;
 }

@@ -36,6 +36,7 @@ inline constexpr char motion_names[] = "names";     ///< attribute of the group:
 inline constexpr char measure_names[] = "measures"; ///< attribute: `MotionTable::measures`, one on each line
 inline constexpr char motion_values[] = "motions/value";
 inline constexpr char motion_exponents[] = "motions/exponent";
+inline constexpr char shaking_ends[] = "motions/shaking_end_s";
 inline constexpr char trajectories[] = "trajectories";
 } // namespace result_names
 

@@ -19,6 +19,7 @@ struct MotionTable {
     std::vector<std::string> measures; ///< "pga_m_s2"
     std::vector<double> exponent;      ///< (measures) s times as strong a motion has s^exponent of it; 0: unchanged
     std::vector<double> value;         ///< (motions x measures)
+    std::vector<double> shaking_end_s; ///< (motions x shakings) of sequences: when each shaking is over; else empty
     friend bool operator==(const MotionTable&, const MotionTable&) = default;
 };
 

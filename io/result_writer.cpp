@@ -86,6 +86,9 @@ void write_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& 
         hdf5::write_array(file, names::motion_values, motions.value, {motions.names.size(), motions.measures.size()},
                           "");
         hdf5::write_array(file, names::motion_exponents, motions.exponent, {motions.measures.size()}, "");
+        if (!motions.shaking_end_s.empty())
+            hdf5::write_array(file, names::shaking_ends, motions.shaking_end_s,
+                              {motions.names.size(), motions.shaking_end_s.size() / motions.names.size()}, "s");
     }
 }
 

@@ -79,8 +79,8 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     f.method = keys.choice_or("method", fragility_method_names, f.method);
     const bool recorded = excitation.kind == ExcitationKind::record;
     if (recorded) {
-        keys.refuse_unused({"method", "records", "folder", "pattern", "unit", "intensity", "scale", "contacts", "twins",
-                            "twin_m", "peak_limits", "residual_limits", "periods_s"},
+        keys.refuse_unused({"method", "records", "folder", "pattern", "unit", "intensity", "scale", "shakings",
+                            "pause_s", "contacts", "twins", "twin_m", "peak_limits", "residual_limits", "periods_s"},
                            "excitation.kind = \"record\"");
         for (const KeyReader& record : keys.tables("records"))
             f.records.push_back(record_spec(record));
@@ -94,8 +94,8 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
                 keys.refuse(key, "is of a folder's files, and there is none", "Give fragility.folder.");
         f.motions = static_cast<int>(f.records.size()); // those of a folder are listed later
     } else {
-        keys.refuse_unused({"method", "motions", "intensity", "contacts", "twins", "twin_m", "peak_limits",
-                            "residual_limits", "periods_s"},
+        keys.refuse_unused({"method", "motions", "intensity", "shakings", "pause_s", "contacts", "twins", "twin_m",
+                            "peak_limits", "residual_limits", "periods_s"},
                            fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, excitation.kind)));
         if (f.method == FragilityMethod::cloud)
             keys.refuse("method", "takes motions as they were recorded, and these are synthetic",

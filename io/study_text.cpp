@@ -314,6 +314,8 @@ void write(Writer& out, const FragilitySpec& f)
         add_axis(entries, f.intensity);
         out.line("intensity", inline_table(entries));
     }
+    out.whole("shakings", static_cast<std::uint64_t>(f.shakings));
+    out.number("pause_s", f.pause_s);
     out.whole("contacts", static_cast<std::uint64_t>(f.contacts));
     out.whole("twins", static_cast<std::uint64_t>(f.twins));
     out.number("twin_m", f.twin_m);

@@ -6,6 +6,8 @@
 #include "io/result_store.hpp"
 #include "kernels/isa.hpp"
 
+#include <array>
+
 namespace stylobate {
 namespace {
 
@@ -101,6 +103,30 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     const std::string page = bytes("f.html");
     for (const char* words : {"Where the scatter comes from", "Which measure tells most", "by the motions"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+/// What has fallen by the end of each shaking is counted from the rows; more and more have.
+TEST_F(FragilityProgram, ASequenceCarriesItsDamageAlong)
+{
+    const Ended ended = run(words("seq.h5", "2", "auto", {"fragility.shakings=3", "fragility.pause_s=3"}));
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = JsonParser::parse(ended.out);
+    const auto& sequence = json["fragility"]["sequence"].items;
+    ASSERT_EQ(sequence.size(), 3U);
+    const ResultReader reader(folder / "seq.h5");
+    const std::vector<double>& ends = reader.header().motions.shaking_end_s;
+    ASSERT_EQ(ends.size(), 60U);
+    std::array<double, 3> fallen{};
+    for (const ResultRow& row : reader.rows())
+        for (std::size_t k = 0; k < 3; ++k)
+            fallen[k] += row.outcome.state == State::collapsed &&
+                         (k == 2 || row.outcome.collapse_time_s <= ends[row.cell / 5 * 3 + k] + 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(sequence[k]["fallen"].number, fallen[k] / 1200, 1e-12);
+        EXPECT_LE(sequence[k]["difference_lower"].number, sequence[k]["fallen"].number - sequence[k]["as_new"].number);
+    }
+    EXPECT_NEAR(sequence[0]["fallen"].number, sequence[0]["as_new"].number, 1e-12);
+    EXPECT_GT(fallen[2], fallen[0]);
 }
 
 TEST_F(FragilityProgram, WhereNothingFallsThereIsNoCurveButABound)

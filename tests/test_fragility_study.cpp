@@ -14,6 +14,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -83,6 +85,7 @@ TEST(FragilityStudy, RefusesWhatCannotGiveACurve)
     expect_refused({"fragility.folder=records"}, {"fragility.folder", "excitation.kind = \"pulse\""});
     expect_refused({"excitation.kind=harmonic"}, {"excitation.kind", "no ground motion"});
     expect_refused({"excitation.pga_m_s2=3"}, {"excitation.pga_m_s2", "[fragility]"});
+    expect_refused({"fragility.shakings=0"}, {"fragility.shakings = 0"});
     expect_refused({"study.sampling=sobol"}, {"study.sampling"});
     expect_refused({"study.realizations=60000000"}, {"study.realizations", "36 cells", "1000000000"});
     expect_refused({"surface.frequency_hz.from=1"}, {"surface", "study.kind = \"fragility\""});
@@ -209,6 +212,55 @@ TEST(FragilityStudy, ACloudTakesRecordsAsTheyAre)
     std::ofstream(folder / "notes.csv") << "no record\n";
     EXPECT_THROW(read({"fragility.folder=" + folder.string()}), InputError);
     fs::remove_all(folder);
+}
+
+/// Three pulses one after the other: each is there, as strong as the first by the study's measure, and at rest between.
+TEST(FragilityStudy, ShakingsFollowOneAnother)
+{
+    const Study study = small({"fragility.shakings=3", "fragility.pause_s=2"});
+    EXPECT_EQ(parse_study(study.text, "canonical").text, study.text);
+    const MotionSet all = drawn_motions(study), sequences = load_motions(study);
+    ASSERT_EQ(all.size(), 27U);
+    ASSERT_EQ(sequences.size(), 9U);
+    for (const std::size_t i : {0U, 4U, 8U}) {
+        const Motion& sequence = *sequences.motions[i];
+        const std::vector<double>& ends = sequences.ends_s[i];
+        ASSERT_EQ(ends.size(), 3U);
+        double begin = 0;
+        const double pgv = intensity_measures(*all.motions[i]).pgv_m_s;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Motion& alone = *all.motions[k == 0 ? i : 9 + 2 * i + k - 1];
+            EXPECT_NEAR(ends[k] - begin, alone.duration_s(), 2 * sequence.dt_s);
+            double peak = 0, rest = 0;
+            for (std::size_t s = 0; s < sequence.acceleration_m_s2.size(); ++s) {
+                const double t = sequence.dt_s * static_cast<double>(s);
+                if (t >= begin && t <= ends[k])
+                    peak = std::max(peak, std::fabs(sequence.velocity_m_s[s]));
+                else if (t > ends[k] && t < ends[k] + 2 && k < 2)
+                    rest = std::max(rest, std::fabs(sequence.acceleration_m_s2[s]));
+            }
+            EXPECT_NEAR(peak, pgv, 2e-3 * pgv) << k;
+            EXPECT_EQ(rest, 0) << k;
+            begin = ends[k] + 2;
+        }
+    }
+    const Loaded l(study);
+    EXPECT_EQ(l.of(3, 2, 0).motion->acceleration_m_s2, sequences.motions[3]->acceleration_m_s2);
+}
+
+TEST(FragilityStudy, ACollapseCountsForItsShaking)
+{
+    const std::vector<DamageState> states = damage_states(small({"fragility.shakings=3"}));
+    Outcome o;
+    o.state = State::collapsed;
+    o.collapse_time_s = 12;
+    std::map<std::string, bool> got;
+    for (const DamageState& state : states)
+        got[state.name] = reached(state, o, 1, state.shaking == 1 ? 10 : state.shaking == 2 ? 20 : INFINITY);
+    EXPECT_FALSE(got.at("collapse_by_1"));
+    EXPECT_TRUE(got.at("collapse_by_2"));
+    EXPECT_FALSE(got.contains("collapse_by_3"));
+    EXPECT_TRUE(got.at("collapse"));
 }
 
 TEST(FragilityStudy, LimitStatesAreNested)

@@ -16,6 +16,9 @@ std::vector<DamageState> damage_states(const Study& study)
                           fmt::format("a joint stays dislocated by more than {:g} of its width", limit)});
     if (!study.structure.epistyles.empty())
         states.push_back({Kind::unseated, 0, "unseated", "an epistyle loses a seat, or a block falls"});
+    for (int k = 1; k < study.fragility->shakings; ++k)
+        states.push_back({Kind::collapse, 0, fmt::format("collapse_by_{}", k),
+                          fmt::format("a block falls by the end of shaking {}", k), k});
     states.push_back({Kind::collapse, 0, "collapse", "a block falls"});
     if (study.outcome.follow == Follow::rest)
         states.push_back({Kind::total, 0, "total", "every column and every epistyle falls"});
@@ -27,7 +30,7 @@ double base_width_m(const StructureSpec& structure)
     return structure.columns.front().drums.front().width_m;
 }
 
-bool reached(const DamageState& state, const Outcome& outcome, double base_width_m)
+bool reached(const DamageState& state, const Outcome& outcome, double base_width_m, double until_s)
 {
     const bool collapsed = outcome.state == State::collapsed;
     switch (state.kind) {
@@ -38,7 +41,7 @@ bool reached(const DamageState& state, const Outcome& outcome, double base_width
     case DamageState::Kind::unseated:
         return collapsed || outcome.unseated_block >= 0;
     case DamageState::Kind::collapse:
-        return collapsed;
+        return collapsed && outcome.collapse_time_s <= until_s;
     case DamageState::Kind::total:
         return outcome.total_collapse_time_s >= 0;
     }

@@ -15,6 +15,7 @@
 #include "ensemble/outcome.hpp"
 #include "ensemble/study.hpp"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,15 +27,18 @@ struct DamageState {
     double limit = 0;     ///< of `peak` and `residual`
     std::string name;     ///< "peak_0.15", "collapse": one word
     std::string describe; ///< "the top moves by more than 0.15 of the width"
+    int shaking = 0;      ///< of sequences: reached by the end of this one, counted from 1; 0: of them all
 };
 
-/// Those of a study: each kind from the slightest to the worst.
+/// Those of a study: each kind from the slightest to the worst; of sequences also the collapse by each shaking.
 std::vector<DamageState> damage_states(const Study& study);
 
 /// Of the lowest block, by which peak displacements are measured [m].
 double base_width_m(const StructureSpec& structure);
 
 /// Whether a valid realization reached it.
-bool reached(const DamageState& state, const Outcome& outcome, double base_width_m);
+/// @param until_s when the state's shaking is over and the next one begins
+bool reached(const DamageState& state, const Outcome& outcome, double base_width_m,
+             double until_s = std::numeric_limits<double>::infinity());
 
 } // namespace stylobate

@@ -1,5 +1,6 @@
 #include "studies/fragility/fragility.hpp"
 
+#include "ensemble/following_score.hpp"
 #include "ensemble/input_error.hpp"
 #include "ensemble/motion_set.hpp"
 #include "io/study_file.hpp"
@@ -18,6 +19,19 @@ namespace {
 
 static_assert(fewest_motions == static_cast<int>(least_records));
 constexpr std::size_t grid_points = 60;
+
+/// 95 %, from the values that are found with each of the motions left out.
+Limits jackknife_limits(double value, const std::vector<double>& without)
+{
+    const auto n = static_cast<double>(without.size());
+    double mean = 0, squares = 0;
+    for (const double w : without)
+        mean += w / n;
+    for (const double w : without)
+        squares += (w - mean) * (w - mean);
+    const double reach = student_quantile(0.975, n - 1) * std::sqrt((n - 1) / n * squares);
+    return {value - reach, value + reach};
+}
 
 /// Where a realization stands in the design.
 struct Place {
@@ -58,7 +72,8 @@ public:
                                                               std::vector<std::uint8_t>(states.size()));
         for (std::size_t i = 0; i < outcomes_.size(); ++i)
             for (std::size_t k = 0; k < states.size(); ++k)
-                reached_states[i][k] = reached(states[k], outcomes_[i], width);
+                reached_states[i][k] =
+                    reached(states[k], outcomes_[i], width, until_s(places_[i].motion, states[k].shaking));
         tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t k) {
             std::vector<std::uint8_t> column(outcomes_.size());
             for (std::size_t i = 0; i < column.size(); ++i)
@@ -66,16 +81,74 @@ public:
             out_.states[k] = state(states[k], column);
         });
         for (std::size_t k = 0; k < states.size(); ++k)
-            if (states[k].kind == DamageState::Kind::collapse) {
+            if (states[k].kind == DamageState::Kind::collapse && states[k].shaking == 0) {
                 std::vector<std::uint8_t> column(outcomes_.size());
                 for (std::size_t i = 0; i < column.size(); ++i)
                     column[i] = reached_states[i][k];
                 rank(column);
             }
+        if (study_.fragility->shakings > 1 && out_.method == FragilityMethod::stripes)
+            sequence();
         return out_;
     }
 
 private:
+    /// When the next shaking after this one begins; infinite after the last.
+    double until_s(std::size_t motion, int shaking) const
+    {
+        const auto shakings = static_cast<std::size_t>(study_.fragility->shakings);
+        if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
+            return INFINITY;
+        return header_.motions.shaking_end_s[motion * shakings + static_cast<std::size_t>(shaking) - 1] +
+               study_.fragility->pause_s;
+    }
+
+    void sequence()
+    {
+        const auto stripes = static_cast<std::size_t>(study_.fragility->stripes());
+        const int shakings = study_.fragility->shakings;
+        // by motion, stripe and shaking: how many structures, and how many had fallen
+        const auto at = [&](std::size_t motion, std::size_t stripe, int k) {
+            return (motion * stripes + stripe) * static_cast<std::size_t>(shakings) + static_cast<std::size_t>(k - 1);
+        };
+        std::vector<double> trials(out_.motions * stripes),
+            fallen(out_.motions * stripes * static_cast<std::size_t>(shakings));
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Place& p = places_[i];
+            trials[p.motion * stripes + p.stripe] += 1;
+            for (int k = 1; k <= shakings; ++k)
+                fallen[at(p.motion, p.stripe, k)] +=
+                    outcomes_[i].state == State::collapsed && outcomes_[i].collapse_time_s <= until_s(p.motion, k);
+        }
+        // mean over the stripes without one motion (or with all)
+        const auto shares = [&](int k, std::size_t without) {
+            std::pair<double, double> mean{0, 0};
+            for (std::size_t s = 0; s < stripes; ++s) {
+                double n = 0, first = 0, by_k = 0;
+                for (std::size_t m = 0; m < out_.motions; ++m)
+                    if (m != without) {
+                        n += trials[m * stripes + s];
+                        first += fallen[at(m, s, 1)];
+                        by_k += fallen[at(m, s, k)];
+                    }
+                if (n == 0)
+                    continue;
+                mean.first += by_k / n / static_cast<double>(stripes);
+                mean.second += (1 - std::pow(1 - first / n, k)) / static_cast<double>(stripes);
+            }
+            return mean;
+        };
+        for (int k = 1; k <= shakings; ++k) {
+            const auto [by_k, fresh] = shares(k, out_.motions);
+            std::vector<double> without;
+            for (std::size_t m = 0; m < out_.motions; ++m) {
+                const auto [a, b] = shares(k, m);
+                without.push_back(a - b);
+            }
+            out_.sequence.push_back({k, by_k, fresh, jackknife_limits(by_k - fresh, without)});
+        }
+    }
+
     Place place(const ResultRow& row) const
     {
         const auto stripes = static_cast<std::uint64_t>(study_.fragility->stripes());

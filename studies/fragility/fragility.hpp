@@ -29,6 +29,14 @@ struct StateFragility {
     std::uint64_t resurrected = 0, reached_ever = 0;
 };
 
+/// What the damage that is carried along does, beside structures that are as new in every shaking.
+struct SequenceShare {
+    int shaking = 0;   ///< counted from 1
+    double fallen = 0; ///< share that has fallen by its end, mean of the stripes
+    double fresh = 0;  ///< 1 - (1 - p)^k, p the share of the first shaking, stripe by stripe
+    Limits beyond;     ///< of fallen - fresh, by the motions
+};
+
 struct Fragility {
     std::string measure; ///< "pgv_m_s"
     FragilityMethod method = FragilityMethod::stripes;

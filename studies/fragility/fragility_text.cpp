@@ -93,6 +93,11 @@ std::string fragility_text(const Fragility& f)
         text += fmt::format("  the collapse is told best by {}: dispersion {} ({})\n", describe_measure(best.name),
                             number(best.dispersion), interval(best.dispersion_limits));
     }
+    for (const SequenceShare& s : f.sequence)
+        text += fmt::format(
+            "  fallen by the end of shaking {}: {} of all stripes; as new in each: {}; difference {} to "
+            "{}\n",
+            s.shaking, percent(s.fallen), percent(s.fresh), percent(s.beyond.lower), percent(s.beyond.upper));
     for (const std::string& line : f.says)
         text += "  " + line + "\n";
     return text;
@@ -165,12 +170,21 @@ Json fragility_json(const Fragility& f)
     Json says = Json::list();
     for (const std::string& line : f.says)
         says.item(line);
+    Json sequence = Json::list();
+    for (const SequenceShare& s : f.sequence)
+        sequence.item(Json::object()
+                          .member("shaking", s.shaking)
+                          .member("fallen", s.fallen)
+                          .member("as_new", s.fresh)
+                          .member("difference_lower", s.beyond.lower)
+                          .member("difference_upper", s.beyond.upper));
     return Json::object()
         .member("measure", f.measure)
         .member("motions", f.motions)
         .member("structures", f.structures)
         .member("states", states)
         .member("measures", measures)
+        .member("sequence", sequence)
         .member("says", says);
 }
 
@@ -203,6 +217,17 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
     if (!items.empty()) {
         page.heading("What the curves do not say");
         page.list(items);
+    }
+    if (!f.sequence.empty()) {
+        page.heading("One shaking after the other");
+        HtmlTable table_of{"rrrr", {"shaking", "fallen by its end", "as new in each", "difference, 95 %"}, {}, ""};
+        for (const SequenceShare& s : f.sequence)
+            table_of.rows.push_back({fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh),
+                                     fmt::format("{} to {}", percent(s.beyond.lower), percent(s.beyond.upper))});
+        page.table(table_of);
+        page.note("Means of the stripes. As new: 1 - (1 - p)^k with the share p of the first shaking, for structures "
+                  "that nothing has displaced; the difference is what damage carried along does, and what the "
+                  "survivors are by selection.");
     }
     page.heading("Where the scatter comes from");
     HtmlTable shares{"lrrrr", {"limit state", "motion", "imperfections", "contacts", "chaos"}, {}, ""};

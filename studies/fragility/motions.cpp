@@ -100,8 +100,12 @@ MotionSet load_motions(const Study& study)
     } else {
         set = read_motions(study);
     }
+    if (!study.fragility->records.empty() && study.fragility->shakings > study.fragility->motions)
+        throw InputError(fmt::format("fragility.shakings = {}: there are {} records, and no sequence has one twice.\n  "
+                                     "Give fewer shakings or more records.",
+                                     study.fragility->shakings, study.fragility->motions));
     measure(*study.fragility, set);
-    return set;
+    return study.fragility->shakings > 1 ? in_sequence(study, set) : set;
 }
 
 MotionTable motion_table(const MotionSet& set)
@@ -115,6 +119,8 @@ MotionTable motion_table(const MotionSet& set)
     for (std::size_t i = 0; i < set.size(); ++i)
         for (const MotionMeasure& measure : set.measures)
             table.value.push_back(measure.value[i]);
+    for (const std::vector<double>& ends : set.ends_s)
+        table.shaking_end_s.insert(table.shaking_end_s.end(), ends.begin(), ends.end());
     return table;
 }
 
