@@ -1,0 +1,68 @@
+#pragma once
+/// Regression of counts on predictors through a link, by maximum likelihood.
+
+#include "ensemble/estimators/fragility_data.hpp"
+#include "ensemble/estimators/link.hpp"
+
+#include <Eigen/Core>
+
+namespace stylobate {
+
+inline constexpr int most_parameters = 16; ///< of one regression; so that its matrices need no memory of their own
+using ParameterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_parameters, 1>;
+using ParameterMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_parameters, most_parameters>;
+
+/// Trials and successes at points with given predictors.
+struct BinomialCounts {
+    Eigen::VectorXd trials;  ///< (points)
+    Eigen::VectorXd reached; ///< (points)
+};
+
+/// @param weight (records) how often each record counts, as in a resample; once each where empty
+BinomialCounts counts_of(const FragilityData& data, const Eigen::VectorXd& weight = {});
+
+/// (points x (1 + measures)): 1, and the logarithms of the intensities.
+Eigen::MatrixXd log_predictors(const FragilityData& data);
+
+/// How a likelihood is shaped.
+enum class Maximum : std::uint8_t {
+    inside,    ///< it has its maximum at finite coefficients
+    separated, ///< it grows for ever: a plane parts what reached the limit state from what did not
+    none,      ///< nothing reached it
+    all        ///< everything did
+};
+
+struct BinomialFit {
+    Maximum maximum = Maximum::inside;
+    ParameterVector coefficients; ///< (parameters); where separated, a direction along which the likelihood grows
+    ParameterMatrix information;  ///< observed, (parameters x parameters); only where the maximum is inside
+    double log_likelihood = 0;    ///< without the binomial coefficients; its supremum where there is no maximum
+};
+
+/// Newton's method with halved steps; both likelihoods are concave.
+///
+/// @param predictors (points x parameters) of full column rank over the points that have trials
+/// @param offset     (points) added to the linear predictor; none where empty
+/// @param start      (parameters) where to begin; zero where empty
+/// @throws InputError if the predictors are not independent
+BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
+                         const Eigen::VectorXd& offset = {}, const ParameterVector& start = {});
+
+/// The log likelihood at given coefficients.
+double binomial_log_likelihood(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
+                               const ParameterVector& coefficients, const Eigen::VectorXd& offset = {});
+
+/// Covariance of the coefficients when runs of one record depend on each other in any way: the jackknife over records
+/// with one Newton step each (CR3), (G - 1)/G sum_g d_g d_g', d_g = (I - I_g)^-1 s_g. Too wide rather than too narrow
+/// with few records, which the Student quantile that goes with it assumes.
+///
+/// @param weight as in `counts_of`
+/// @return (parameters x parameters); not finite where the maximum hangs on one record alone
+ParameterMatrix record_covariance(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,
+                                  const BinomialFit& fit, const Eigen::VectorXd& weight = {});
+
+/// What each record pulls the coefficients by: minus the steps d_g above, (records x parameters).
+Eigen::MatrixXd record_influence(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,
+                                 const BinomialFit& fit, const Eigen::VectorXd& weight = {});
+
+} // namespace stylobate

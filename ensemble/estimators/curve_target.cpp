@@ -1,0 +1,194 @@
+#include "ensemble/estimators/curve_target.hpp"
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace stylobate {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// (parameters x (parameters - 1)) an orthonormal basis of what is normal to a vector: columns of a reflection.
+Eigen::MatrixXd null_space(const ParameterVector& normal)
+{
+    const Eigen::Index n = normal.size();
+    ParameterVector v = normal.normalized();
+    Eigen::Index largest = 0;
+    v.cwiseAbs().maxCoeff(&largest);
+    // the reflection that takes v to the axis on which it is largest
+    ParameterVector mirror = v;
+    mirror[largest] += v[largest] < 0 ? -1 : 1;
+    const ParameterMatrix reflection =
+        ParameterMatrix::Identity(n, n) - 2 / mirror.squaredNorm() * mirror * mirror.transpose();
+    Eigen::MatrixXd basis(n, n - 1);
+    for (Eigen::Index j = 0, column = 0; j < n; ++j)
+        if (j != largest)
+            basis.col(column++) = reflection.col(j);
+    return basis;
+}
+
+/// The profile likelihood of a target.
+class Profile {
+public:
+    Profile(const FittedCurve& curve, const CurveTarget& target) : curve_(curve), target_(target) {}
+
+    /// Where the deviance from the maximum passes `threshold`, on the side of `sign`; infinite where it never does.
+    double limit(double from, double reach, double sign, double threshold)
+    {
+        const auto above = [&](double value) { return profile_deviance(curve_, target_, value) - threshold; };
+        double inside = from, outside = from + sign * reach, at_inside = -threshold, at_outside = above(outside);
+        for (int doubling = 0; at_outside < 0; ++doubling) {
+            if (doubling == 20)
+                return sign * infinity;
+            inside = outside;
+            at_inside = at_outside;
+            outside = from + (outside - from) * 2;
+            at_outside = above(outside);
+        }
+        // regula falsi on the root of the deviance, which is nearly straight, with the Illinois weights
+        double weight_inside = std::sqrt(std::max(0.0, at_inside + threshold)) - std::sqrt(threshold);
+        double weight_outside = std::sqrt(at_outside + threshold) - std::sqrt(threshold);
+        int side = 0;
+        for (int i = 0; i < 60 && std::abs(outside - inside) > 1e-9 * (1 + std::abs(inside)); ++i) {
+            const double middle =
+                (inside * weight_outside - outside * weight_inside) / (weight_outside - weight_inside);
+            const double there = std::sqrt(std::max(0.0, above(middle) + threshold)) - std::sqrt(threshold);
+            if (std::abs(there) < 1e-9)
+                return middle;
+            if (there < 0) {
+                inside = middle;
+                weight_inside = there;
+                weight_outside = side == -1 ? weight_outside / 2 : weight_outside;
+                side = -1;
+            } else {
+                outside = middle;
+                weight_outside = there;
+                weight_inside = side == 1 ? weight_inside / 2 : weight_inside;
+                side = 1;
+            }
+        }
+        return (inside + outside) / 2;
+    }
+
+private:
+    const FittedCurve& curve_;
+    const CurveTarget& target_;
+};
+
+double student_quantile(double freedom, double level)
+{
+    return quantile(complement(boost::math::students_t_distribution<double>(freedom), (1 - level) / 2));
+}
+
+} // namespace
+
+double CurveTarget::value(const ParameterVector& coefficients) const
+{
+    return kind_ == Kind::log_median ? -coefficients[0] / coefficients[1] : weights_.dot(coefficients);
+}
+
+ParameterVector CurveTarget::gradient(const ParameterVector& coefficients) const
+{
+    if (kind_ == Kind::sum)
+        return weights_;
+    return (ParameterVector(2) << -1 / coefficients[1], coefficients[0] / (coefficients[1] * coefficients[1]))
+        .finished();
+}
+
+CurveTarget::Plane CurveTarget::plane(double value) const
+{
+    if (kind_ == Kind::sum)
+        return {weights_, value};
+    return {(ParameterVector(2) << 1, value).finished(), 0};
+}
+
+double profile_deviance(const FittedCurve& curve, const CurveTarget& target, double value)
+{
+    const CurveTarget::Plane plane = target.plane(value);
+    const ParameterVector on = plane.normal * (plane.distance / plane.normal.squaredNorm());
+    const Eigen::MatrixXd columns = curve.predictors * null_space(plane.normal);
+    const BinomialFit fit = fit_binomial(curve.link, columns, curve.counts, curve.predictors * on);
+    return 2 * (curve.fit.log_likelihood - fit.log_likelihood);
+}
+
+namespace {
+
+/// Where the profile deviance passes a threshold, on both sides.
+Limits limits_at(const FittedCurve& curve, const CurveTarget& target, double threshold)
+{
+    if (curve.fit.maximum != Maximum::inside || !std::isfinite(threshold))
+        return {};
+    const ParameterVector gradient = target.gradient(curve.fit.coefficients);
+    const double error = std::sqrt(gradient.dot(Eigen::LDLT<ParameterMatrix>(curve.fit.information).solve(gradient)));
+    const double value = target.value(curve.fit.coefficients);
+    Profile profile(curve, target);
+    return {profile.limit(value, std::sqrt(threshold) * error, -1, threshold),
+            profile.limit(value, std::sqrt(threshold) * error, 1, threshold)};
+}
+
+} // namespace
+
+FittedCurve fitted_curve(FragilityData data, Eigen::MatrixXd predictors, Link link)
+{
+    FittedCurve curve{link, std::move(data), std::move(predictors), {}, {}, {}};
+    curve.counts = counts_of(curve.data);
+    curve.fit = fit_binomial(link, curve.predictors, curve.counts);
+    if (curve.fit.maximum == Maximum::inside)
+        curve.covariance = record_covariance(link, curve.predictors, curve.data, curve.fit);
+    return curve;
+}
+
+RecordSpread record_spread(const FittedCurve& curve, const CurveTarget& target)
+{
+    assert(curve.fit.maximum == Maximum::inside);
+    const ParameterVector gradient = target.gradient(curve.fit.coefficients);
+    const ParameterVector pull = Eigen::LDLT<ParameterMatrix>(curve.fit.information).solve(gradient);
+    const Eigen::VectorXd along = curve.predictors * pull, eta = curve.predictors * curve.fit.coefficients;
+    double sum = 0, squares = 0;
+    for (std::size_t g = 0; g < curve.data.records; ++g) {
+        double share = 0;
+        for (const FragilityRow& row : curve.data.of_record(g)) {
+            const LinkValue at = link_at(curve.link, std::clamp(eta[row.point], -36.0, 36.0));
+            share += row.trials * at.density * at.density / (at.below * at.above) * along[row.point] * along[row.point];
+        }
+        sum += share;
+        squares += share * share;
+    }
+    RecordSpread spread;
+    spread.variance = gradient.dot(curve.covariance * gradient);
+    spread.freedom = std::max(1.0, sum * sum / squares - 1);
+    spread.inflation = spread.variance / gradient.dot(pull);
+    return spread;
+}
+
+Limits profile_limits(const FittedCurve& curve, const CurveTarget& target, double level)
+{
+    const double threshold = quantile(boost::math::chi_squared_distribution<double>(1), level);
+    return limits_at(curve, target, threshold);
+}
+
+Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double level)
+{
+    if (curve.fit.maximum != Maximum::inside)
+        return {};
+    const RecordSpread spread = record_spread(curve, target);
+    const double threshold = spread.inflation * std::pow(student_quantile(spread.freedom, level), 2);
+    return limits_at(curve, target, threshold);
+}
+
+Limits wald_limits(const FittedCurve& curve, const CurveTarget& target, double level)
+{
+    if (curve.fit.maximum != Maximum::inside)
+        return {};
+    const RecordSpread spread = record_spread(curve, target);
+    const double value = target.value(curve.fit.coefficients);
+    const double reach = student_quantile(spread.freedom, level) * std::sqrt(spread.variance);
+    return {value - reach, value + reach};
+}
+
+} // namespace stylobate

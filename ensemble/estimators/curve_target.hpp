@@ -1,0 +1,75 @@
+#pragma once
+/// What is asked of a fitted curve: a number that its coefficients determine, with its intervals.
+
+#include "ensemble/estimators/binomial_regression.hpp"
+
+#include <limits>
+
+namespace stylobate {
+
+struct Limits {
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+};
+
+/// A function of the coefficients whose level sets are planes, value(b) = v where c(v) . b = d(v).
+class CurveTarget {
+public:
+    /// ln of the median intensity of a curve of one measure, -b0 / b1.
+    static CurveTarget log_median() { return {Kind::log_median, {}}; }
+    /// A weighted sum of the coefficients: the linear predictor at `weights` = (1, ln intensities), or one of them.
+    static CurveTarget sum(const ParameterVector& weights) { return {Kind::sum, weights}; }
+    /// The slope b1; the dispersion is its inverse.
+    static CurveTarget slope() { return sum((ParameterVector(2) << 0, 1).finished()); }
+
+    double value(const ParameterVector& coefficients) const;
+    ParameterVector gradient(const ParameterVector& coefficients) const;
+
+    struct Plane {
+        ParameterVector normal; ///< c
+        double distance = 0;    ///< d
+    };
+    Plane plane(double value) const;
+
+private:
+    enum class Kind : std::uint8_t { log_median, sum };
+    CurveTarget(Kind kind, ParameterVector weights) : kind_(kind), weights_(std::move(weights)) {}
+    Kind kind_;
+    ParameterVector weights_;
+};
+
+/// Data, their fit, and what every interval of the fit needs.
+struct FittedCurve {
+    Link link = Link::probit;
+    FragilityData data;
+    Eigen::MatrixXd predictors; ///< (points x parameters)
+    BinomialCounts counts;
+    BinomialFit fit;
+    ParameterMatrix covariance; ///< of the coefficients, from the records; only where the maximum is inside
+};
+FittedCurve fitted_curve(FragilityData data, Eigen::MatrixXd predictors, Link link);
+
+/// The variance of a target, from the records, and the degrees of freedom of that variance.
+struct RecordSpread {
+    double variance = 0;
+    double freedom = 0;   ///< (sum a_g)^2 / sum a_g^2 - 1 with each record's share a_g of the information on the target
+    double inflation = 1; ///< of the variance against that of independent runs
+};
+RecordSpread record_spread(const FittedCurve& curve, const CurveTarget& target);
+
+/// Values whose profile likelihood lies less than half the chi-square quantile below the maximum: right where all runs
+/// are independent. Unbounded, as the others, where the likelihood has no maximum.
+Limits profile_limits(const FittedCurve& curve, const CurveTarget& target, double level);
+
+/// The same with the likelihood ratio divided by the inflation of the target's variance by the records and compared
+/// with the square of Student's quantile (Chandler & Bate 2007, "Inference for clustered data using the independence
+/// loglikelihood", vertical adjustment; CR3 variance): right where only the records are independent.
+Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double level);
+
+/// Twice the log likelihood by which the best coefficients with that value of the target fall behind the maximum.
+double profile_deviance(const FittedCurve& curve, const CurveTarget& target, double value);
+
+/// value -+ Student's quantile x standard error from the records.
+Limits wald_limits(const FittedCurve& curve, const CurveTarget& target, double level);
+
+} // namespace stylobate

@@ -1,0 +1,257 @@
+#include "ensemble/estimators/fragility_curve.hpp"
+
+#include "ensemble/estimators/record_bootstrap.hpp"
+#include "ensemble/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+namespace {
+
+/// The probability from a target that is a linear predictor.
+Limits probabilities(Link link, Limits eta)
+{
+    return {std::isinf(eta.lower) ? 0 : link_at(link, eta.lower).below,
+            std::isinf(eta.upper) ? 1 : link_at(link, eta.upper).below};
+}
+
+Limits exponentials(Limits limits)
+{
+    return {std::exp(limits.lower), std::exp(limits.upper)};
+}
+
+/// 1 / slope; a slope that may be zero or negative bounds no dispersion.
+Limits inverses(Limits slope)
+{
+    return {slope.upper > 0 ? 1 / slope.upper : 0,
+            slope.lower > 0 ? 1 / slope.lower : std::numeric_limits<double>::infinity()};
+}
+
+template <class Change>
+CurveEstimate changed(const CurveEstimate& estimate, double value, Change&& change)
+{
+    return {value, change(estimate.records), change(estimate.profile_records), change(estimate.profile_runs),
+            change(estimate.bootstrap)};
+}
+
+CurveEstimate same_everywhere(double value, Limits limits)
+{
+    return {value, limits, limits, limits, limits};
+}
+
+/// The bounds that hold whatever form the curve has, as long as it does not fall: from intensities at which nothing or
+/// everything reached the limit state, each record counted once.
+class BoundsWithoutCurve {
+public:
+    BoundsWithoutCurve(const FragilityData& data, double level)
+    {
+        const BinomialCounts counts = counts_of(data);
+        std::vector<double> records(data.points(), 0.0);
+        for (const FragilityRow& row : data.rows)
+            records[row.point] += 1;
+        for (std::size_t i = 0; i < data.points(); ++i) {
+            const auto point = static_cast<Eigen::Index>(i);
+            const double miss = std::pow((1 - level) / 2, 1 / records[i]);
+            if (counts.reached[point] == 0)
+                none_.push_back({data.intensity[i], 1 - miss});
+            else if (counts.reached[point] == counts.trials[point])
+                all_.push_back({data.intensity[i], miss});
+        }
+    }
+
+    Limits probability(double intensity) const
+    {
+        Limits limits{0, 1};
+        for (const auto& [at, bound] : none_)
+            if (at >= intensity)
+                limits.upper = std::min(limits.upper, bound);
+        for (const auto& [at, bound] : all_)
+            if (at <= intensity)
+                limits.lower = std::max(limits.lower, bound);
+        return limits;
+    }
+
+    Limits median() const
+    {
+        Limits limits{0, std::numeric_limits<double>::infinity()};
+        for (const auto& [at, bound] : none_)
+            if (bound < 0.5)
+                limits.lower = std::max(limits.lower, at);
+        for (const auto& [at, bound] : all_)
+            if (bound > 0.5)
+                limits.upper = std::min(limits.upper, at);
+        return limits;
+    }
+
+    /// A curve of the given form is at least so steep between what reached nothing and what reached everything.
+    Limits dispersion(Link link) const
+    {
+        Limits limits{0, std::numeric_limits<double>::infinity()};
+        for (const auto& [low, upper] : none_)
+            for (const auto& [high, lower] : all_)
+                if (low < high && upper < lower)
+                    limits.upper = std::min(
+                        limits.upper, std::log(high / low) / (link_quantile(link, lower) - link_quantile(link, upper)));
+        return limits;
+    }
+
+private:
+    struct Bound {
+        double intensity, probability;
+    };
+    std::vector<Bound> none_, all_;
+};
+
+void check(const FragilityData& data, const CurveOptions& options)
+{
+    if (!(options.level > 0.5 && options.level < 1))
+        throw InputError(fmt::format("fragility: level = {} is outside (0.5, 1).", options.level));
+    for (const auto& intensity : options.at)
+        if (intensity.size() != data.measures ||
+            std::any_of(intensity.begin(), intensity.end(), [](double im) { return !(im > 0); }))
+            throw InputError(fmt::format("fragility: a probability is wanted at an intensity that is not {} numbers "
+                                         "above 0.",
+                                         data.measures));
+    if (data.points() < data.measures + 1)
+        throw InputError(fmt::format("fragility: {} different intensities are too few for {} coefficients.\n  Run "
+                                     "more intensities.",
+                                     data.points(), data.measures + 1));
+}
+
+void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptions& options)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    curve.coefficients.assign(1 + data.measures, same_everywhere(nan, {}));
+    curve.median = curve.dispersion = same_everywhere(nan, {0, std::numeric_limits<double>::infinity()});
+    for (const auto& intensity : options.at)
+        curve.at.push_back({intensity, same_everywhere(nan, {0, 1})});
+    if (data.measures == 1) {
+        const BoundsWithoutCurve bounds(data, options.level);
+        curve.median = same_everywhere(nan, bounds.median());
+        curve.dispersion = same_everywhere(nan, bounds.dispersion(options.link));
+        for (CurvePoint& point : curve.at)
+            point.probability = same_everywhere(nan, bounds.probability(point.intensity[0]));
+    }
+    const std::string bounds =
+        data.measures == 1 && std::isfinite(curve.median.records.upper) && curve.median.records.lower > 0
+            ? fmt::format("The median lies between {:.4g} and {:.4g}.", curve.median.records.lower,
+                          curve.median.records.upper)
+            : std::string("The bounds of the probabilities are what can be said.");
+    if (curve.maximum == Maximum::none)
+        curve.says.push_back(fmt::format("None of {} runs of {} records reached the limit state: there is no curve. "
+                                         "Shake harder.",
+                                         curve.trials, curve.records));
+    else if (curve.maximum == Maximum::all)
+        curve.says.push_back(fmt::format("All {} runs of {} records reached the limit state: there is no curve. Shake "
+                                         "less.",
+                                         curve.trials, curve.records));
+    else
+        curve.says.push_back("One intensity parts all runs that reached the limit state from all that did not: the "
+                             "likelihood has no maximum, so there is no curve. " +
+                             bounds + " Run more intensities between them.");
+}
+
+} // namespace
+
+FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options)
+{
+    check(data, options);
+    FragilityCurve curve;
+    curve.link = options.link;
+    curve.level = options.level;
+    curve.records = data.records;
+    const FittedCurve fitted = fitted_curve(data, log_predictors(data), options.link);
+    curve.trials = fitted.counts.trials.sum();
+    curve.reached = fitted.counts.reached.sum();
+    curve.maximum = fitted.fit.maximum;
+    curve.log_likelihood = fitted.fit.log_likelihood;
+    if (curve.maximum != Maximum::inside) {
+        no_curve(curve, data, options);
+        return curve;
+    }
+
+    const auto parameters = static_cast<Eigen::Index>(1 + data.measures);
+    std::vector<CurveTarget> targets;
+    for (Eigen::Index j = 0; j < parameters; ++j)
+        targets.push_back(CurveTarget::sum(ParameterVector::Unit(parameters, j)));
+    for (const auto& intensity : options.at) {
+        ParameterVector at = ParameterVector::Ones(parameters);
+        for (Eigen::Index j = 1; j < parameters; ++j)
+            at[j] = std::log(intensity[static_cast<std::size_t>(j - 1)]);
+        targets.push_back(CurveTarget::sum(at));
+    }
+    const bool falls = data.measures == 1 && fitted.fit.coefficients[1] <= 0;
+    if (data.measures == 1 && !falls)
+        targets.push_back(CurveTarget::log_median());
+
+    const bool intervals = data.records >= least_records;
+    std::vector<BootstrapLimits> resampled(targets.size());
+    if (intervals && options.resamples > 0)
+        resampled = bootstrap_limits(fitted, targets, options.level, options.resamples, options.seed);
+    std::vector<CurveEstimate> estimates;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+        CurveEstimate estimate;
+        estimate.value = targets[t].value(fitted.fit.coefficients);
+        if (intervals)
+            estimate = {estimate.value, wald_limits(fitted, targets[t], options.level),
+                        record_limits(fitted, targets[t], options.level),
+                        profile_limits(fitted, targets[t], options.level), resampled[t].studentized};
+        estimates.push_back(estimate);
+    }
+    curve.coefficients.assign(estimates.begin(), estimates.begin() + parameters);
+    for (std::size_t i = 0; i < options.at.size(); ++i) {
+        const CurveEstimate& eta = estimates[static_cast<std::size_t>(parameters) + i];
+        curve.at.push_back({options.at[i], changed(eta, link_at(options.link, eta.value).below, [&](Limits limits) {
+                                return probabilities(options.link, limits);
+                            })});
+    }
+    if (data.measures == 1 && !falls) {
+        curve.median = changed(estimates.back(), std::exp(estimates.back().value), exponentials);
+        curve.dispersion = changed(estimates[1], 1 / estimates[1].value, inverses);
+    } else
+        curve.median = curve.dispersion = same_everywhere(std::numeric_limits<double>::quiet_NaN(), {});
+
+    if (falls)
+        curve.says.push_back("The share that reaches the limit state does not grow with the intensity: there is no "
+                             "median and no dispersion.");
+    if (!intervals)
+        curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
+                                         "and must not be used alone.",
+                                         data.records, least_records));
+    else if (data.records < enough_records)
+        curve.says.push_back(fmt::format("With {} records, fewer than {}, the intervals may cover less than they say.",
+                                         data.records, enough_records));
+    return curve;
+}
+
+void check_fragility_design(std::size_t records, std::size_t intensities, std::size_t measures)
+{
+    if (records < least_records)
+        throw InputError(fmt::format("fragility: {} records are too few for a curve with an interval, at least {}.\n  "
+                                     "The record decides more than all else: add records, not runs of each.",
+                                     records, least_records));
+    if (intensities < measures + 1)
+        throw InputError(fmt::format("fragility: {} intensities are too few for {} coefficients.\n  Give at least "
+                                     "{}, from where nothing to where everything falls.",
+                                     intensities, measures + 1, measures + 1));
+}
+
+std::vector<std::string> order_of_limit_states(const std::vector<std::string>& names,
+                                               const std::vector<std::vector<std::uint8_t>>& reached)
+{
+    std::vector<std::string> says;
+    for (std::size_t s = 1; s < names.size(); ++s) {
+        const auto against = std::count_if(reached.begin(), reached.end(),
+                                           [&](const auto& run) { return run[s] != 0 && run[s - 1] == 0; });
+        if (against > 0)
+            says.push_back(fmt::format("Limit states in the wrong order: {} of {} runs reached '{}' without '{}', "
+                                       "which stands before it.",
+                                       against, reached.size(), names[s], names[s - 1]));
+    }
+    return says;
+}
+
+} // namespace stylobate

@@ -1,0 +1,70 @@
+#pragma once
+/// Fragility curves: the probability that a limit state is reached, given the intensity, with its intervals.
+///
+/// With one measure and the probit this is the lognormal curve, P = Phi(ln(im / median) / dispersion), by maximum
+/// likelihood. Which interval covers how often is measured in `docs/fragility_statistics.md`: those by runs cover only
+/// where runs are independent, which runs of one record are not.
+
+#include "ensemble/estimators/curve_target.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Below it no interval is given: Student's quantile hangs on a variance that is itself unknown.
+inline constexpr std::size_t least_records = 8;
+/// Below it the intervals are marked: their measured coverage leaves 95 +- 1 %.
+inline constexpr std::size_t enough_records = 20;
+
+struct CurveOptions {
+    Link link = Link::probit;
+    double level = 0.95;
+    std::vector<std::vector<double>> at = {}; ///< (n x measures) intensities at which the probability is wanted
+    std::size_t resamples = 0;                ///< of the records, for the bootstrap's intervals; 0: none
+    std::uint64_t seed = 1;
+};
+
+/// A number and its intervals; unbounded where there is none.
+struct CurveEstimate {
+    double value = 0;
+    Limits records;         ///< the one to use: by the records, CR3 variance and Student's quantile
+    Limits profile_records; ///< profile likelihood, adjusted to the records
+    Limits profile_runs;    ///< profile likelihood, right only where all runs are independent
+    Limits bootstrap;       ///< records drawn again, studentized
+};
+
+struct CurvePoint {
+    std::vector<double> intensity; ///< (measures)
+    CurveEstimate probability;
+};
+
+struct FragilityCurve {
+    Link link = Link::probit;
+    double level = 0.95;
+    std::size_t records = 0;
+    double trials = 0, reached = 0;
+    Maximum maximum = Maximum::inside; ///< otherwise there is no curve, but what bounds the probabilities
+    double log_likelihood = 0;
+    std::vector<CurveEstimate> coefficients; ///< (1 + measures) constant, then one per ln intensity
+    CurveEstimate median;     ///< of one measure, in its unit; where separated, its bounds without the form of a curve
+    CurveEstimate dispersion; ///< 1 / slope: the standard deviation of ln capacity for the probit
+    std::vector<CurvePoint> at;
+    std::vector<std::string> says; ///< what a reader must know, in sentences
+};
+
+/// @throws InputError for data that bear no estimate at all: options out of range, fewer different intensities than
+///         coefficients
+FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options);
+
+/// What can be said before anything is run.
+/// @throws InputError with too few records or intensities for a curve with intervals
+void check_fragility_design(std::size_t records, std::size_t intensities, std::size_t measures);
+
+/// Limit states are nested: what has reached one has reached all before it.
+/// @param reached (runs x states) by state, in the order given
+/// @return for each pair of neighbours with runs that reached the later one only, a sentence
+std::vector<std::string> order_of_limit_states(const std::vector<std::string>& names,
+                                               const std::vector<std::vector<std::uint8_t>>& reached);
+
+} // namespace stylobate

@@ -1,0 +1,78 @@
+#include "ensemble/estimators/fragility_data.hpp"
+
+#include "ensemble/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace stylobate {
+namespace {
+
+void check(const FragilityRun& run, std::size_t number, std::size_t measures)
+{
+    const auto refuse = [&](const std::string& text) {
+        throw InputError(fmt::format("fragility: run {} (record {}): {}", number, run.record, text));
+    };
+    if (run.intensity.size() != measures)
+        refuse(fmt::format("has {} intensity measures, the first run has {}.\n  Give every run the same measures.",
+                           run.intensity.size(), measures));
+    for (const double value : run.intensity)
+        if (!(value > 0 && std::isfinite(value)))
+            refuse(fmt::format("intensity = {} is outside (0, infinity).\n  Curves are fitted to its logarithm: leave "
+                               "runs without shaking out.",
+                               value));
+    if (!(run.trials > 0 && run.reached >= 0 && run.reached <= run.trials))
+        refuse(fmt::format("reached = {} is outside [0, {}], the number of its trials.", run.reached, run.trials));
+}
+
+} // namespace
+
+FragilityData grouped(std::span<const FragilityRun> runs)
+{
+    if (runs.empty() || runs.front().intensity.empty())
+        throw InputError("fragility: there are no runs with an intensity.\n  An estimate needs outcomes.");
+    FragilityData data;
+    data.measures = runs.front().intensity.size();
+    std::map<std::vector<double>, std::uint32_t> points;
+    std::map<std::uint32_t, std::uint32_t> records;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        check(runs[i], i, data.measures);
+        points.emplace(runs[i].intensity, 0);
+        records.emplace(runs[i].record, 0);
+    }
+    for (auto& [intensity, number] : points) {
+        number = static_cast<std::uint32_t>(data.points());
+        data.intensity.insert(data.intensity.end(), intensity.begin(), intensity.end());
+    }
+    for (auto& [name, number] : records)
+        number = static_cast<std::uint32_t>(data.records++);
+
+    std::map<std::pair<std::uint32_t, std::uint32_t>, FragilityRow> rows;
+    for (const FragilityRun& run : runs) {
+        const std::uint32_t record = records[run.record], point = points[run.intensity];
+        FragilityRow& row = rows.try_emplace({record, point}, FragilityRow{record, point, 0, 0}).first->second;
+        row.trials += run.trials;
+        row.reached += run.reached;
+    }
+    data.first_row.assign(data.records + 1, 0);
+    for (const auto& [key, row] : rows) {
+        data.rows.push_back(row);
+        data.first_row[row.record + 1] = data.rows.size();
+    }
+    return data;
+}
+
+FragilityData with_measure(const FragilityData& data, std::size_t measure)
+{
+    std::vector<FragilityRun> runs;
+    runs.reserve(data.rows.size());
+    for (const FragilityRow& row : data.rows)
+        runs.push_back({row.record, {data.intensity[row.point * data.measures + measure]}, row.reached, row.trials});
+    return grouped(runs);
+}
+
+} // namespace stylobate

@@ -1,0 +1,52 @@
+#pragma once
+/// Outcomes at known intensities, summed by record: what every fragility estimate starts from.
+///
+/// Runs of one record are not independent, so the record is the unit of every interval; within a record only the number
+/// of runs and of those that reached the limit state at each intensity matter to a curve. Summed so, 60,000 runs of 40
+/// records at 10 intensities are 400 rows and 10 points, and a thousand resamples cost milliseconds.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+/// Runs of one record at one intensity.
+struct FragilityRow {
+    std::uint32_t record = 0;
+    std::uint32_t point = 0; ///< row of `FragilityData::intensity`
+    double trials = 0;
+    double reached = 0; ///< of them, those that reached the limit state
+};
+
+struct FragilityData {
+    std::size_t records = 0;
+    std::size_t measures = 1;           ///< intensity measures of a run
+    std::vector<double> intensity;      ///< (points x measures) distinct, in ascending order, each > 0
+    std::vector<FragilityRow> rows;     ///< by record, then point; one for each pair that has runs
+    std::vector<std::size_t> first_row; ///< (records + 1) where each record's rows begin
+
+    std::size_t points() const { return intensity.size() / measures; }
+    std::span<const FragilityRow> of_record(std::size_t record) const
+    {
+        return std::span(rows).subspan(first_row[record], first_row[record + 1] - first_row[record]);
+    }
+};
+
+/// One run, or several of one record at one intensity.
+struct FragilityRun {
+    std::uint32_t record = 0;      ///< any number that tells the records apart
+    std::vector<double> intensity; ///< (measures)
+    double reached = 0;            ///< 0 or 1, or how many of `trials`
+    double trials = 1;
+};
+
+/// @throws InputError where a run has another number of measures than the first, an intensity that is not above 0, or
+///         `reached` outside [0, trials]; where there is no run
+FragilityData grouped(std::span<const FragilityRun> runs);
+
+/// The same outcomes with one of their measures only.
+FragilityData with_measure(const FragilityData& data, std::size_t measure);
+
+} // namespace stylobate
