@@ -11,6 +11,7 @@ packages=(
     libboost1.74-dev librandom123-dev                   # distributions, random numbers (headers only)
     libhdf5-dev zlib1g-dev libtomlplusplus-dev          # result and study files
     libcli11-dev libfmt-dev                             # command line, text
+    libpugixml-dev                                      # fragility functions in NRML
     gnuplot-nox fonts-dejavu-core                       # pictures
     libgtest-dev libbenchmark-dev                       # tests, benchmarks
 )

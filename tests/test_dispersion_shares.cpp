@@ -1,9 +1,8 @@
 /// The shares of the dispersion: known components, unequal counts, a direct sum over pairs, coverage.
 
 #include "ensemble/estimators/dispersion_shares.hpp"
-#include "ensemble/estimators/link.hpp"
 #include "ensemble/input_error.hpp"
-#include "ensemble/random.hpp"
+#include "nested_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,31 +13,10 @@ using namespace stylobate;
 
 namespace {
 
-/// Sums of independent normal parts with standard deviations by level; cut at 0 to fallen or not where `binary`.
-std::vector<NestedRun> nested(std::uint64_t seed, std::uint64_t repeat, std::uint32_t records,
+std::vector<NestedRun> nested(std::uint64_t seed, std::uint64_t repeat, std::size_t records,
                               const std::array<double, 4>& sd, bool binary, bool unequal = false)
 {
-    std::uint64_t element = 0;
-    const auto uniform = [&] { return uniform01(seed, repeat, Stream::virtual_specimen, element++); };
-    const auto normal = [&](double scale) { return scale * link_quantile(Link::probit, uniform()); };
-    const auto count = [&](std::uint32_t usual) {
-        return unequal ? 1 + static_cast<std::uint32_t>(uniform() * 2 * usual) : usual;
-    };
-    std::vector<NestedRun> runs;
-    for (std::uint32_t r = 0; r < records; ++r) {
-        const double record = normal(sd[0]);
-        for (std::uint32_t s = 0, structures = count(3); s < structures; ++s) {
-            const double structure = normal(sd[1]);
-            for (std::uint32_t c = 0, contacts = count(2); c < contacts; ++c) {
-                const double contact = normal(sd[2]);
-                for (std::uint32_t i = 0, twins = count(2); i < twins; ++i) {
-                    const double y = record + structure + contact + normal(sd[3]);
-                    runs.push_back({r, s, c, 0, binary ? (y > 0.3 ? 1.0 : 0.0) : y});
-                }
-            }
-        }
-    }
-    return runs;
+    return NestedTruth{.sd = sd, .binary = binary, .records = records, .unequal = unequal}.draw(seed, repeat);
 }
 
 double sum_of_shares(const DispersionShares& shares)

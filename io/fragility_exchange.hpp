@@ -1,0 +1,35 @@
+#pragma once
+/// Fragility functions in files of others: NRML 0.5 of GEM's OpenQuake, JSON, CSV.
+///
+/// NRML has no place for intervals; they go into comments and the description, and whole into JSON and CSV. It takes
+/// PGA and SA in g, PGV in cm/s, PGD in cm, and of a lognormal function not median and dispersion but mean and
+/// standard deviation of the intensity itself,
+///
+///   mean = median exp(dispersion^2 / 2),   stddev = mean sqrt(exp(dispersion^2) - 1)
+///
+/// (openquake.risklib.scientific.FragilityFunctionContinuous).
+
+#include "ensemble/estimators/fragility_model.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace stylobate {
+
+/// What OpenQuake asks of a model, and more: that no limit state is more probable than the one before it, and that no
+/// number stands without its interval.
+/// @throws InputError naming function, limit state, value and range
+void check_fragility_model(const FragilityModel& model);
+
+/// The texts of the files. @throws InputError as above
+std::string fragility_nrml(const FragilityModel& model);
+std::string fragility_json(const FragilityModel& model);
+/// A line for each limit state (lognormal) or limit state and intensity (discrete).
+std::string fragility_csv(const FragilityModel& model);
+
+/// Reads a fragility model of NRML 0.5; intervals are unbounded, and the description is as it stands there.
+/// @throws InputError with file, line and what is wrong: no such file, no XML, another element, an attribute that is
+///         missing or out of range, limit states in another order than the model says
+FragilityModel read_fragility_nrml(const std::filesystem::path& file);
+
+} // namespace stylobate

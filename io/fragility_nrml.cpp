@@ -1,0 +1,264 @@
+#include "ensemble/input_error.hpp"
+#include "io/csv_fields.hpp"
+#include "io/fragility_exchange.hpp"
+#include "io/fragility_measure.hpp"
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace stylobate {
+namespace {
+
+constexpr const char* nrml_namespace = "http://openquake.org/xmlns/nrml/0.5";
+
+void set(pugi::xml_node node, const char* name, const std::string& value)
+{
+    node.append_attribute(name).set_value(value.c_str());
+}
+
+/// Two hyphens end a comment.
+void append_comment(pugi::xml_node node, std::string text)
+{
+    for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--"))
+        text.replace(at, 2, "- ");
+    if (text.ends_with('-'))
+        text += ' ';
+    node.append_child(pugi::node_comment).set_value((" " + text + " ").c_str());
+}
+
+std::string interval(const FragilityValue& value, double scale)
+{
+    return fmt::format("{:.6g} [{:.6g}, {:.6g}]", value.value * scale, value.lower * scale, value.upper * scale);
+}
+
+void append_function(pugi::xml_node model_node, const FragilityModel& model, const FragilityFunction& function)
+{
+    const double scale = per_si_unit(function.measure);
+    pugi::xml_node node = model_node.append_child("fragilityFunction");
+    set(node, "id", function.id);
+    set(node, "format", function.discrete ? "discrete" : "continuous");
+    if (!function.discrete)
+        set(node, "shape", "logncdf");
+    pugi::xml_node imls = node.append_child("imls");
+    set(imls, "imt", function.measure);
+    set(imls, "noDamageLimit", "0");
+    if (function.discrete) {
+        std::string text;
+        for (const double intensity : function.intensity)
+            text += fmt::format("{}{}", text.empty() ? "" : " ", intensity * scale);
+        imls.text().set(text.c_str());
+    } else {
+        set(imls, "minIML", fmt::format("{}", function.least * scale));
+        set(imls, "maxIML", fmt::format("{}", function.most * scale));
+    }
+    if (!function.note.empty())
+        append_comment(node, function.note);
+    for (std::size_t s = 0; s < function.states.size(); ++s) {
+        const FragilityState& state = function.states[s];
+        if (function.discrete) {
+            std::string text, bounds;
+            for (const FragilityValue& value : state.probability) {
+                text += fmt::format("{}{}", text.empty() ? "" : " ", value.value);
+                bounds += fmt::format(" [{:.6g}, {:.6g}]", value.lower, value.upper);
+            }
+            append_comment(node, fmt::format("{} at {:g} %:{}", model.limit_states[s], 100 * model.level, bounds));
+            pugi::xml_node poes = node.append_child("poes");
+            set(poes, "ls", model.limit_states[s]);
+            poes.text().set(text.c_str());
+        } else {
+            const double square = state.dispersion.value * state.dispersion.value;
+            const double mean = state.median.value * scale * std::exp(square / 2);
+            append_comment(node, fmt::format("{} at {:g} %: median {}, dispersion {}", model.limit_states[s],
+                                             100 * model.level, interval(state.median, scale),
+                                             interval(state.dispersion, 1)));
+            pugi::xml_node params = node.append_child("params");
+            set(params, "ls", model.limit_states[s]);
+            set(params, "mean", fmt::format("{}", mean));
+            set(params, "stddev", fmt::format("{}", mean * std::sqrt(std::expm1(square))));
+        }
+    }
+}
+
+/// A file being read: every complaint names it and the line.
+class Reader {
+public:
+    explicit Reader(const std::filesystem::path& file) : name_(file.string()), text_(csv_content(file, 1 << 26))
+    {
+        const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size());
+        if (!result)
+            throw InputError(name_, line(result.offset), fmt::format("no XML: {}.", result.description()));
+    }
+
+    FragilityModel read()
+    {
+        const pugi::xml_node nrml = document_.document_element();
+        if (std::string_view(nrml.name()) != "nrml" ||
+            std::string_view(nrml.attribute("xmlns").value()) != nrml_namespace)
+            refuse(nrml, fmt::format("the file begins with <{}>, not with <nrml xmlns=\"{}\">.", nrml.name(),
+                                     nrml_namespace));
+        const pugi::xml_node node = element(nrml.first_child());
+        expect(node, nrml, "fragilityModel");
+        FragilityModel model;
+        model.id = attribute(node, "id");
+        attribute(node, "assetCategory");
+        attribute(node, "lossCategory");
+        pugi::xml_node child = element(node.first_child());
+        expect(child, node, "description");
+        model.description = child.text().get();
+        child = element(child.next_sibling());
+        expect(child, node, "limitStates");
+        std::istringstream states(child.text().get());
+        for (std::string state; states >> state;)
+            model.limit_states.push_back(state);
+        for (child = element(child.next_sibling()); child; child = element(child.next_sibling())) {
+            expect(child, node, "fragilityFunction");
+            model.functions.push_back(function(child, model.limit_states));
+        }
+        try {
+            check_fragility_model(model);
+        } catch (const InputError& error) {
+            throw InputError(name_, 0, error.what());
+        }
+        return model;
+    }
+
+private:
+    long line(std::ptrdiff_t offset) const
+    {
+        const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, offset));
+        return 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(end, text_.size())),
+                              '\n');
+    }
+    [[noreturn]] void refuse(pugi::xml_node node, const std::string& text) const
+    {
+        throw InputError(name_, line(node.offset_debug()), text);
+    }
+    static pugi::xml_node element(pugi::xml_node node)
+    {
+        while (node && node.type() != pugi::node_element)
+            node = node.next_sibling();
+        return node;
+    }
+    void expect(pugi::xml_node node, pugi::xml_node parent, const char* name) const
+    {
+        if (std::string_view(node.name()) != name)
+            refuse(node ? node : parent, fmt::format("<{}> is expected in <{}>, there is {}.", name, parent.name(),
+                                                     node ? fmt::format("<{}>", node.name()) : "nothing"));
+    }
+    std::string attribute(pugi::xml_node node, const char* name) const
+    {
+        if (!node.attribute(name))
+            refuse(node, fmt::format("<{}> has no attribute '{}'.", node.name(), name));
+        return node.attribute(name).value();
+    }
+    double number(pugi::xml_node node, const std::string& text, const char* what) const
+    {
+        double value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc() || rest != end || !std::isfinite(value) || value < 0)
+            refuse(node, fmt::format("{} = '{}' is not a number of at least 0.", what, text));
+        return value;
+    }
+    std::vector<double> numbers(pugi::xml_node node) const
+    {
+        std::vector<double> values;
+        std::istringstream words(node.text().get());
+        for (std::string word; words >> word;)
+            values.push_back(number(node, word, node.name()));
+        return values;
+    }
+
+    FragilityFunction function(pugi::xml_node node, const std::vector<std::string>& limit_states) const
+    {
+        FragilityFunction read;
+        read.id = attribute(node, "id");
+        const std::string format = attribute(node, "format");
+        if (format != "discrete" && format != "continuous")
+            refuse(node, fmt::format("format = '{}' is neither discrete nor continuous.", format));
+        read.discrete = format == "discrete";
+        if (!read.discrete && attribute(node, "shape") != "logncdf")
+            refuse(node, fmt::format("shape = '{}' is not logncdf.", attribute(node, "shape")));
+        pugi::xml_node child = element(node.first_child());
+        expect(child, node, "imls");
+        read.measure = attribute(child, "imt");
+        const double scale = per_si_unit(read.measure);
+        if (read.discrete)
+            for (const double intensity : numbers(child))
+                read.intensity.push_back(intensity / scale);
+        else {
+            read.least = number(child, attribute(child, "minIML"), "minIML") / scale;
+            read.most = number(child, attribute(child, "maxIML"), "maxIML") / scale;
+        }
+        for (const std::string& name : limit_states) {
+            child = element(child.next_sibling());
+            expect(child, node, read.discrete ? "poes" : "params");
+            if (attribute(child, "ls") != name)
+                refuse(child,
+                       fmt::format("limit state '{}' stands where the model has '{}'.", attribute(child, "ls"), name));
+            FragilityState state;
+            if (read.discrete)
+                for (const double value : numbers(child))
+                    state.probability.push_back({value});
+            else {
+                const double mean = number(child, attribute(child, "mean"), "mean");
+                const double stddev = number(child, attribute(child, "stddev"), "stddev");
+                if (!(mean > 0))
+                    refuse(child, "mean = 0 is no lognormal capacity.");
+                const double square = std::log1p(stddev / mean * (stddev / mean));
+                state.median = {mean / scale * std::exp(-square / 2)};
+                state.dispersion = {std::sqrt(square)};
+            }
+            read.states.push_back(state);
+        }
+        if (const pugi::xml_node more = element(child.next_sibling()))
+            refuse(more, fmt::format("<{}> is one limit state more than the model has.", more.name()));
+        return read;
+    }
+
+    std::string name_, text_;
+    pugi::xml_document document_;
+};
+
+} // namespace
+
+std::string fragility_nrml(const FragilityModel& model)
+{
+    check_fragility_model(model);
+    pugi::xml_document document;
+    pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+    set(declaration, "version", "1.0");
+    set(declaration, "encoding", "UTF-8");
+    pugi::xml_node nrml = document.append_child("nrml");
+    set(nrml, "xmlns", nrml_namespace);
+    pugi::xml_node node = nrml.append_child("fragilityModel");
+    set(node, "id", model.id);
+    set(node, "assetCategory", "buildings");
+    set(node, "lossCategory", "structural");
+    // OpenQuake refuses a model without a description
+    node.append_child("description")
+        .text()
+        .set(model.description.empty() ? "Fragility functions; their intervals are in the comments."
+                                       : model.description.c_str());
+    std::string states;
+    for (const std::string& state : model.limit_states)
+        states += (states.empty() ? "" : " ") + state;
+    node.append_child("limitStates").text().set(states.c_str());
+    for (const FragilityFunction& function : model.functions)
+        append_function(node, model, function);
+    std::ostringstream out;
+    document.save(out, "  ");
+    return out.str();
+}
+
+FragilityModel read_fragility_nrml(const std::filesystem::path& file)
+{
+    return Reader(file).read();
+}
+
+} // namespace stylobate

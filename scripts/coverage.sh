@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Measures how often the intervals of fragility estimates hold the truth, and writes the tables into
+# docs/fragility_statistics.md.
+#
+#   scripts/coverage.sh [REPEATS]    simulated campaigns of each kind (default 10000: some ten minutes on one core)
+set -euo pipefail
+
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+build=${STYLOBATE_BUILD:-build/release}
+if [[ -z ${STYLOBATE_BUILD:-} ]]; then
+    scripts/install_packages.sh
+    cmake --preset release >/dev/null
+    cmake --build "$build" --target stylobate_coverage --parallel "$(nproc)"
+fi
+
+page=docs/fragility_statistics.md
+tables=$(mktemp)
+trap 'rm -f "$tables" "$tables.page"' EXIT
+"$build/bench/stylobate_coverage" --repeats "${1:-10000}" >"$tables"
+awk -v tables="$tables" '
+    /<!-- end of what scripts\/coverage.sh writes -->/ { inside = 0 }
+    !inside { print }
+    /<!-- scripts\/coverage.sh writes what follows -->/ { inside = 1; print ""; while ((getline line < tables) > 0) print line; print "" }
+' "$page" >"$tables.page"
+cat "$tables.page" >"$page"
+echo "$page"
