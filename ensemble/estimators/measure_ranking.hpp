@@ -1,0 +1,43 @@
+#pragma once
+/// Which intensity measure tells most about a limit state, and whether it tells all that the records' other features
+/// could.
+
+#include "ensemble/estimators/curve_target.hpp"
+#include "ensemble/estimators/fragility_data.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What the other features of a record add to one measure.
+struct Sufficiency {
+    std::string feature;    ///< such as magnitude or distance
+    double coefficient = 0; ///< of the standardised feature beside ln measure
+    Limits limits;          ///< by the records
+    double p_value = 1;     ///< that it adds nothing
+};
+
+struct RankedMeasure {
+    std::string name;
+    std::size_t column = 0; ///< in the data
+    double dispersion = 0;  ///< of the lognormal curve in this measure alone: the smaller, the more efficient
+    Limits dispersion_limits;
+    double gain = 0; ///< information on the outcome: (log likelihood - that of the mean share) / runs [nat]
+    Limits behind;   ///< by how much the best measure's gain exceeds it, by records [nat]; 0, 0 of the best itself
+    std::vector<Sufficiency> sufficiency; ///< for each feature
+    bool sufficient = true; ///< no feature adds anything at the level, all looked at together (Bonferroni)
+    std::string says;
+};
+
+/// @param names    (measures)
+/// @param features (features) names of what else is known of the records, and its value for each record of `data`, in
+///                 the order of their numbers, (features x records)
+/// @return best gain first; measures without a curve last. The gain compares measures with different units and slopes,
+///         which the dispersion does only after division by the scatter of the measure itself.
+/// @throws InputError for names or features of another count, or fewer than `least_records` records
+std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std::vector<std::string>& names,
+                                           const std::vector<std::string>& features,
+                                           const std::vector<std::vector<double>>& values, double level = 0.95);
+
+} // namespace stylobate
