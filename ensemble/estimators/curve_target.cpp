@@ -181,6 +181,46 @@ Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double
     return limits_at(curve, target, threshold);
 }
 
+Jackknife jackknife(const FittedCurve& curve)
+{
+    Jackknife found;
+    if (curve.fit.maximum != Maximum::inside)
+        return found;
+    BinomialCounts rest = curve.counts;
+    for (std::size_t g = 0; g < curve.data.records; ++g) {
+        for (const FragilityRow& row : curve.data.of_record(g)) {
+            rest.trials[row.point] -= row.trials;
+            rest.reached[row.point] -= row.reached;
+        }
+        const BinomialFit fit = fit_binomial(curve.link, curve.predictors, rest, {}, curve.fit.coefficients);
+        if (fit.maximum != Maximum::inside)
+            return {};
+        found.coefficients.push_back(fit.coefficients);
+        for (const FragilityRow& row : curve.data.of_record(g)) {
+            rest.trials[row.point] = curve.counts.trials[row.point];
+            rest.reached[row.point] = curve.counts.reached[row.point];
+        }
+    }
+    return found;
+}
+
+Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, const CurveTarget& target, double level)
+{
+    if (without.coefficients.size() < 2)
+        return {};
+    const double n = static_cast<double>(without.coefficients.size());
+    double mean = 0, square = 0;
+    for (const ParameterVector& coefficients : without.coefficients)
+        mean += target.value(coefficients) / n;
+    for (const ParameterVector& coefficients : without.coefficients)
+        square += std::pow(target.value(coefficients) - mean, 2);
+    const double value = target.value(curve.fit.coefficients), unbiased = n * value - (n - 1) * mean;
+    const double reach =
+        student_quantile(record_spread(curve, target).freedom, level) * std::sqrt((n - 1) / n * square);
+    // an estimate is never outside its own interval
+    return {std::min(value, unbiased - reach), std::max(value, unbiased + reach)};
+}
+
 Limits wald_limits(const FittedCurve& curve, const CurveTarget& target, double level)
 {
     if (curve.fit.maximum != Maximum::inside)

@@ -4,6 +4,7 @@
 #include "ensemble/estimators/binomial_regression.hpp"
 
 #include <limits>
+#include <vector>
 
 namespace stylobate {
 
@@ -69,7 +70,18 @@ Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double
 /// Twice the log likelihood by which the best coefficients with that value of the target fall behind the maximum.
 double profile_deviance(const FittedCurve& curve, const CurveTarget& target, double value);
 
-/// value -+ Student's quantile x standard error from the records.
+/// The fits without each record in turn.
+struct Jackknife {
+    std::vector<ParameterVector> coefficients; ///< (records) empty where the maximum is not inside for all of them
+};
+Jackknife jackknife(const FittedCurve& curve);
+
+/// The jackknife over records: G value - (G - 1) mean of the values without each, which takes the bias away that a
+/// steep curve has with few records, -+ Student's quantile x the standard error of the values without each.
+/// @return unbounded where the curve hangs on one record
+Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, const CurveTarget& target, double level);
+
+/// value -+ Student's quantile x standard error from the records, CR3.
 Limits wald_limits(const FittedCurve& curve, const CurveTarget& target, double level);
 
 } // namespace stylobate

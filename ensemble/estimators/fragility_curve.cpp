@@ -191,12 +191,13 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
     std::vector<BootstrapLimits> resampled(targets.size());
     if (intervals && options.resamples > 0)
         resampled = bootstrap_limits(fitted, targets, options.level, options.resamples, options.seed);
+    const Jackknife without = intervals ? jackknife(fitted) : Jackknife{};
     std::vector<CurveEstimate> estimates;
     for (std::size_t t = 0; t < targets.size(); ++t) {
         CurveEstimate estimate;
         estimate.value = targets[t].value(fitted.fit.coefficients);
         if (intervals)
-            estimate = {estimate.value, wald_limits(fitted, targets[t], options.level),
+            estimate = {estimate.value, jackknife_limits(fitted, without, targets[t], options.level),
                         record_limits(fitted, targets[t], options.level),
                         profile_limits(fitted, targets[t], options.level), resampled[t].studentized};
         estimates.push_back(estimate);
@@ -217,6 +218,9 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
     if (falls)
         curve.says.push_back("The share that reaches the limit state does not grow with the intensity: there is no "
                              "median and no dispersion.");
+    if (intervals && without.coefficients.empty())
+        curve.says.push_back("The curve hangs on one record: without it, nothing bounds the likelihood. There is no "
+                             "interval; add records or intensities.");
     if (!intervals)
         curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
                                          "and must not be used alone.",

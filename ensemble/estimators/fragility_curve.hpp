@@ -14,8 +14,8 @@ namespace stylobate {
 
 /// Below it no interval is given: Student's quantile hangs on a variance that is itself unknown.
 inline constexpr std::size_t least_records = 8;
-/// Below it the intervals are marked: their measured coverage leaves 95 +- 1 %.
-inline constexpr std::size_t enough_records = 20;
+/// Below it the intervals are marked: their coverage was measured from here on.
+inline constexpr std::size_t enough_records = 10;
 
 struct CurveOptions {
     Link link = Link::probit;
@@ -28,7 +28,7 @@ struct CurveOptions {
 /// A number and its intervals; unbounded where there is none.
 struct CurveEstimate {
     double value = 0;
-    Limits records;         ///< the one to use: by the records, CR3 variance and Student's quantile
+    Limits records;         ///< the one to use: the jackknife over records
     Limits profile_records; ///< profile likelihood, adjusted to the records
     Limits profile_runs;    ///< profile likelihood, right only where all runs are independent
     Limits bootstrap;       ///< records drawn again, studentized

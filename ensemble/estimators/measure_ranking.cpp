@@ -111,7 +111,7 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
             const FittedCurve curve = fitted_curve(alone, log_predictors(alone), Link::probit);
             if (curve.fit.maximum == Maximum::inside) {
                 const double slope = curve.fit.coefficients[1];
-                const Limits limits = wald_limits(curve, CurveTarget::slope(), level);
+                const Limits limits = jackknife_limits(curve, jackknife(curve), CurveTarget::slope(), level);
                 measure.dispersion = slope > 0 ? 1 / slope : std::numeric_limits<double>::infinity();
                 measure.dispersion_limits = {limits.upper > 0 ? 1 / limits.upper : 0,
                                              limits.lower > 0 ? 1 / limits.lower
