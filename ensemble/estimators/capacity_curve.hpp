@@ -1,0 +1,41 @@
+#pragma once
+/// The lognormal curve from capacities: incremental dynamic analysis, each record with its own intensities.
+///
+/// A record's capacity is the lowest intensity at which the limit state is reached. It is known to lie above the
+/// intensity run before, so what is observed are intervals: (below, at], (0, at] where the first run reached it, and
+/// (below, infinity) where none did. Their likelihood needs no spacing and no capacity for every record.
+
+#include "ensemble/estimators/curve_target.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct RecordCapacity {
+    std::uint32_t record = 0; ///< as numbered in the runs
+    double below = 0;         ///< highest intensity before the first that reached the limit state; 0: none
+    double at = std::numeric_limits<double>::infinity(); ///< the first that did; infinite: none
+    bool resurrected = false;                            ///< a stronger run of the record did not reach it
+};
+
+/// @param runs one run of a record at each intensity; where there are several, more than half must have reached
+/// @throws InputError as `grouped`, or with more than one measure
+std::vector<RecordCapacity> record_capacities(std::span<const FragilityRun> runs);
+
+struct CapacityCurve {
+    std::size_t records = 0, resurrected = 0, unreached = 0;
+    bool found = false; ///< the likelihood has its maximum at a finite dispersion above 0
+    double median = 0;
+    Limits median_limits;
+    double dispersion = 0;
+    Limits dispersion_limits;
+    std::vector<std::string> says;
+};
+
+/// By maximum likelihood, intervals by the jackknife over records with Student's quantile.
+/// @throws InputError with fewer than two records
+CapacityCurve capacity_curve(std::span<const RecordCapacity> capacities, double level = 0.95);
+
+} // namespace stylobate
