@@ -48,11 +48,12 @@ bool covers(const Limits& limits, double value)
 
 void curve_coverage(std::uint64_t repeats, std::size_t resamples)
 {
-    fmt::print("### Curves\n\nPercent of {} repeats in which the interval at 95 % holds the truth (one standard error: "
-               "{:.2f}); bootstrap in a fifth of them with {} resamples. Stripes at 0.5 to 2.4 of the median, 5 runs "
-               "of a record at each "
-               "of its stripes. A repeat without a maximum of the likelihood gives no curve and is not counted.\n\n",
-               repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)), resamples);
+    fmt::print(
+        "\n### Curves\n\nPercent of {} repeats in which the interval at 95 % holds the truth (one standard error: "
+        "{:.2f}); bootstrap in a fifth of them with {} resamples. Stripes at 0.5 to 2.4 of the median, 5 runs "
+        "of a record at each "
+        "of its stripes. A repeat without a maximum of the likelihood gives no curve and is not counted.\n\n",
+        repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)), resamples);
     fmt::print("| records | of | profile, by runs | profile, by records | CR3 | **jackknife** | percentile | BCa | "
                "studentized | no maximum |\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (const Case& c : cases()) {
@@ -169,7 +170,7 @@ void stripe_coverage(std::uint64_t repeats)
 
 void share_coverage(std::uint64_t repeats)
 {
-    fmt::print("\n### Shares of the dispersion\n\nStandard deviations .5 between records, .4 imperfections, .3 contact "
+    fmt::print("### Shares of the dispersion\n\nStandard deviations .5 between records, .4 imperfections, .3 contact "
                "parameters, .3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 twins of each. "
                "Percent of {} repeats in which the interval of the share at 95 % holds the truth, and the mean "
                "estimate beside the truth (of outcomes: that of 200,000 records). Sum: the largest distance of the sum "
