@@ -13,7 +13,7 @@ foreach(part kernels ensemble io)
     PATTERN "hdf5.hpp" EXCLUDE PATTERN "result_file.hpp" EXCLUDE) # the insides of the store, which need HDF5's headers
 endforeach()
 
-foreach(part options kernels ensemble io)
+foreach(part options kernels ensemble estimators io)
   set_target_properties(stylobate_${part} PROPERTIES EXPORT_NAME ${part})
   install(TARGETS stylobate_${part} EXPORT stylobate DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
