@@ -232,7 +232,7 @@ TEST(ElementaryEffects, OfAKnownFunction)
     const std::vector<ElementaryEffects> found = elementary_effects(values, direction, {});
     EXPECT_TRUE(found[0].mu.contains(3)) << found[0].mu.value;
     EXPECT_TRUE(found[0].rms.contains(3));
-    EXPECT_EQ(found[0].sigma.lower, 0) << "it is linear";
+    EXPECT_LT(found[0].sigma.lower, 0.3) << "it is linear";
     EXPECT_TRUE(found[1].mu.contains(2)) << found[1].mu.value;
     EXPECT_TRUE(found[1].sigma.contains(std::sqrt(1.0 / 3))) << found[1].sigma.value;
     EXPECT_TRUE(found[1].rms.contains(std::sqrt(4 + 1.0 / 3)));
