@@ -13,12 +13,23 @@ namespace {
 constexpr int most_digits = 20;
 /// Of Boost's tables.
 constexpr std::size_t most_dimensions = 3667;
+/// Of the numbers of a row's point B, beyond those of its point A.
+constexpr std::uint64_t element_of_b = std::uint64_t{1} << 31;
 
 } // namespace
 
-PointSet::PointSet(const Study& study, const std::vector<Place>& places)
-    : seed_(study.seed), per_cell_(study.realizations)
+PointSet::PointSet(const Study& study, const std::vector<Place>& all)
+    : seed_(study.seed), per_cell_(study.realizations), design_(study.sensitivity)
 {
+    std::vector<Place> places = all;
+    if (design_) {
+        per_cell_ = design_->samples;
+        std::erase_if(places, [](const Place& place) { return place.factor < 0; });
+        for (const Place& place : places)
+            factor_.emplace(key(place.stream, place.element), static_cast<std::uint64_t>(place.factor));
+        for (std::size_t i = 0, n = places.size(); i < n; ++i)
+            places.push_back({places[i].stream, places[i].element + element_of_b, places[i].factor});
+    }
     if (study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
         return;
     digits_ = std::min(most_digits, static_cast<int>(std::bit_width(per_cell_ - 1)));
@@ -48,6 +59,21 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& places)
 }
 
 double PointSet::uniform(std::uint64_t index, Stream stream, std::uint64_t element) const
+{
+    if (!design_)
+        return point(index, stream, element);
+    const auto found = factor_.find(key(stream, element));
+    const SensitivitySpec::Place place = design_->place(index);
+    if (found == factor_.end())
+        return uniform01(seed_, place.row * design_->inner + place.draw, stream, element);
+    const bool changed = place.point == design_->first_changed() + found->second;
+    if (design_->method == SensitivityMethod::sobol)
+        return point(place.row, stream, changed || place.point == 1 ? element + element_of_b : element);
+    const double u = point(place.row, stream, element);
+    return changed ? (u < 0.5 ? u + 0.5 : u - 0.5) : u; // exact: both are on the same grid
+}
+
+double PointSet::point(std::uint64_t index, Stream stream, std::uint64_t element) const
 {
     const std::uint64_t independent = random_bits(seed_, index, stream, element);
     const std::uint64_t k = index % per_cell_;

@@ -32,6 +32,7 @@ enum class Stream : std::uint64_t {
     camera_noise = 68,        ///< of its cameras; index = campaign x runs + run
     bootstrap = 69,           ///< which runs are drawn again for an interval; index = resample, element = draw
     scramble = 70, ///< of Sobol points; index = cell, element = dimension x 2^32 + 2^digit + the digits before
+    subset = 72,   ///< of subset simulation; index = repeat x 2^32 + evaluation, element = number of the point
     /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
     /// or block, 0 of the base and of what is drawn once.
     mechanisms = 128

@@ -105,8 +105,8 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     std::vector<PointSet::Place> places;
     for (const Drawn& drawn : drawn_)
         for (std::uint64_t element = 0; element < drawn.draws; ++element)
-            places.push_back({drawn.stream, element});
-    const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places();
+            places.push_back({drawn.stream, element, study.factor(to_string(drawn.quantity))});
+    const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places(study);
     places.insert(places.end(), of_mechanisms.begin(), of_mechanisms.end());
     std::map<Stream, int> draws;
     for (const PointSet::Place& place : places)

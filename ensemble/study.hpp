@@ -18,7 +18,11 @@
 
 namespace stylobate {
 
-enum class StudyKind { single, surface };
+enum class StudyKind {
+    single,
+    surface,
+    sensitivity ///< which of the perturbed quantities the outcomes depend on
+};
 
 /// What the uniform numbers of a cell's realizations are (point_set.hpp).
 enum class Sampling {
@@ -148,6 +152,34 @@ struct SurfaceSpec {
     int cells() const { return frequency_hz.count * pga_m_s2.count; }
 };
 
+enum class SensitivityMethod {
+    sobol, ///< shares of the variance (estimators/sobol_indices.hpp): points A, B, A_1 ... of each row
+    morris ///< screening (estimators/elementary_effects.hpp): points A, A_1 ...
+};
+
+/// A design of the factors: rows of points, and at each point some realizations that differ in all that is no factor,
+/// the same way at all points of a row. Realizations are counted row by row, point by point.
+struct SensitivitySpec {
+    SensitivityMethod method = SensitivityMethod::sobol;
+    std::uint64_t samples = 0;        ///< rows
+    std::uint64_t inner = 1;          ///< realizations at each point
+    std::vector<std::string> factors; ///< perturbed quantities, by the names of the inputs; in the order of the inputs
+
+    struct Place {
+        std::uint64_t row = 0;
+        std::uint64_t point = 0; ///< A is 0
+        std::uint64_t draw = 0;  ///< of the rest
+    };
+    /// Number of the first of the points A_k.
+    std::uint64_t first_changed() const { return method == SensitivityMethod::sobol ? 2 : 1; }
+    std::uint64_t points() const { return factors.size() + first_changed(); }
+    std::uint64_t total() const { return samples * points() * inner; }
+    Place place(std::uint64_t index) const
+    {
+        return {index / (points() * inner), index / inner % points(), index % inner};
+    }
+};
+
 /// What can be perturbed. The names in study files are the enumerators' names.
 enum class Quantity {
     friction,             ///< mu; per joint or structure
@@ -257,13 +289,14 @@ struct RunSpec {
 struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
-    std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all
+    std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all; not of a sensitivity study
     Sampling sampling = Sampling::independent;
 
     StructureSpec structure;
     ContactSpec contact;
     ExcitationSpec excitation;
     std::optional<SurfaceSpec> surface;
+    std::optional<SensitivitySpec> sensitivity;
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -285,10 +318,28 @@ struct Study {
     /// Realizations of the whole study.
     std::uint64_t total() const
     {
+        if (sensitivity)
+            return sensitivity->total();
         return surface ? realizations * static_cast<std::uint64_t>(surface->cells()) : realizations;
     }
     /// The cell of a realization: frequency row x number of PGAs + PGA column.
     std::uint64_t cell(std::uint64_t index) const { return surface ? index / realizations : 0; }
+    /// The number of a factor of a sensitivity study, by its name among the inputs; -1: it is none.
+    int factor(const std::string& name) const
+    {
+        if (!sensitivity)
+            return -1;
+        const auto found = std::find(sensitivity->factors.begin(), sensitivity->factors.end(), name);
+        return found == sensitivity->factors.end() ? -1 : static_cast<int>(found - sensitivity->factors.begin());
+    }
+    /// By which a realization draws what no factor says: its index, or that of all points of its row.
+    std::uint64_t rest_index(std::uint64_t index) const
+    {
+        if (!sensitivity)
+            return index;
+        const SensitivitySpec::Place place = sensitivity->place(index);
+        return place.row * sensitivity->inner + place.draw;
+    }
 };
 
 } // namespace stylobate

@@ -1,5 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
 
 #include <algorithm>
@@ -145,6 +146,11 @@ SurfaceTable ResultReader::surface() const
         table.rounds = hdf5::read_number(opened.id(), "rounds");
         return table;
     });
+}
+
+SensitivityTable ResultReader::sensitivity() const
+{
+    return impl_->guarded([](hid_t file) { return read_sensitivity_table(file); });
 }
 
 std::vector<std::uint64_t> ResultReader::trajectory_indices() const

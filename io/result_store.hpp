@@ -4,6 +4,7 @@
 #include "ensemble/interval.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/realization.hpp"
+#include "io/sensitivity_table.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace stylobate {
 
 /// What is fixed when a store is created.
 struct ResultHeader {
-    std::string kind; ///< "single" or "surface"; "replay" for one realization of either
+    std::string kind; ///< "single", "surface" or "sensitivity"; "replay" for one realization of any
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;
@@ -106,10 +107,10 @@ public:
     /// Takes a trajectory; it is kept in memory until `finish`, so a resumed run adds it again, also where it `has` the
     /// row.
     void add(const Trajectory& trajectory);
-    /// Writes the surface's table and the trajectories, and marks the file complete, in one step: killed meanwhile, the
+    /// Writes the surface's table or that of the sensitivities, and the trajectories, and marks the file complete, in one step: killed meanwhile, the
     /// file stays as it was. All rows must have been added; where they are selected, those that were added are all, and
     /// are put in index order. Needs the disk space of the file once more.
-    void finish(const SurfaceTable* surface);
+    void finish(const SurfaceTable* surface, const SensitivityTable* sensitivity = nullptr);
     /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
@@ -138,6 +139,8 @@ public:
     std::vector<ResultRow> rows() const;
     /// Empty axes if there is none.
     SurfaceTable surface() const;
+    /// Empty if there is none.
+    SensitivityTable sensitivity() const;
     std::vector<std::uint64_t> trajectory_indices() const;
     /// @throws InputError if there is none of this index
     Trajectory trajectory(std::uint64_t index) const;

@@ -1,5 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
 
 #include <algorithm>
@@ -428,7 +429,7 @@ void ResultWriter::flush()
     impl_->file.handle.sync();
 }
 
-void ResultWriter::finish(const SurfaceTable* surface)
+void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
@@ -451,6 +452,8 @@ void ResultWriter::finish(const SurfaceTable* surface)
     hdf5::Handle opened = hdf5::open_file(unready, true);
     if (surface)
         write_surface(opened.id(), *surface);
+    if (sensitivity)
+        write_sensitivity(opened.id(), *sensitivity);
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, trajectory] : impl_->trajectories)

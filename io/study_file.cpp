@@ -7,6 +7,7 @@
 #include "io/study_names.hpp"
 #include "io/study_perturbations.hpp"
 #include "io/study_ranges.hpp"
+#include "io/study_sensitivity.hpp"
 #include "io/study_structure.hpp"
 
 #include <fmt/format.h>
@@ -184,8 +185,9 @@ RunSpec read_run(const KeyReader& keys)
 Study read_tree(const TomlValue& root)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "perturbation", "mechanisms", "initial",
-                    "output", "outcome", "run", "claim"}); // [claim] is for stylobate_claims, which reads it itself
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "sensitivity", "perturbation",
+                    "mechanisms", "initial", "output", "outcome", "run",
+                    "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
     Study study;
     const KeyReader keys = top.table("study");
@@ -193,6 +195,10 @@ Study read_tree(const TomlValue& root)
     study.kind = keys.choice("kind", study_kind_names);
     const bool is_surface = study.kind == StudyKind::surface;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
+    const bool is_sensitivity = study.kind == StudyKind::sensitivity;
+    if (is_sensitivity && keys.has("realizations"))
+        keys.refuse("realizations", "is not used by study.kind = \"sensitivity\"",
+                    "Give sensitivity.samples and sensitivity.inner instead.");
     study.realizations = is_surface ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
                                     : keys.whole_or("realizations", 1, most_realizations, study.realizations);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
@@ -211,11 +217,17 @@ Study read_tree(const TomlValue& root)
                                     study.total(), most_realizations),
                         "Give fewer realizations or fewer cells.");
     } else if (top.has("surface")) {
-        top.refuse("surface", "is not used by study.kind = \"single\"",
+        top.refuse("surface", fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
                    "Remove [surface], or give study.kind = \"surface\".");
     }
     read_mechanisms(top.table("mechanisms"), study);
     read_perturbations(top.table("perturbation"), study);
+    if (is_sensitivity)
+        study.sensitivity = read_sensitivity(top.table("sensitivity"), study, most_realizations);
+    else if (top.has("sensitivity"))
+        top.refuse("sensitivity",
+                   fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
+                   "Remove [sensitivity], or give study.kind = \"sensitivity\".");
 
     study.initial = read_initial(top.table("initial"), study.structure);
     const KeyReader output = top.table("output");

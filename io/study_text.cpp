@@ -274,7 +274,8 @@ std::string study_text(const Study& study)
     out.section("study");
     out.word("kind", word_for(study_kind_names, study.kind));
     out.whole("seed", study.seed);
-    out.whole("realizations", study.realizations);
+    if (!study.sensitivity)
+        out.whole("realizations", study.realizations);
     out.word("sampling", word_for(sampling_names, study.sampling));
     write(out, study.structure);
     write(out, study.contact);
@@ -288,6 +289,16 @@ std::string study_text(const Study& study)
                                                {"minimum", std::to_string(adaptive->minimum)},
                                                {"half_width", toml_number(adaptive->half_width)},
                                                {"borrow", adaptive->borrow ? "true" : "false"}}));
+    }
+    if (const std::optional<SensitivitySpec>& sensitivity = study.sensitivity) {
+        out.section("sensitivity");
+        out.word("method", word_for(sensitivity_method_names, sensitivity->method));
+        out.whole("samples", sensitivity->samples);
+        out.whole("inner", sensitivity->inner);
+        std::string factors;
+        for (const std::string& factor : sensitivity->factors)
+            factors += (factors.empty() ? "" : ", ") + toml_quoted(factor);
+        out.line("factors", "[" + factors + "]");
     }
     if (!study.perturbations.empty())
         out.section("perturbation");

@@ -2,6 +2,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/export_csv.hpp"
+#include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
@@ -27,6 +28,7 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
     std::string picture = wanted.picture;
     if (picture.empty())
         picture = wanted.cell >= 0                                                  ? "order"
+                  : wanted.realization < 0 && reader.header().kind == "sensitivity" ? "sensitivity"
                   : reader.header().frequency_hz.empty() || wanted.realization >= 0 ? "strip"
                                                                                     : "surface";
     const bool of_surface = picture == "surface" || picture == "slice";
@@ -46,6 +48,8 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
         strip_picture(options, reader, results, index, png);
     } else if (picture == "order") {
         order_picture(reader, results, wanted.cell, png);
+    } else if (picture == "sensitivity") {
+        plot_sensitivity(finished_sensitivity(reader, results), "What it depends on: " + name, png);
     } else {
         const LimitState limit = wanted.limit.empty() ? LimitState::collapse : limit_state_of(wanted.limit);
         const SurfaceTable surface = finished_surface(reader, results, limit);
@@ -63,6 +67,8 @@ fs::path export_csv(const std::string& results, const std::string& output)
     const ResultReader reader(results);
     const fs::path folder = output.empty() ? beside(results, "_csv") : fs::path(output);
     write_csv(folder, reader.header(), reader.rows(), reader.complete() ? reader.surface() : SurfaceTable{});
+    if (reader.complete() && !reader.sensitivity().empty())
+        write_sensitivity_csv(folder / "sensitivity.csv", reader.sensitivity());
     for (const std::uint64_t index : reader.trajectory_indices())
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
     return folder;

@@ -5,6 +5,7 @@
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"
 #include "io/study_file.hpp"
+#include "io/study_names.hpp"
 #include "studies/block_names.hpp"
 #include "studies/version.hpp"
 
@@ -91,7 +92,7 @@ LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::str
 ResultHeader LoadedStudy::result_header() const
 {
     ResultHeader header;
-    header.kind = study_->surface ? "surface" : "single";
+    header.kind = word_for(study_kind_names, study_->kind);
     header.study_toml = text_;
     header.seed = study_->seed;
     header.code_version = code_version();

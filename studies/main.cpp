@@ -167,8 +167,8 @@ int main(int argc, char** argv)
     exporting->add_option("--to", wanted.format, "csv or png")->required()->check(CLI::IsMember({"csv", "png"}));
     exporting
         ->add_option("--picture", wanted.picture,
-                     "png: surface, slice, strip or order (default: surface, or strip if there is none)")
-        ->check(CLI::IsMember({"surface", "slice", "strip", "order"}));
+                     "png: surface, slice, strip, order or sensitivity (default: by the kind of the study)")
+        ->check(CLI::IsMember({"surface", "slice", "strip", "order", "sensitivity"}));
     exporting
         ->add_option("--limit", wanted.limit,
                      "surface, slice: collapse, total, unseated, rocked or slid (default: "

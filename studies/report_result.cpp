@@ -1,6 +1,7 @@
 /// The page of a result.
 
 #include "ensemble/input_error.hpp"
+#include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/study_file.hpp"
@@ -10,6 +11,7 @@
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/sensitivity.hpp"
 
 #include <fmt/format.h>
 
@@ -99,6 +101,8 @@ public:
         outcomes();
         if (surface_)
             cells();
+        if (study_.sensitivity)
+            sensitivity();
         pictures();
         order();
         motions();
@@ -241,10 +245,22 @@ private:
                                 "--to csv."));
     }
 
+    /// What the outcomes depend on.
+    void sensitivity()
+    {
+        const SensitivityTable table = reader_.sensitivity();
+        if (table.empty()) // a replay of one realization
+            return;
+        page_.section("What it depends on");
+        picture("Shares of the factors, with their intervals.",
+                [&](const fs::path& png) { plot_sensitivity(table, "What it depends on", png); });
+        add_sensitivity(page_, table);
+    }
+
     /// One realization over time.
     void pictures()
     {
-        if (surface_)
+        if (surface_ || (study_.sensitivity && rows_.size() > 1))
             return;
         page_.section("Motion");
         constexpr std::size_t most = 3;

@@ -84,6 +84,16 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
     return counts.table();
 }
 
+SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results)
+{
+    if (reader.header().kind != "sensitivity")
+        throw InputError(fmt::format("{}: a result of kind '{}' has no sensitivities; a study of study.kind = "
+                                     "\"sensitivity\" has",
+                                     results, reader.header().kind));
+    check_complete(reader, results);
+    return reader.sensitivity();
+}
+
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
                    std::uint64_t index, const fs::path& png)
 {

@@ -21,6 +21,9 @@ bool followed_to_rest(const ResultReader& reader, const std::string& results);
 /// @throws InputError if there is none, if the run is not complete, or if the limit state was not followed
 SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit);
 
+/// @throws InputError if there are none, or if the run is not complete
+SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results);
+
 /// One realization over time: from the file's trajectory, or else run again.
 /// @throws InputError if there is no such realization, and as `plot_strip` does
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,

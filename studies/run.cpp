@@ -3,6 +3,7 @@
 #include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
 #include "io/result_store.hpp"
+#include "io/study_names.hpp"
 #include "studies/block_names.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
@@ -10,6 +11,7 @@
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/sensitivity.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
 
@@ -53,14 +55,17 @@ struct Counts {
 };
 
 /// Counts what an earlier part of the run has done. (Only while no row is being added.)
-/// @param outcomes of an adaptive surface, else null
-void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes)
+/// @param outcomes    of an adaptive surface, else null
+/// @param sensitivity of a sensitivity study, else null
+void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes, SensitivityOutcomes* sensitivity)
 {
     const ResultReader reader(results);
     for (const ResultRow& row : reader.rows()) {
         counts.add(row);
         if (outcomes)
             outcomes->add(row);
+        if (sensitivity)
+            sensitivity->add(row);
     }
 }
 
@@ -83,8 +88,10 @@ Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Co
     return progress;
 }
 
-Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, Counts& counts,
-                     Observer& observer)
+/// All realizations of a surface or a sensitivity study.
+/// @param sensitivity of a sensitivity study, else null
+Progress run_all(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, Counts& counts,
+                 SensitivityOutcomes* sensitivity, Observer& observer)
 {
     RunPlan plan;
     plan.total = loaded.study().total();
@@ -93,6 +100,8 @@ Progress run_surface(const LoadedStudy& loaded, const RunOptions& options, Resul
         const ResultRow row = result_row(loaded.study(), realization, outcome);
         writer.add(row);
         counts.add(row);
+        if (sensitivity)
+            sensitivity->add(row);
     };
     const std::vector<std::uint64_t> states = writer.rows_by_state();
     plan.before.done = writer.rows();
@@ -189,13 +198,15 @@ Json adaptive_json(const SurfaceTable& table)
         .member("uniform_realizations", table.lower.size() * uniform_trials(table.half_width, adaptive_level));
 }
 
-/// @param adaptive the table of a complete adaptive surface, else null
+/// @param adaptive    the table of a complete adaptive surface, else null
+/// @param sensitivity that of a complete sensitivity study, else null
 void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
-            const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive)
+            const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive,
+            const SensitivityTable* sensitivity)
 {
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
-    const std::string kind = loaded.study().surface ? "surface" : "single";
+    const std::string kind = word_for(study_kind_names, loaded.study().kind);
     if (options.json) {
         Json json = Json::object();
         json.member("kind", kind)
@@ -215,6 +226,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("threads", run.threads);
         if (adaptive)
             json.member("adaptive", adaptive_json(*adaptive));
+        if (sensitivity)
+            json.member("sensitivity", sensitivity_json(*sensitivity));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
@@ -228,6 +241,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             fmt::print("  {}\n", describe_adaptive(*adaptive));
         if (counts.trials() > 0)
             print_limits(counts, names, to_rest);
+        if (sensitivity)
+            fmt::print("{}", sensitivity_text(*sensitivity));
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
@@ -262,6 +277,10 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const bool is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
+    std::optional<SensitivityOutcomes> of_factors;
+    if (loaded.study().sensitivity)
+        of_factors.emplace(loaded.study(), header.input_names);
+    SensitivityOutcomes* const sensitivity = of_factors ? &*of_factors : nullptr;
     std::unique_ptr<ResultWriter> writer;
     Progress progress;
     std::optional<SurfaceTable> table;
@@ -269,8 +288,8 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     {
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
         writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
-        if (found && is_surface) // the file is ours now: no other run adds to it in between
-            count_done(results, counts, adaptive ? &outcomes : nullptr);
+        if (found && (is_surface || sensitivity)) // the file is ours now: no other run adds to it in between
+            count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity);
         if (adaptive) {
             const auto sink = [&](const ResultRow& row) {
                 writer->add(row);
@@ -281,18 +300,22 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
             table = std::move(ran.table);
             complete = ran.complete;
         } else {
-            progress = is_surface ? run_surface(loaded, run, *writer, counts, console)
-                                  : run_single(loaded, run.isa, *writer, counts, console);
+            progress = is_surface || sensitivity ? run_all(loaded, run, *writer, counts, sensitivity, console)
+                                                 : run_single(loaded, run.isa, *writer, counts, console);
             complete = progress.done == progress.total;
             if (complete && is_surface)
                 table = counts.cells.table();
         }
     }
+    std::optional<SensitivityTable> indices;
+    if (complete && sensitivity)
+        indices = sensitivity->table();
     if (complete)
-        writer->finish(table ? &*table : nullptr);
+        writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr);
     else
         writer->flush();
-    report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr);
+    report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr,
+           indices ? &*indices : nullptr);
     if (!complete)
         return exit_interrupted;
     const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);
