@@ -73,18 +73,18 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
     script += "set multiplot\n" +
               gnuplot_heading(title, fmt::format("{} rows · bars: {}", table.rows, describe_interval(table.interval))) +
               fmt::format("set border 3 linewidth 0.8\nset tics out nomirror\nset grid ytics linecolor rgb '#dddddd' "
-                          "linetype 1 linewidth 0.5\nset boxwidth {}\nset style fill solid 0.9 noborder\n"
+                          "linetype 1 linewidth 0.5\nset boxwidth {}\nset style fill solid 0.9 noborder\nset pointintervalbox 0\nset bars small\n"
                           "set xrange [-0.6:{}]\n",
                           width * 0.92, static_cast<double>(n) - 0.4);
     if (sobol)
-        script += "set yrange [-0.05:1.05]\nset ytics 0,0.2,1 format '%.1f'\n";
+        script += "set yrange [-0.1:1.12]\nset ytics 0,0.2,1 format '%.1f'\n";
     std::string tics;
     for (std::size_t k = 0; k < n; ++k)
         tics += fmt::format("{}{} {}", k > 0 ? ", " : "", gnuplot_text(spoken(table.factors[k])), k);
     for (std::size_t o = 0; o < outcomes; ++o) {
         const double left = 0.075 + 0.485 * static_cast<double>(o % columns);
-        const double height = 0.76 / static_cast<double>(lines);
-        const double top = 0.83 - height * static_cast<double>(o / columns);
+        const double height = 0.84 / static_cast<double>(lines);
+        const double top = 0.84 - height * static_cast<double>(o / columns);
         script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\n"
                               "set bmargin at screen {}\nset xtics ({}) rotate by 35 right font ',17'\n",
                               left, left + 0.42, top - 0.03, top - height + 0.135, tics);
@@ -92,7 +92,7 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                   gnuplot_text(spoken(table.outcomes[o]) +
                                (sobol || table.units[o].empty() ? "" : " [" + table.units[o] + "]")) +
                   " font ',22' offset 0,-0.6\n";
-        script += o == 0 ? "set key horizontal center bottom at screen 0.52, screen 0.845 samplen 1.5 font ',18'\n"
+        script += o == 0 ? "set key horizontal maxrows 1 center bottom at screen 0.52, screen 0.855 samplen 1 width -4 font ',16'\n"
                          : "unset key\n";
         std::string plot;
         for (std::size_t b = 0; b < bars.size(); ++b)
@@ -100,7 +100,7 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                                 o, b, bars[b].colour, gnuplot_text(bars[b].says));
         for (std::size_t b = 0; b < bars.size(); ++b)
             plot += fmt::format(", $bars{}_{} using 1:2:3:4 with yerrorbars linecolor rgb '#303030' linewidth 0.9 "
-                                "pointtype 0 notitle",
+                                "pointtype 7 pointsize 0 notitle",
                                 o, b);
         script += plot + "\nunset label\n";
     }

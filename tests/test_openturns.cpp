@@ -28,22 +28,26 @@ Algorithm of_openturns(const DesignValues& values)
     return Algorithm(in, out, n);
 }
 
-/// First and total indices by OpenTURNS' Jansen lie in the intervals, and by Saltelli's formulas, which vary more,
-/// within as much again.
-void expect_agreement(const SobolIndices& ours, const DesignValues& values)
+/// Total indices lie in the intervals. First indices, by Jansen's and by Saltelli's formulas, do where ours is no surer
+/// than they are; of strong and of idle factors it is.
+void expect_agreement(const SobolIndices& ours, const DesignValues& values, bool in_intervals)
 {
     const auto jansen = of_openturns<OT::JansenSensitivityAlgorithm>(values);
     const auto saltelli = of_openturns<OT::SaltelliSensitivityAlgorithm>(values);
     const OT::Point first = jansen.getFirstOrderIndices(), total = jansen.getTotalOrderIndices();
-    const OT::Point first_too = saltelli.getFirstOrderIndices();
+    const OT::Point first_by_saltelli = saltelli.getFirstOrderIndices();
     for (std::size_t k = 0; k < values.factors; ++k) {
         const Estimate& f = ours.of_mean[k].first;
         const Estimate& t = ours.of_mean[k].total;
         std::printf("factor %zu: first %.3f (%.3f to %.3f), OpenTURNS %.3f, %.3f; total %.3f (%.3f to %.3f), %.3f\n", k,
-                    f.value, f.lower, f.upper, first[k], first_too[k], t.value, t.lower, t.upper, total[k]);
+                    f.value, f.lower, f.upper, first[k], first_by_saltelli[k], t.value, t.lower, t.upper, total[k]);
         EXPECT_TRUE(t.contains(total[k])) << k;
-        EXPECT_NEAR(first[k], f.value, std::max(0.05, f.upper - f.lower)) << k;
-        EXPECT_NEAR(first_too[k], f.value, std::max(0.05, f.upper - f.lower)) << k;
+        for (const double other : {first[k], first_by_saltelli[k]}) {
+            if (in_intervals)
+                EXPECT_TRUE(f.contains(other)) << k;
+            else
+                EXPECT_NEAR(other, f.value, std::max(0.06, f.upper - f.lower)) << k;
+        }
     }
 }
 
@@ -51,9 +55,9 @@ TEST(OpenTurns, AgreesOnKnownFunctions)
 {
     std::mt19937_64 random(1);
     const DesignValues ishigami = testing::sobol_design(4000, 3, 1, random, testing::ishigami);
-    expect_agreement(sobol_indices(ishigami, {}), ishigami);
+    expect_agreement(sobol_indices(ishigami, {}), ishigami, false);
     const DesignValues g = testing::sobol_design(4000, 4, 1, random, testing::GFunction{{0, 1, 4.5, 99}});
-    expect_agreement(sobol_indices(g, {}), g);
+    expect_agreement(sobol_indices(g, {}), g, false);
 }
 
 class OpenTurnsStudy : public Program {};
@@ -73,7 +77,7 @@ TEST_F(OpenTurnsStudy, AgreesOnTheReadyStudy)
     DesignValues collapse{1000, 9, 1, {}};
     for (const ResultRow& row : reader.rows())
         collapse.value.push_back(row.outcome.state == State::collapsed ? 1 : 0);
-    expect_agreement(sobol_indices(collapse, {}), collapse);
+    expect_agreement(sobol_indices(collapse, {}), collapse, true);
 }
 
 } // namespace

@@ -32,6 +32,12 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::vect
     return settings;
 }
 
+/// Of numbers that may be undetermined.
+bool same(double a, double b)
+{
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 /// Which factor, "" for the rest, an input belongs to.
 std::string factor_of(const Study& study, const std::string& input)
 {
@@ -162,11 +168,11 @@ TEST_F(Sensitivity, TellsWhatItsRowsSay)
         EXPECT_EQ(table.mean.value[outcome], again.mean.value);
         for (std::size_t k = 0; k < 6; ++k) {
             const std::size_t i = outcome * 7 + k;
-            EXPECT_EQ(table.find("first")->of.value[i], again.of_mean[k].first.value);
-            EXPECT_EQ(table.find("total")->of.upper[i], again.of_mean[k].total.upper);
-            EXPECT_EQ(table.find("value_total")->of.lower[i], again.of_value[k].total.lower);
+            EXPECT_TRUE(same(table.find("first")->of.value[i], again.of_mean[k].first.value));
+            EXPECT_TRUE(same(table.find("total")->of.upper[i], again.of_mean[k].total.upper));
+            EXPECT_TRUE(same(table.find("value_total")->of.lower[i], again.of_value[k].total.lower));
             const JsonValue& told = found["outcomes"][table.outcomes[outcome]]["factors"][table.factors[k]];
-            EXPECT_EQ(told["first"]["value"].number, again.of_mean[k].first.value);
+            EXPECT_EQ(told["value_first"]["value"].number, again.of_value[k].first.value);
         }
         EXPECT_EQ(table.find("value_total")->of.value[outcome * 7 + 6], again.of_value[6].total.value);
         EXPECT_TRUE(std::isnan(table.find("total")->of.value[outcome * 7 + 6]));
@@ -198,7 +204,6 @@ TEST_F(Sensitivity, ScreeningByMorris)
 /// A perturbation without effect is named, and so is an outcome that does not vary: no index without data.
 TEST_F(Sensitivity, SaysWhatHasNoEffect)
 {
-    // gravity alone, at rest: the phase of nothing is refused, and a wedge of a joint that carries nothing does nothing
     const std::vector<std::string> calm =
         with(quick, {"excitation.pga_m_s2=0.001", "sensitivity.samples=20", "outcome.collapse.height_fraction=0.6"});
     const JsonValue found = json_of(study(calm, "calm.h5"))["sensitivity"];
@@ -208,10 +213,10 @@ TEST_F(Sensitivity, SaysWhatHasNoEffect)
     EXPECT_NE(remarks.find("collapse: its mean's variance is not told from none"), std::string::npos) << remarks;
     EXPECT_TRUE(found["outcomes"]["collapse"]["factors"]["tilt"]["total"]["value"].kind == JsonValue::Kind::null);
 
-    // the drums' friction is that of a joint that a mechanism glues: perturbed about a value that no force reaches
+    // friction that no force comes near
     const JsonValue stuck =
-        json_of(study(with(calm, {"contact.friction=50",
-                                  "perturbation.friction={distribution=\"uniform\",from=40.0,to=60.0,per=\"joint\"}"}),
+        json_of(study(with(calm, {"contact.friction=9",
+                                  "perturbation.friction={distribution=\"uniform\",from=8.0,to=10.0,per=\"joint\"}"}),
                       "stuck.h5"))["sensitivity"];
     remarks.clear();
     for (const JsonValue& remark : stuck["remarks"].items)
