@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 namespace stylobate {
 
@@ -30,7 +31,10 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& all)
         for (std::size_t i = 0, n = places.size(); i < n; ++i)
             places.push_back({places[i].stream, places[i].element + element_of_b, places[i].factor});
     }
-    if (study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
+    if (study.rare)
+        for (std::size_t d = 0; d < places.size(); ++d)
+            dimension_.emplace(key(places[d].stream, places[d].element), d);
+    if (study.rare || study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
         return;
     digits_ = std::min(most_digits, static_cast<int>(std::bit_width(per_cell_ - 1)));
     const std::size_t dimensions = std::min(places.size(), most_dimensions);
@@ -58,8 +62,18 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& all)
     }
 }
 
+PointSet PointSet::given(std::span<const double> numbers) const
+{
+    assert(numbers.size() == size() && "a number for each place");
+    PointSet points = *this;
+    points.given_ = numbers;
+    return points;
+}
+
 double PointSet::uniform(std::uint64_t index, Stream stream, std::uint64_t element) const
 {
+    if (!given_.empty())
+        return given_[dimension_.at(key(stream, element))];
     if (!design_)
         return point(index, stream, element);
     const auto found = factor_.find(key(stream, element));

@@ -26,6 +26,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -47,6 +48,11 @@ public:
     /// In the open interval (0, 1), as `uniform01`; a place that was not named is independent in any case.
     double uniform(std::uint64_t index, Stream stream, std::uint64_t element) const;
 
+    /// How many numbers a realization of a study of rare events has.
+    std::size_t size() const { return dimension_.size(); }
+    /// Of a study of rare events: one realization's numbers, in the order of the places.
+    PointSet given(std::span<const double> numbers) const;
+
 private:
     /// Number `element` of a stream for realization, or row, `index`.
     double point(std::uint64_t index, Stream stream, std::uint64_t element) const;
@@ -61,6 +67,7 @@ private:
     std::unordered_map<std::uint64_t, std::uint64_t> factor_; ///< by key
     int digits_ = 0; ///< that tell the points of a cell apart; 0: all are independent
     std::unordered_map<std::uint64_t, std::uint64_t> dimension_; ///< by key
+    std::span<const double> given_;                              ///< (dimensions), not kept
     std::vector<std::uint64_t> direction_; ///< (dimensions x digits), the first digit in the highest bit
 };
 

@@ -21,7 +21,8 @@ namespace stylobate {
 enum class StudyKind {
     single,
     surface,
-    sensitivity ///< which of the perturbed quantities the outcomes depend on
+    sensitivity, ///< which of the perturbed quantities the outcomes depend on
+    rare         ///< a probability of collapse too small to be counted
 };
 
 /// What the uniform numbers of a cell's realizations are (point_set.hpp).
@@ -180,6 +181,18 @@ struct SensitivitySpec {
     }
 };
 
+/// Subset simulation (estimators/subset_simulation.hpp), repeated for its interval.
+struct RareSpec {
+    std::uint64_t samples = 1000; ///< at each level
+    std::uint64_t repeats = 10;
+    static constexpr double level_probability = 0.1;
+    static constexpr std::uint64_t most_levels = 10; ///< beyond the first one
+    /// A realization's index is its repeat x this + its number in the repeat.
+    static constexpr std::uint64_t indices_of_repeat = std::uint64_t{1} << 32;
+    /// More realizations than it can come to.
+    std::uint64_t most() const { return repeats * samples * (most_levels + 1); }
+};
+
 /// What can be perturbed. The names in study files are the enumerators' names.
 enum class Quantity {
     friction,             ///< mu; per joint or structure
@@ -289,7 +302,7 @@ struct RunSpec {
 struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
-    std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all; not of a sensitivity study
+    std::uint64_t realizations = 1; ///< per cell of a surface; of a single study, in all; not used by other kinds
     Sampling sampling = Sampling::independent;
 
     StructureSpec structure;
@@ -297,6 +310,7 @@ struct Study {
     ExcitationSpec excitation;
     std::optional<SurfaceSpec> surface;
     std::optional<SensitivitySpec> sensitivity;
+    std::optional<RareSpec> rare;
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -320,6 +334,8 @@ struct Study {
     {
         if (sensitivity)
             return sensitivity->total();
+        if (rare)
+            return rare->repeats * RareSpec::indices_of_repeat;
         return surface ? realizations * static_cast<std::uint64_t>(surface->cells()) : realizations;
     }
     /// The cell of a realization: frequency row x number of PGAs + PGA column.

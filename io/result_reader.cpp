@@ -1,5 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
 
@@ -151,6 +152,11 @@ SurfaceTable ResultReader::surface() const
 SensitivityTable ResultReader::sensitivity() const
 {
     return impl_->guarded([](hid_t file) { return read_sensitivity_table(file); });
+}
+
+RareTable ResultReader::rare() const
+{
+    return impl_->guarded([](hid_t file) { return read_rare_table(file); });
 }
 
 std::vector<std::uint64_t> ResultReader::trajectory_indices() const

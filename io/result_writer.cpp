@@ -1,5 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
 
@@ -429,7 +430,7 @@ void ResultWriter::flush()
     impl_->file.handle.sync();
 }
 
-void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity)
+void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity, const RareTable* rare)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
@@ -454,6 +455,8 @@ void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* s
         write_surface(opened.id(), *surface);
     if (sensitivity)
         write_sensitivity(opened.id(), *sensitivity);
+    if (rare)
+        write_rare(opened.id(), *rare);
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, trajectory] : impl_->trajectories)

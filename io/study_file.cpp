@@ -185,7 +185,7 @@ RunSpec read_run(const KeyReader& keys)
 Study read_tree(const TomlValue& root)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "sensitivity", "perturbation",
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "sensitivity", "rare", "perturbation",
                     "mechanisms", "initial", "output", "outcome", "run",
                     "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
@@ -195,13 +195,18 @@ Study read_tree(const TomlValue& root)
     study.kind = keys.choice("kind", study_kind_names);
     const bool is_surface = study.kind == StudyKind::surface;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
-    const bool is_sensitivity = study.kind == StudyKind::sensitivity;
+    const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;
     if (is_sensitivity && keys.has("realizations"))
         keys.refuse("realizations", "is not used by study.kind = \"sensitivity\"",
                     "Give sensitivity.samples and sensitivity.inner instead.");
+    if (is_rare && keys.has("realizations"))
+        keys.refuse("realizations", "is not used by study.kind = \"rare\"",
+                    "Give rare.samples and rare.repeats instead.");
     study.realizations = is_surface ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
                                     : keys.whole_or("realizations", 1, most_realizations, study.realizations);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
+    if (is_rare && study.sampling != Sampling::independent)
+        keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains draw their own numbers.");
 
     study.structure = read_structure(top.table("structure"));
     study.contact = read_contact(top.table("contact"), study.structure);
@@ -228,6 +233,12 @@ Study read_tree(const TomlValue& root)
         top.refuse("sensitivity",
                    fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
                    "Remove [sensitivity], or give study.kind = \"sensitivity\".");
+
+    if (is_rare)
+        study.rare = read_rare(top.table("rare"), study);
+    else if (top.has("rare"))
+        top.refuse("rare", fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
+                   "Remove [rare], or give study.kind = \"rare\".");
 
     study.initial = read_initial(top.table("initial"), study.structure);
     const KeyReader output = top.table("output");

@@ -13,12 +13,11 @@ struct Name {
     Enum value;
 };
 
-inline constexpr std::array study_kind_names = {Name<StudyKind>{"single", StudyKind::single},
-                                                Name<StudyKind>{"surface", StudyKind::surface},
-                                                Name<StudyKind>{"sensitivity", StudyKind::sensitivity}};
-inline constexpr std::array sensitivity_method_names = {
-    Name<SensitivityMethod>{"sobol", SensitivityMethod::sobol},
-    Name<SensitivityMethod>{"morris", SensitivityMethod::morris}};
+inline constexpr std::array study_kind_names = {
+    Name<StudyKind>{"single", StudyKind::single}, Name<StudyKind>{"surface", StudyKind::surface},
+    Name<StudyKind>{"sensitivity", StudyKind::sensitivity}, Name<StudyKind>{"rare", StudyKind::rare}};
+inline constexpr std::array sensitivity_method_names = {Name<SensitivityMethod>{"sobol", SensitivityMethod::sobol},
+                                                        Name<SensitivityMethod>{"morris", SensitivityMethod::morris}};
 inline constexpr std::array sampling_names = {Name<Sampling>{"independent", Sampling::independent},
                                               Name<Sampling>{"sobol", Sampling::sobol}};
 inline constexpr std::array structure_kind_names = {Name<StructureKind>{"column", StructureKind::column},

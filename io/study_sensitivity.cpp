@@ -79,4 +79,22 @@ SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study, std:
     return spec;
 }
 
+RareSpec read_rare(const KeyReader& keys, const Study& study)
+{
+    keys.allow_only({"samples", "repeats"});
+    if (perturbed_names(study).empty())
+        keys.refuse_all(
+            "study.kind = \"rare\" asks how often what is drawn leads to a collapse, and [perturbation] has "
+            "nothing to draw.\n  Give distributions there.");
+    if (study.excitation.kind == ExcitationKind::noise)
+        keys.refuse_all("study.kind = \"rare\" has no chains of synthetic earthquakes: excitation.kind = \"noise\" "
+                        "draws thousands of numbers for each.\n  Give another excitation.");
+    RareSpec spec;
+    spec.samples = keys.whole_or("samples", 100, 1'000'000, spec.samples,
+                                 "Realizations of each level; a tenth of them is the number of chains.");
+    spec.repeats =
+        keys.whole_or("repeats", 4, 1000, spec.repeats, "Independent repeats: their spread gives the interval.");
+    return spec;
+}
+
 } // namespace stylobate

@@ -274,7 +274,7 @@ std::string study_text(const Study& study)
     out.section("study");
     out.word("kind", word_for(study_kind_names, study.kind));
     out.whole("seed", study.seed);
-    if (!study.sensitivity)
+    if (!study.sensitivity && !study.rare)
         out.whole("realizations", study.realizations);
     out.word("sampling", word_for(sampling_names, study.sampling));
     write(out, study.structure);
@@ -299,6 +299,11 @@ std::string study_text(const Study& study)
         for (const std::string& factor : sensitivity->factors)
             factors += (factors.empty() ? "" : ", ") + toml_quoted(factor);
         out.line("factors", "[" + factors + "]");
+    }
+    if (study.rare) {
+        out.section("rare");
+        out.whole("samples", study.rare->samples);
+        out.whole("repeats", study.rare->repeats);
     }
     if (!study.perturbations.empty())
         out.section("perturbation");

@@ -11,6 +11,7 @@
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/run_rare.hpp"
 #include "studies/sensitivity.hpp"
 
 #include <fmt/format.h>
@@ -98,6 +99,10 @@ public:
     {
         summary();
         studied();
+        if (study_.rare) {
+            again();
+            return page_;
+        }
         outcomes();
         if (surface_)
             cells();
@@ -138,6 +143,10 @@ private:
     {
         const Share collapsed = counts_.share(LimitState::collapse);
         page_.section("Summary");
+        if (study_.rare) { // the share of its realizations that collapsed says nothing
+            add_rare(page_, reader_.rare());
+            return;
+        }
         std::string text;
         if (rows_.size() == 1)
             text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
@@ -346,7 +355,9 @@ private:
         page_.paragraph(fmt::format("With stylobate {} and the study below as STUDY.toml:", header_.code_version));
         const std::string name = fs::path(file_).filename().string();
         std::string commands;
-        if (header_.kind == "replay")
+        if (study_.rare)
+            commands = fmt::format("stylobate run STUDY.toml -o {}\n", name);
+        else if (header_.kind == "replay")
             commands =
                 fmt::format("stylobate run STUDY.toml -o STUDY.h5\nstylobate replay STUDY.h5 --realization {} -o "
                             "{}\n",

@@ -14,6 +14,9 @@ namespace stylobate {
 /// @throws InputError if the run is not complete
 void check_complete(const ResultReader& reader, const std::string& results);
 
+/// @throws InputError if its realizations cannot be run one by one
+void check_replayable(const ResultHeader& header, const std::string& results);
+
 /// Whether the realizations were followed beyond the first fall.
 bool followed_to_rest(const ResultReader& reader, const std::string& results);
 

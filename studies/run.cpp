@@ -11,6 +11,7 @@
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/run_rare.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
@@ -33,10 +34,11 @@ std::string default_results(const std::string& study)
 }
 
 /// Draws every realization once, so that one that cannot be run (a fixed step above its bound, drums drawn off each
-/// other) is refused before anything is written. It costs less than a hundredth of running them.
+/// other) is refused before anything is written. It costs less than a hundredth of running them. Of a study of rare
+/// events a number of plain draws: where its chains will lead nobody knows.
 void check_realizations(const LoadedStudy& loaded)
 {
-    const std::uint64_t total = loaded.study().total();
+    const std::uint64_t total = loaded.study().rare ? 10 * loaded.study().rare->samples : loaded.study().total();
     tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, total, 256), [&](const auto& range) {
         for (std::uint64_t index = range.begin(); index != range.end(); ++index)
             loaded.sampler().realization(index);
@@ -57,7 +59,9 @@ struct Counts {
 /// Counts what an earlier part of the run has done. (Only while no row is being added.)
 /// @param outcomes    of an adaptive surface, else null
 /// @param sensitivity of a sensitivity study, else null
-void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes, SensitivityOutcomes* sensitivity)
+/// @param rare        of a study of rare events, else null
+void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes, SensitivityOutcomes* sensitivity,
+                RareOutcomes* rare)
 {
     const ResultReader reader(results);
     for (const ResultRow& row : reader.rows()) {
@@ -66,6 +70,8 @@ void count_done(const std::string& results, Counts& counts, CellOutcomes* outcom
             outcomes->add(row);
         if (sensitivity)
             sensitivity->add(row);
+        if (rare)
+            rare->add(row);
     }
 }
 
@@ -200,9 +206,10 @@ Json adaptive_json(const SurfaceTable& table)
 
 /// @param adaptive    the table of a complete adaptive surface, else null
 /// @param sensitivity that of a complete sensitivity study, else null
+/// @param rare        that of a complete study of rare events, else null
 void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
             const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive,
-            const SensitivityTable* sensitivity)
+            const SensitivityTable* sensitivity, const RareTable* rare)
 {
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
@@ -216,7 +223,6 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("total", p.total)
             .member("collapsed", p.collapsed)
             .member("invalid", p.invalid)
-            .member("limit_states", limits_json(counts, names, to_rest))
             .member("seconds", p.seconds)
             .member("realizations_per_second", p.rate)
             .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
@@ -224,10 +230,14 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("backend", options.backend)
             .member("simd", to_string(run.isa))
             .member("threads", run.threads);
+        if (!loaded.study().rare) // whose realizations lean to the collapse
+            json.member("limit_states", limits_json(counts, names, to_rest));
         if (adaptive)
             json.member("adaptive", adaptive_json(*adaptive));
         if (sensitivity)
             json.member("sensitivity", sensitivity_json(*sensitivity));
+        if (rare)
+            json.member("rare", rare_json(*rare));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
@@ -239,10 +249,13 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
         fmt::print("\n");
         if (adaptive)
             fmt::print("  {}\n", describe_adaptive(*adaptive));
-        if (counts.trials() > 0)
+        if (counts.trials() > 0 && !loaded.study().rare)
             print_limits(counts, names, to_rest);
         if (sensitivity)
             fmt::print("{}", sensitivity_text(*sensitivity));
+        if (rare)
+            for (const std::string& sentence : rare_sentences(*rare))
+                fmt::print("  {}\n", sentence);
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
@@ -254,7 +267,7 @@ void demand_of_device(const Study& study, const std::string& file)
     const auto refuse = [&file](const char* why) {
         throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", file, why));
     };
-    if (!study.surface)
+    if (study.kind == StudyKind::single)
         refuse("is of kind \"single\", whose realizations are followed step by step on the processor");
     if (study.run.precision == Precision::single)
         refuse("asks for run.precision = \"single\", which is the processor's");
@@ -281,6 +294,9 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (loaded.study().sensitivity)
         of_factors.emplace(loaded.study(), header.input_names);
     SensitivityOutcomes* const sensitivity = of_factors ? &*of_factors : nullptr;
+    const bool is_rare = loaded.study().rare.has_value();
+    RareOutcomes rare_outcomes;
+    std::optional<RareTable> rare;
     std::unique_ptr<ResultWriter> writer;
     Progress progress;
     std::optional<SurfaceTable> table;
@@ -288,13 +304,20 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     {
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
         writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
-        if (found && (is_surface || sensitivity)) // the file is ours now: no other run adds to it in between
-            count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity);
-        if (adaptive) {
-            const auto sink = [&](const ResultRow& row) {
-                writer->add(row);
-                counts.add(row);
-            };
+        if (found && (is_surface || sensitivity || is_rare)) // the file is ours now: no other run adds to it in between
+            count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity,
+                       is_rare ? &rare_outcomes : nullptr);
+        const auto sink = [&](const ResultRow& row) {
+            writer->add(row);
+            counts.add(row);
+        };
+        if (is_rare) {
+            RareRun ran = run_rare(loaded, run, rare_outcomes, sink, console);
+            progress = ran.progress;
+            complete = ran.complete;
+            if (complete)
+                rare = std::move(ran.table);
+        } else if (adaptive) {
             AdaptiveRun ran = run_adaptive(loaded, run, outcomes, sink, console);
             progress = ran.progress;
             table = std::move(ran.table);
@@ -311,11 +334,11 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (complete && sensitivity)
         indices = sensitivity->table();
     if (complete)
-        writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr);
+        writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr, rare ? &*rare : nullptr);
     else
         writer->flush();
     report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr,
-           indices ? &*indices : nullptr);
+           indices ? &*indices : nullptr, rare ? &*rare : nullptr);
     if (!complete)
         return exit_interrupted;
     const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);
