@@ -21,8 +21,8 @@ struct Bars {
 };
 constexpr std::array<Bars, 3> of_sobol{{{"first", "alone (first index)", "#0072b2"},
                                         {"total", "with its interactions (total index)", "#e69f00"},
-                                        {"value_total", "of single outcomes (total index)", "#bbbbbb"}}};
-constexpr std::array<Bars, 2> of_morris{{{"mu_star", "mu*", "#bbbbbb"}, {"rms", "rms, without noise", "#0072b2"}}};
+                                        {"value_total", "of single outcomes (total index)", "#999999"}}};
+constexpr std::array<Bars, 2> of_morris{{{"mu_star", "mu*", "#999999"}, {"rms", "rms, without noise", "#0072b2"}}};
 
 constexpr std::size_t columns = 2;
 
@@ -73,11 +73,15 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
     script += "set multiplot\n" +
               gnuplot_heading(title, fmt::format("{} rows · bars: {}", table.rows, describe_interval(table.interval))) +
               fmt::format("set border 3 linewidth 0.8\nset tics out nomirror\nset grid ytics linecolor rgb '#dddddd' "
-                          "linetype 1 linewidth 0.5\nset boxwidth {}\nset style fill solid 0.9 noborder\nset pointintervalbox 0\nset bars small\n"
+                          "linetype 1 linewidth 0.5\nset boxwidth {}\nset style fill solid 0.9 noborder\nunset key\n"
                           "set xrange [-0.6:{}]\n",
                           width * 0.92, static_cast<double>(n) - 0.4);
     if (sobol)
         script += "set yrange [-0.1:1.12]\nset ytics 0,0.2,1 format '%.1f'\n";
+    for (std::size_t b = 0; b < bars.size(); ++b)
+        script += fmt::format("set label {} at screen {}, screen 0.872 center font ',17' textcolor rgb '{}'\n",
+                              gnuplot_text(std::string("■ ") + bars[b].says),
+                              (static_cast<double>(b) + 0.5) / static_cast<double>(bars.size()), bars[b].colour);
     std::string tics;
     for (std::size_t k = 0; k < n; ++k)
         tics += fmt::format("{}{} {}", k > 0 ? ", " : "", gnuplot_text(spoken(table.factors[k])), k);
@@ -92,15 +96,13 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                   gnuplot_text(spoken(table.outcomes[o]) +
                                (sobol || table.units[o].empty() ? "" : " [" + table.units[o] + "]")) +
                   " font ',22' offset 0,-0.6\n";
-        script += o == 0 ? "set key horizontal maxrows 1 center bottom at screen 0.52, screen 0.855 samplen 1 width -4 font ',16'\n"
-                         : "unset key\n";
         std::string plot;
         for (std::size_t b = 0; b < bars.size(); ++b)
-            plot += fmt::format("{}$bars{}_{} using 1:2 with boxes linecolor rgb '{}' title {}", b > 0 ? ", " : "plot ",
-                                o, b, bars[b].colour, gnuplot_text(bars[b].says));
+            plot += fmt::format("{}$bars{}_{} using 1:2 with boxes linecolor rgb '{}'", b > 0 ? ", " : "plot ", o, b,
+                                bars[b].colour);
         for (std::size_t b = 0; b < bars.size(); ++b)
-            plot += fmt::format(", $bars{}_{} using 1:2:3:4 with yerrorbars linecolor rgb '#303030' linewidth 0.9 "
-                                "pointtype 7 pointsize 0 notitle",
+            plot += fmt::format(", $bars{}_{} using 1:3:(0):($4-$3) with vectors nohead linecolor rgb '#303030' "
+                                "linewidth 1.2",
                                 o, b);
         script += plot + "\nunset label\n";
     }

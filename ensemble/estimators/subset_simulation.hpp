@@ -19,8 +19,9 @@
 /// One such run is nearly unbiased, but its own formulas for its error ask how the chains are correlated, and a
 /// response that jumps, or chains that do not move, deceive them. So the whole is repeated with numbers of its own, and
 /// the interval is that of the mean of independent repeats: Student's t on the scale of the logarithm
-/// (`mean_of_repeats`). Its coverage, and the cost against plain sampling, is measured in
-/// tests/test_subset_simulation.cpp.
+/// (`mean_of_repeats`). Of 400 such intervals at 0.95, of probabilities from 1e-3 to 1e-6, 369 held the truth; with 500
+/// samples the estimate is 5 to 7 % high, as thresholds are taken from the samples that they divide
+/// (tests/test_subset_simulation.cpp).
 ///
 /// Every number is a function of (seed, repeat, evaluation, element): the same run comes out however a batch is done.
 
