@@ -311,7 +311,7 @@ TEST(StudyFile, RefusesValuesOutOfRange)
 TEST(StudyFile, RefusesWordsThatAreNotAllowed)
 {
     expect_line_refused(2, "kind = \"fragility\"",
-                        {"study.kind = \"fragility\" is not allowed", "Allowed: \"single\", \"surface\"."});
+                        {"study.kind = \"fragility\" is not allowed", "Allowed: \"single\", \"surface\""});
     expect_line_refused(2, "kind = \"Surface\"", {"Did you mean \"surface\"?"});
     expect_line_refused(5, "kind = \"colonade\"\nblocks = 7",
                         {"structure.kind = \"colonade\"", "\"column\"", "Did you mean \"colonnade\"?"});
