@@ -10,7 +10,8 @@ target_include_directories(stylobate_options INTERFACE $<INSTALL_INTERFACE:${CMA
 foreach(part kernels ensemble io)
   install(DIRECTORY ${part} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stylobate
     FILES_MATCHING PATTERN "*.hpp"
-    PATTERN "hdf5.hpp" EXCLUDE PATTERN "result_file.hpp" EXCLUDE) # the insides of the store, which need HDF5's headers
+    PATTERN "hdf5.hpp" EXCLUDE PATTERN "result_file.hpp" EXCLUDE
+    PATTERN "result_sensitivity.hpp" EXCLUDE PATTERN "result_rare.hpp" EXCLUDE) # the insides of the store, which need HDF5's headers
 endforeach()
 
 foreach(part options kernels ensemble estimators io)

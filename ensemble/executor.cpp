@@ -29,7 +29,7 @@ public:
     Run(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
         const RunPlan& plan, Observer& observer)
         : study_(study), sampler_(sampler), record_(record), kernels_(kernels(options.isa)), plan_(plan),
-          observer_(observer), progress_(plan.before), pattern_(sampler.realization(0))
+          observer_(observer), progress_(plan.before), pattern_(realize(index(0)))
     {
         progress_.total = plan.total;
         handover_.fetch_add(1);
@@ -108,7 +108,7 @@ private:
     void refill(Lanes& lanes, int lane)
     {
         if (const std::optional<std::uint64_t> index = next())
-            lanes.load(lane, sampler_.realization(*index));
+            lanes.load(lane, realize(*index));
         else
             lanes.clear(lane);
     }
@@ -117,6 +117,11 @@ private:
     {
         lane_chunks_ += static_cast<std::uint64_t>(lanes);
         active_chunks_ += static_cast<std::uint64_t>(active);
+    }
+
+    Realization realize(std::uint64_t index) const
+    {
+        return plan_.realize ? plan_.realize(index) : sampler_.realization(index);
     }
 
     std::optional<std::uint64_t> next()

@@ -31,6 +31,8 @@ struct RunPlan {
     std::span<const std::uint64_t> indices = {}; ///< those to run, in this order; empty: 0 .. total - 1
     /// True for a realization that has been done before. Called from one thread at a time, in index order; empty: none.
     std::function<bool(std::uint64_t index)> done;
+    /// A realization by its index; called from several threads at once. Empty: the sampler's.
+    std::function<Realization(std::uint64_t index)> realize;
     /// Takes the results. Called from one thread at a time, in any order of the indices.
     std::function<void(const Realization&, const Outcome&)> sink;
     Progress before; ///< counts of what has been done before

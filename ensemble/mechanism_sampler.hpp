@@ -31,8 +31,8 @@ public:
     /// Names of what `draw` appends to the inputs: "stribeck_velocity[0]" and so on for each joint or block if it is
     /// drawn for more than one, where the mechanism does not act with the neutral value; else the name alone.
     const std::vector<std::string>& input_names() const { return input_names_; }
-    /// The numbers that are drawn.
-    std::vector<PointSet::Place> places() const;
+    /// The numbers that are drawn, with the factors of a sensitivity study.
+    std::vector<PointSet::Place> places(const Study& study) const;
     /// The values of a realization: those of the study, or drawn.
     Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 namespace stylobate {
 
@@ -13,6 +14,8 @@ namespace {
 constexpr int most_digits = 20;
 /// Of Boost's tables.
 constexpr std::size_t most_dimensions = 3667;
+/// Of the numbers of a row's point B, beyond those of its point A.
+constexpr std::uint64_t element_of_b = std::uint64_t{1} << 31;
 
 /// What a number is for: what the structure was built like, how its faces touch, or what only tells twins apart.
 enum class Cause { imperfection, contact, twin };
@@ -46,15 +49,27 @@ Cause cause_of(Stream stream)
 
 } // namespace
 
-PointSet::PointSet(const Study& study, const std::vector<Place>& places)
-    : seed_(study.seed), per_cell_(study.realizations)
+PointSet::PointSet(const Study& study, const std::vector<Place>& all)
+    : seed_(study.seed), per_cell_(study.realizations), design_(study.sensitivity)
 {
     if (study.fragility) {
         stripes_ = static_cast<std::uint64_t>(study.fragility->stripes());
         contacts_ = static_cast<std::uint64_t>(study.fragility->contacts);
         twins_ = static_cast<std::uint64_t>(study.fragility->twins);
     }
-    if (study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
+    std::vector<Place> places = all;
+    if (design_) {
+        per_cell_ = design_->samples;
+        std::erase_if(places, [](const Place& place) { return place.factor < 0; });
+        for (const Place& place : places)
+            factor_.emplace(key(place.stream, place.element), static_cast<std::uint64_t>(place.factor));
+        for (std::size_t i = 0, n = places.size(); i < n; ++i)
+            places.push_back({places[i].stream, places[i].element + element_of_b, places[i].factor});
+    }
+    if (study.rare)
+        for (std::size_t d = 0; d < places.size(); ++d)
+            dimension_.emplace(key(places[d].stream, places[d].element), d);
+    if (study.rare || study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
         return;
     digits_ = std::min(most_digits, static_cast<int>(std::bit_width(per_cell_ - 1)));
     const std::size_t dimensions = std::min(places.size(), most_dimensions);
@@ -99,9 +114,34 @@ std::uint64_t PointSet::drawn_as(std::uint64_t index, Stream stream) const
     return structure;
 }
 
+PointSet PointSet::given(std::span<const double> numbers) const
+{
+    assert(numbers.size() == size() && "a number for each place");
+    PointSet points = *this;
+    points.given_ = numbers;
+    return points;
+}
+
 double PointSet::uniform(std::uint64_t index, Stream stream, std::uint64_t element) const
 {
     index = drawn_as(index, stream);
+    if (!given_.empty())
+        return given_[dimension_.at(key(stream, element))];
+    if (!design_)
+        return point(index, stream, element);
+    const auto found = factor_.find(key(stream, element));
+    const SensitivitySpec::Place place = design_->place(index);
+    if (found == factor_.end())
+        return uniform01(seed_, place.row * design_->inner + place.draw, stream, element);
+    const bool changed = place.point == design_->first_changed() + found->second;
+    if (design_->method == SensitivityMethod::sobol)
+        return point(place.row, stream, changed || place.point == 1 ? element + element_of_b : element);
+    const double u = point(place.row, stream, element);
+    return changed ? (u < 0.5 ? u + 0.5 : u - 0.5) : u; // exact: both are on the same grid
+}
+
+double PointSet::point(std::uint64_t index, Stream stream, std::uint64_t element) const
+{
     const std::uint64_t independent = random_bits(seed_, index, stream, element);
     const std::uint64_t k = index % per_cell_;
     const auto found = dimension_.find(key(stream, element));

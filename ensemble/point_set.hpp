@@ -14,6 +14,10 @@
 /// uniform, and are taken so. Direction numbers are those of Boost (Joe & Kuo 2008). The numbers stay a pure function
 /// of study, index, stream and element.
 ///
+/// In a sensitivity study the numbers of a factor are those of its row's point A or B, as the realization's point says;
+/// of Morris' points A_k the factor's own are half a range away from A's. All else is drawn once for all points of a
+/// row (`Study::rest_index`). Sobol points are then the rows, with twice the dimensions: A's, then B's.
+///
 /// Not offered: the same numbers in every cell (common random numbers). They make the difference of two cells better
 /// known, not the probability of any; and neighbours whose errors go together have less to tell each other.
 
@@ -21,6 +25,8 @@
 #include "ensemble/study.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -32,6 +38,7 @@ public:
     struct Place {
         Stream stream;
         std::uint64_t element;
+        int factor = -1; ///< of a sensitivity study: its number, -1: none
     };
 
     PointSet() = default;
@@ -43,7 +50,14 @@ public:
     /// in any case.
     double uniform(std::uint64_t index, Stream stream, std::uint64_t element) const;
 
+    /// How many numbers a realization of a study of rare events has.
+    std::size_t size() const { return dimension_.size(); }
+    /// Of a study of rare events: one realization's numbers, in the order of the places.
+    PointSet given(std::span<const double> numbers) const;
+
 private:
+    /// Number `element` of a stream for realization, or row, `index`.
+    double point(std::uint64_t index, Stream stream, std::uint64_t element) const;
     static std::uint64_t key(Stream stream, std::uint64_t element)
     {
         return (static_cast<std::uint64_t>(stream) << 32) | element;
@@ -56,8 +70,11 @@ private:
     std::uint64_t per_cell_ = 1;
     std::uint64_t stripes_ = 0; ///< of a fragility study, else 0
     std::uint64_t contacts_ = 1, twins_ = 1;
+    std::optional<SensitivitySpec> design_;
+    std::unordered_map<std::uint64_t, std::uint64_t> factor_; ///< by key
     int digits_ = 0; ///< that tell the points of a cell apart; 0: all are independent
     std::unordered_map<std::uint64_t, std::uint64_t> dimension_; ///< by key
+    std::span<const double> given_;                              ///< (dimensions), not kept
     std::vector<std::uint64_t> direction_; ///< (dimensions x digits), the first digit in the highest bit
 };
 

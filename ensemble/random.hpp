@@ -33,7 +33,8 @@ enum class Stream : std::uint64_t {
     bootstrap = 69,           ///< which runs are drawn again for an interval; index = resample, element = draw
     scramble = 70, ///< of Sobol points; index = cell, element = dimension x 2^32 + 2^digit + the digits before
     twin = 71,     ///< what twins of a fragility study differ by; element = block
-    sequence = 72, ///< which records follow a record; index = record, element = place in the sequence
+    subset = 72,   ///< of subset simulation; index = repeat x 2^32 + evaluation, element = number of the point
+    sequence = 73, ///< which records follow a record; index = record, element = place in the sequence
     /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
     /// or block, 0 of the base and of what is drawn once.
     mechanisms = 128

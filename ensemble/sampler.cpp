@@ -112,8 +112,8 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     std::vector<PointSet::Place> places;
     for (const Drawn& drawn : drawn_)
         for (std::uint64_t element = 0; element < drawn.draws; ++element)
-            places.push_back({drawn.stream, element});
-    const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places();
+            places.push_back({drawn.stream, element, study.factor(to_string(drawn.quantity))});
+    const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places(study);
     places.insert(places.end(), of_mechanisms.begin(), of_mechanisms.end());
     std::map<Stream, int> draws;
     for (const PointSet::Place& place : places)
@@ -123,7 +123,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     points_ = PointSet(study_, places);
 }
 
-Realization Sampler::realization(std::uint64_t index) const
+Realization Sampler::build(std::uint64_t index, const PointSet& points) const
 {
     assert(index < study_.total() && "the index is one of the study's");
     Realization realization;
@@ -131,8 +131,8 @@ Realization Sampler::realization(std::uint64_t index) const
     realization.gravity_m_s2 = study_.structure.gravity_m_s2;
     realization.initial_tilt_rad = study_.initial.tilt_rad;
     realization.initial_tilt_block = study_.initial.tilt_from_block;
-    Values values = draw(index, realization.inputs);
-    const MechanismSampler::Values mechanisms = mechanisms_.draw(points_, index, realization.inputs);
+    Values values = draw(points, index, realization.inputs);
+    const MechanismSampler::Values mechanisms = mechanisms_.draw(points, index, realization.inputs);
     for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
         values.of[static_cast<std::size_t>(Quantity::drum_offset)][i] +=
             mechanisms_.offset_m(mechanisms, i) + (twin_ ? twin_->value(points_.uniform(index, Stream::twin, i)) : 0);
@@ -166,14 +166,14 @@ void Sampler::watch_pairs()
                 watched_.emplace_back(lower, upper);
 }
 
-Sampler::Values Sampler::draw(std::uint64_t index, std::vector<double>& inputs) const
+Sampler::Values Sampler::draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const
 {
     Values values = nominal_;
     for (const Drawn& drawn : drawn_) {
         std::vector<double>& target = values.of[static_cast<std::size_t>(drawn.quantity)];
         for (std::size_t i = 0; i < drawn.distributions.size(); ++i) {
             const std::size_t element = std::min(i, drawn.draws - 1);
-            target[i] = drawn.distributions[i].value(points_.uniform(index, drawn.stream, element));
+            target[i] = drawn.distributions[i].value(points.uniform(index, drawn.stream, element));
             if (i < drawn.draws)
                 inputs.push_back(target[i]);
         }

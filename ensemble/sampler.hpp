@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,7 +38,16 @@ public:
     /// @param index from 0 to study.total() - 1; in a surface it says the cell too
     /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
     ///         that this is meant, or if what was drawn cannot be built: blocks that miss each other or overlap
-    Realization realization(std::uint64_t index) const;
+    Realization realization(std::uint64_t index) const { return build(index, points_); }
+
+    /// Of a study of rare events: one whose uniform numbers are given, in any order that is always the same.
+    /// @param numbers (size()) each in (0, 1)
+    Realization realization(std::uint64_t index, std::span<const double> numbers) const
+    {
+        return build(index, points_.given(numbers));
+    }
+    /// How many numbers those are.
+    std::size_t size() const { return points_.size(); }
 
     /// Names of `Realization::inputs`: "friction[0]", "friction[1]" and so on for each bed (or block) of the layout;
     /// the name alone for what is drawn once for the structure, which is then the value of the first bed or block. Then
@@ -68,7 +78,8 @@ private:
     };
 
     void watch_pairs();
-    Values draw(std::uint64_t index, std::vector<double>& inputs) const;
+    Realization build(std::uint64_t index, const PointSet& points) const;
+    Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
     void stack(const Values& values, Realization& realization) const;
     void lay_epistyles(const Values& values, Realization& realization) const;
     Block block(const Values& values, std::size_t i, double height_m) const;

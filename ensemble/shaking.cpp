@@ -109,10 +109,10 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
     }
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
+        const std::uint64_t rest = study.rest_index(realization.index);
         realization.motion = std::make_shared<const Motion>(
-            excitation.pga_of == PgaOf::mean
-                ? noise.motion(study.seed, realization.index, realization.pga_m_s2 / mean_peak_[row])
-                : noise.motion_of_peak(study.seed, realization.index, realization.pga_m_s2));
+            excitation.pga_of == PgaOf::mean ? noise.motion(study.seed, rest, realization.pga_m_s2 / mean_peak_[row])
+                                             : noise.motion_of_peak(study.seed, rest, realization.pga_m_s2));
     }
     if (realization.change.distorts())
         distort(excitation, realization);

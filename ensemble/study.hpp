@@ -18,7 +18,13 @@
 
 namespace stylobate {
 
-enum class StudyKind { single, surface, fragility };
+enum class StudyKind {
+    single,
+    surface,
+    fragility,   ///< many motions, each as strong as is asked: probabilities of damage and their curves
+    sensitivity, ///< which of the perturbed quantities the outcomes depend on
+    rare         ///< a probability of collapse too small to be counted
+};
 
 /// What the uniform numbers of a cell's realizations are (point_set.hpp).
 enum class Sampling {
@@ -181,8 +187,8 @@ struct FragilitySpec {
     Axis intensity;      ///< of `stripes`; in the measure's unit
     double scale = 1;    ///< of `cloud`: every motion so many times as strong as it stands
 
-    // A monument has survived many earthquakes: so many shake it one after the other, each as strong as its stripe says,
-    // and what one has displaced the next one finds so.
+    // A monument has survived many earthquakes: so many shake it one after the other, each as strong as its stripe
+    // says, and what one has displaced the next one finds so.
     int shakings = 1;
     double pause_s = 5; ///< between two of them, in which it comes to rest
 
@@ -197,6 +203,46 @@ struct FragilitySpec {
     std::vector<double> periods_s = {0.5, 1, 2};               ///< at which spectral accelerations are measured
 
     int stripes() const { return method == FragilityMethod::cloud ? 1 : intensity.count; }
+};
+
+enum class SensitivityMethod {
+    sobol, ///< shares of the variance (estimators/sobol_indices.hpp): points A, B, A_1 ... of each row
+    morris ///< screening (estimators/elementary_effects.hpp): points A, A_1 ...
+};
+
+/// A design of the factors: rows of points, and at each point some realizations that differ in all that is no factor,
+/// the same way at all points of a row. Realizations are counted row by row, point by point.
+struct SensitivitySpec {
+    SensitivityMethod method = SensitivityMethod::sobol;
+    std::uint64_t samples = 0;        ///< rows
+    std::uint64_t inner = 1;          ///< realizations at each point
+    std::vector<std::string> factors; ///< perturbed quantities, by the names of the inputs; in the order of the inputs
+
+    struct Place {
+        std::uint64_t row = 0;
+        std::uint64_t point = 0; ///< A is 0
+        std::uint64_t draw = 0;  ///< of the rest
+    };
+    /// Number of the first of the points A_k.
+    std::uint64_t first_changed() const { return method == SensitivityMethod::sobol ? 2 : 1; }
+    std::uint64_t points() const { return factors.size() + first_changed(); }
+    std::uint64_t total() const { return samples * points() * inner; }
+    Place place(std::uint64_t index) const
+    {
+        return {index / (points() * inner), index / inner % points(), index % inner};
+    }
+};
+
+/// Subset simulation (estimators/subset_simulation.hpp), repeated for its interval.
+struct RareSpec {
+    std::uint64_t samples = 1000; ///< at each level
+    std::uint64_t repeats = 10;
+    static constexpr double level_probability = 0.1;
+    static constexpr std::uint64_t most_levels = 10; ///< beyond the first one
+    /// A realization's index is its repeat x this + its number in the repeat.
+    static constexpr std::uint64_t indices_of_repeat = std::uint64_t{1} << 32;
+    /// More realizations than it can come to.
+    std::uint64_t most() const { return repeats * samples * (most_levels + 1); }
 };
 
 /// What can be perturbed. The names in study files are the enumerators' names.
@@ -308,7 +354,8 @@ struct RunSpec {
 struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
-    std::uint64_t realizations = 1; ///< per cell of a surface; under a motion in a stripe; of a single study, in all
+    /// Per cell of a surface; under a motion in a stripe; of a single study, in all; not used by other kinds.
+    std::uint64_t realizations = 1;
     Sampling sampling = Sampling::independent;
 
     StructureSpec structure;
@@ -316,6 +363,8 @@ struct Study {
     ExcitationSpec excitation;
     std::optional<SurfaceSpec> surface;
     std::optional<FragilitySpec> fragility;
+    std::optional<SensitivitySpec> sensitivity;
+    std::optional<RareSpec> rare;
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -344,9 +393,32 @@ struct Study {
         return 1;
     }
     /// Realizations of the whole study.
-    std::uint64_t total() const { return realizations * cells(); }
+    std::uint64_t total() const
+    {
+        if (sensitivity)
+            return sensitivity->total();
+        if (rare)
+            return rare->repeats * RareSpec::indices_of_repeat;
+        return realizations * cells();
+    }
     /// The cell of a realization: frequency row x number of PGAs + PGA column, or motion x number of stripes + stripe.
-    std::uint64_t cell(std::uint64_t index) const { return index / realizations; }
+    std::uint64_t cell(std::uint64_t index) const { return surface || fragility ? index / realizations : 0; }
+    /// The number of a factor of a sensitivity study, by its name among the inputs; -1: it is none.
+    int factor(const std::string& name) const
+    {
+        if (!sensitivity)
+            return -1;
+        const auto found = std::find(sensitivity->factors.begin(), sensitivity->factors.end(), name);
+        return found == sensitivity->factors.end() ? -1 : static_cast<int>(found - sensitivity->factors.begin());
+    }
+    /// By which a realization draws what no factor says: its index, or that of all points of its row.
+    std::uint64_t rest_index(std::uint64_t index) const
+    {
+        if (!sensitivity)
+            return index;
+        const SensitivitySpec::Place place = sensitivity->place(index);
+        return place.row * sensitivity->inner + place.draw;
+    }
 };
 
 } // namespace stylobate

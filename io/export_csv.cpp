@@ -212,6 +212,34 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
     realizations_file.commit();
 }
 
+void write_sensitivity_csv(const std::filesystem::path& file, const SensitivityTable& table)
+{
+    std::string text;
+    Line(text) << "outcome"
+               << "unit"
+               << "index"
+               << "factor"
+               << "value"
+               << "lower"
+               << "upper";
+    const auto line = [&](std::size_t outcome, const std::string& index, const std::string& factor,
+                          const IntervalArray& of, std::size_t i) {
+        Line(text) << table.outcomes[outcome] << table.units[outcome] << index << factor << of.value[i] << of.lower[i]
+                   << of.upper[i];
+    };
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
+        line(o, "mean", "", table.mean, o);
+        if (!table.explained.value.empty())
+            line(o, "explained", "", table.explained, o);
+        for (const SensitivityTable::Index& index : table.indices)
+            for (std::size_t k = 0; k < table.factors.size(); ++k)
+                line(o, index.name, table.factors[k], index.of, o * table.factors.size() + k);
+    }
+    AtomicFile out(file);
+    out.write(text);
+    out.commit();
+}
+
 void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory)
 {
     const std::size_t blocks = trajectory.blocks();

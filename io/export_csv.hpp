@@ -19,6 +19,12 @@ namespace stylobate {
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
                const SurfaceTable& surface);
 
+/// Writes a table of sensitivities: a line for each outcome, index and factor, with value, lower and upper; the lines
+/// "mean" and "explained" have no factor.
+///
+/// @throws InputError if the file cannot be written
+void write_sensitivity_csv(const std::filesystem::path& file, const SensitivityTable& table);
+
 /// Writes a trajectory as one line per time: time_s, base_x_m, then x_m[i], y_m[i], theta_rad[i] for each block i,
 /// from the bottom. The blocks' sizes follow as half_width_m[i], half_height_m[i], the same in every line.
 ///

@@ -1,5 +1,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_rare.hpp"
+#include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
 
 #include <algorithm>
@@ -145,6 +147,16 @@ SurfaceTable ResultReader::surface() const
         table.rounds = hdf5::read_number(opened.id(), "rounds");
         return table;
     });
+}
+
+SensitivityTable ResultReader::sensitivity() const
+{
+    return impl_->guarded([](hid_t file) { return read_sensitivity_table(file); });
+}
+
+RareTable ResultReader::rare() const
+{
+    return impl_->guarded([](hid_t file) { return read_rare_table(file); });
 }
 
 std::vector<std::uint64_t> ResultReader::trajectory_indices() const

@@ -4,6 +4,8 @@
 #include "ensemble/interval.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/realization.hpp"
+#include "io/rare_table.hpp"
+#include "io/sensitivity_table.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,14 +27,15 @@ struct MotionTable {
 
 /// What is fixed when a store is created.
 struct ResultHeader {
-    std::string kind; ///< "single", "surface" or "fragility"; "replay" for one realization of any
+    std::string kind; ///< the study's; "replay" for one realization of any
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;
     std::uint64_t first = 0; ///< index of the first row: 0 but for a replay
     std::uint64_t total = 0; ///< rows
-    bool selected = false; ///< the rows are some of the study's realizations, each row says which: an adaptive surface.
-                           ///< `total` is how many they can become at most, in a finished file how many they are
+    bool selected =
+        false; ///< the rows are some of the study's realizations, each row says which: an adaptive surface, rare
+               ///< events. `total` is how many they can become at most, in a finished file how many they are
     std::vector<std::string> input_names; ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
                                           ///< column 3 of the two-dimensional dataset input/friction
     std::vector<std::string> block_names; ///< of the blocks but the ground, in layout order; as many values has
@@ -117,10 +120,12 @@ public:
     /// Takes a trajectory; it is kept in memory until `finish`, so a resumed run adds it again, also where it `has` the
     /// row.
     void add(const Trajectory& trajectory);
-    /// Writes the surface's table and the trajectories, and marks the file complete, in one step: killed meanwhile, the
-    /// file stays as it was. All rows must have been added; where they are selected, those that were added are all, and
-    /// are put in index order. Needs the disk space of the file once more.
-    void finish(const SurfaceTable* surface);
+    /// Writes the surface's table or that of the sensitivities or of a rare event, and the trajectories, and marks the
+    /// file complete, in one step: killed meanwhile, the file stays as it was. All rows must have been added; where
+    /// they are selected, those that were added are all, and are put in index order. Needs the disk space of the file
+    /// once more.
+    void finish(const SurfaceTable* surface, const SensitivityTable* sensitivity = nullptr,
+                const RareTable* rare = nullptr);
     /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
@@ -149,6 +154,10 @@ public:
     std::vector<ResultRow> rows() const;
     /// Empty axes if there is none.
     SurfaceTable surface() const;
+    /// Empty if there is none.
+    SensitivityTable sensitivity() const;
+    /// Empty if there is none.
+    RareTable rare() const;
     std::vector<std::uint64_t> trajectory_indices() const;
     /// @throws InputError if there is none of this index
     Trajectory trajectory(std::uint64_t index) const;

@@ -1,5 +1,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_rare.hpp"
+#include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
 
 #include <algorithm>
@@ -441,7 +443,7 @@ void ResultWriter::flush()
     impl_->file.handle.sync();
 }
 
-void ResultWriter::finish(const SurfaceTable* surface)
+void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity, const RareTable* rare)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
@@ -464,6 +466,10 @@ void ResultWriter::finish(const SurfaceTable* surface)
     hdf5::Handle opened = hdf5::open_file(unready, true);
     if (surface)
         write_surface(opened.id(), *surface);
+    if (sensitivity)
+        write_sensitivity(opened.id(), *sensitivity);
+    if (rare)
+        write_rare(opened.id(), *rare);
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, trajectory] : impl_->trajectories)

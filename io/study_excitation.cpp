@@ -113,7 +113,7 @@ void read_sampled(const KeyReader& keys, const char* what, StudyKind kind, Excit
             keys.missing("file", fmt::format("Name {} here, or on the command line: --set excitation.file=PATH", what));
         e.file = keys.text("file");
     }
-    if (kind == StudyKind::single)
+    if (kind != StudyKind::surface && kind != StudyKind::fragility)
         e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
     if (kind != StudyKind::surface)
         e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);

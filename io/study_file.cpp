@@ -9,6 +9,7 @@
 #include "io/study_names.hpp"
 #include "io/study_perturbations.hpp"
 #include "io/study_ranges.hpp"
+#include "io/study_sensitivity.hpp"
 #include "io/study_structure.hpp"
 
 #include <fmt/format.h>
@@ -174,8 +175,8 @@ RunSpec read_run(const KeyReader& keys)
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "fragility", "perturbation", "mechanisms",
-                    "initial", "output", "outcome", "run",
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "fragility", "sensitivity", "rare",
+                    "perturbation", "mechanisms", "initial", "output", "outcome", "run",
                     "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
     Study study;
@@ -184,11 +185,20 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.kind = keys.choice("kind", study_kind_names);
     const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
+    const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;
+    if (is_sensitivity && keys.has("realizations"))
+        keys.refuse("realizations", "is not used by study.kind = \"sensitivity\"",
+                    "Give sensitivity.samples and sensitivity.inner instead.");
+    if (is_rare && keys.has("realizations"))
+        keys.refuse("realizations", "is not used by study.kind = \"rare\"",
+                    "Give rare.samples and rare.repeats instead.");
     study.realizations = is_surface     ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
                          : is_fragility ? keys.whole("realizations", 1, most_realizations,
                                                      "Structures under each motion in each stripe.")
                                         : keys.whole_or("realizations", 1, most_realizations, study.realizations);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
+    if (is_rare && study.sampling != Sampling::independent)
+        keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains draw their own numbers.");
 
     study.structure = read_structure(top.table("structure"));
     study.contact = read_contact(top.table("contact"), study.structure);
@@ -213,7 +223,10 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
                                 static_cast<double>(study.cells()) * static_cast<double>(study.realizations),
                                 most_realizations),
                     "Give fewer realizations or fewer cells.");
-    for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface}, {"fragility", StudyKind::fragility}})
+    for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface},
+                                      {"fragility", StudyKind::fragility},
+                                      {"sensitivity", StudyKind::sensitivity},
+                                      {"rare", StudyKind::rare}})
         if (study.kind != kind && top.has(table))
             top.refuse(table, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
                        fmt::format("Remove [{}], or give study.kind = \"{}\".", table, table));
@@ -221,6 +234,11 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     read_perturbations(top.table("perturbation"), study);
     if (is_fragility)
         check_mechanisms_of_fragility(top.table("mechanisms"), study);
+    if (is_sensitivity)
+        study.sensitivity = read_sensitivity(top.table("sensitivity"), study, most_realizations);
+
+    if (is_rare)
+        study.rare = read_rare(top.table("rare"), study);
 
     study.initial = read_initial(top.table("initial"), study.structure);
     const KeyReader output = top.table("output");

@@ -13,15 +13,18 @@ struct Name {
     Enum value;
 };
 
-inline constexpr std::array study_kind_names = {Name<StudyKind>{"single", StudyKind::single},
-                                                Name<StudyKind>{"surface", StudyKind::surface},
-                                                Name<StudyKind>{"fragility", StudyKind::fragility}};
+inline constexpr std::array study_kind_names = {
+    Name<StudyKind>{"single", StudyKind::single}, Name<StudyKind>{"surface", StudyKind::surface},
+    Name<StudyKind>{"fragility", StudyKind::fragility}, Name<StudyKind>{"sensitivity", StudyKind::sensitivity},
+    Name<StudyKind>{"rare", StudyKind::rare}};
 inline constexpr std::array fragility_method_names = {Name<FragilityMethod>{"stripes", FragilityMethod::stripes},
                                                       Name<FragilityMethod>{"cloud", FragilityMethod::cloud}};
 inline constexpr std::array intensity_measure_names = {
     Name<IntensityMeasure>{"pga", IntensityMeasure::pga}, Name<IntensityMeasure>{"pgv", IntensityMeasure::pgv},
     Name<IntensityMeasure>{"pgd", IntensityMeasure::pgd}, Name<IntensityMeasure>{"arias", IntensityMeasure::arias},
     Name<IntensityMeasure>{"cav", IntensityMeasure::cav}, Name<IntensityMeasure>{"sa", IntensityMeasure::sa}};
+inline constexpr std::array sensitivity_method_names = {Name<SensitivityMethod>{"sobol", SensitivityMethod::sobol},
+                                                        Name<SensitivityMethod>{"morris", SensitivityMethod::morris}};
 inline constexpr std::array sampling_names = {Name<Sampling>{"independent", Sampling::independent},
                                               Name<Sampling>{"sobol", Sampling::sobol}};
 inline constexpr std::array structure_kind_names = {Name<StructureKind>{"column", StructureKind::column},

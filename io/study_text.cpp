@@ -332,7 +332,8 @@ std::string study_text(const Study& study)
     out.section("study");
     out.word("kind", word_for(study_kind_names, study.kind));
     out.whole("seed", study.seed);
-    out.whole("realizations", study.realizations);
+    if (!study.sensitivity && !study.rare)
+        out.whole("realizations", study.realizations);
     out.word("sampling", word_for(sampling_names, study.sampling));
     write(out, study.structure);
     write(out, study.contact);
@@ -349,6 +350,21 @@ std::string study_text(const Study& study)
     }
     if (study.fragility)
         write(out, *study.fragility);
+    if (const std::optional<SensitivitySpec>& sensitivity = study.sensitivity) {
+        out.section("sensitivity");
+        out.word("method", word_for(sensitivity_method_names, sensitivity->method));
+        out.whole("samples", sensitivity->samples);
+        out.whole("inner", sensitivity->inner);
+        std::string factors;
+        for (const std::string& factor : sensitivity->factors)
+            factors += (factors.empty() ? "" : ", ") + toml_quoted(factor);
+        out.line("factors", "[" + factors + "]");
+    }
+    if (study.rare) {
+        out.section("rare");
+        out.whole("samples", study.rare->samples);
+        out.whole("repeats", study.rare->repeats);
+    }
     if (!study.perturbations.empty())
         out.section("perturbation");
     for (const auto& p : study.perturbations)

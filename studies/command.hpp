@@ -31,7 +31,7 @@ struct CommonOptions {
 /// What `export` is asked for; empty, or -1: not said.
 struct ExportOptions {
     std::string format;              ///< "csv", "png", "nrml" or "json"
-    std::string picture;             ///< "surface", "slice", "fragility", "strip" or "order"
+    std::string picture;             ///< "surface", "slice", "fragility", "sensitivity", "strip" or "order"
     std::string output;              ///< file of the picture, folder of the tables
     std::string limit;               ///< limit state of a surface or slice
     long long realization = -1;      ///< of a strip

@@ -3,6 +3,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/export_csv.hpp"
+#include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
@@ -35,6 +36,7 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
         picture = "fragility";
     if (picture.empty())
         picture = wanted.cell >= 0                                                  ? "order"
+                  : wanted.realization < 0 && reader.header().kind == "sensitivity" ? "sensitivity"
                   : reader.header().frequency_hz.empty() || wanted.realization >= 0 ? "strip"
                                                                                     : "surface";
     const bool of_surface = picture == "surface" || picture == "slice" || picture == "fragility";
@@ -60,6 +62,8 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
         plot_fragility(fragility_of(reader, results), limits, "Fragility: " + name, png);
     } else if (picture == "order") {
         order_picture(reader, results, wanted.cell, png);
+    } else if (picture == "sensitivity") {
+        plot_sensitivity(finished_sensitivity(reader, results), "What it depends on: " + name, png);
     } else {
         if (!wanted.limit.empty() && std::find(limit_state_names().begin(), limit_state_names().end(), wanted.limit) ==
                                          limit_state_names().end())
@@ -87,6 +91,8 @@ fs::path export_csv(const std::string& results, const std::string& output)
         if (!fragility.states.empty())
             write_models(fragility_models(fragility, fs::path(results).stem().string()), "csv", folder);
     }
+    if (reader.complete() && !reader.sensitivity().empty())
+        write_sensitivity_csv(folder / "sensitivity.csv", reader.sensitivity());
     for (const std::uint64_t index : reader.trajectory_indices())
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
     return folder;

@@ -111,6 +111,10 @@ ResultHeader LoadedStudy::result_header() const
         header.selected = true;
         header.total = std::min(header.total, study_->surface->adaptive->budget);
     }
+    if (study_->rare) {
+        header.selected = true;
+        header.total = study_->rare->most();
+    }
     header.input_names = sampler_->input_names();
     header.block_names = block_names(*study_);
     if (study_->surface) {

@@ -5,6 +5,7 @@
 #include "studies/command.hpp"
 #include "studies/json.hpp"
 #include "studies/loaded_study.hpp"
+#include "studies/result_picture.hpp"
 #include "studies/trajectory.hpp"
 #include "studies/version.hpp"
 
@@ -45,6 +46,7 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
 {
     const ResultReader reader(results);
     const ResultHeader& header = reader.header();
+    check_replayable(header, results);
     const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
     const std::uint64_t end = realizations_end(header, loaded.study());
     if (realization < 0 || static_cast<std::uint64_t>(realization) >= end ||

@@ -1,6 +1,7 @@
 /// The page of a result.
 
 #include "ensemble/input_error.hpp"
+#include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/study_file.hpp"
@@ -11,6 +12,8 @@
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/run_rare.hpp"
+#include "studies/sensitivity.hpp"
 
 #include <fmt/format.h>
 
@@ -97,11 +100,17 @@ public:
     {
         summary();
         studied();
+        if (study_.rare) {
+            again();
+            return page_;
+        }
         outcomes();
         if (surface_)
             cells();
         if (header_.kind == "fragility")
             fragility();
+        if (study_.sensitivity)
+            sensitivity();
         pictures();
         order();
         motions();
@@ -137,6 +146,10 @@ private:
     {
         const Share collapsed = counts_.share(LimitState::collapse);
         page_.section("Summary");
+        if (study_.rare) { // the share of its realizations that collapsed says nothing
+            add_rare(page_, reader_.rare());
+            return;
+        }
         std::string text;
         if (rows_.size() == 1)
             text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
@@ -254,10 +267,22 @@ private:
                                 "--to csv."));
     }
 
+    /// What the outcomes depend on.
+    void sensitivity()
+    {
+        const SensitivityTable table = reader_.sensitivity();
+        if (table.empty()) // a replay of one realization
+            return;
+        page_.section("What it depends on");
+        picture("Shares of the factors, with their intervals.",
+                [&](const fs::path& png) { plot_sensitivity(table, "What it depends on", png); });
+        add_sensitivity(page_, table);
+    }
+
     /// One realization over time.
     void pictures()
     {
-        if (surface_)
+        if (surface_ || (study_.sensitivity && rows_.size() > 1))
             return;
         page_.section("Motion");
         constexpr std::size_t most = 3;
@@ -343,7 +368,9 @@ private:
         page_.paragraph(fmt::format("With stylobate {} and the study below as STUDY.toml:", header_.code_version));
         const std::string name = fs::path(file_).filename().string();
         std::string commands;
-        if (header_.kind == "replay")
+        if (study_.rare)
+            commands = fmt::format("stylobate run STUDY.toml -o {}\n", name);
+        else if (header_.kind == "replay")
             commands =
                 fmt::format("stylobate run STUDY.toml -o STUDY.h5\nstylobate replay STUDY.h5 --realization {} -o "
                             "{}\n",

@@ -31,6 +31,7 @@ Followed trajectory_of(const CommonOptions& options, const ResultReader& reader,
     if (std::find(stored.begin(), stored.end(), index) != stored.end())
         return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
     const ResultHeader& header = reader.header();
+    check_replayable(header, results);
     const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
     const std::uint64_t end = realizations_end(header, loaded.study());
     if (index < header.first || index >= end)
@@ -60,6 +61,15 @@ void check_complete(const ResultReader& reader, const std::string& results)
         throw InputError(fmt::format("{}: the run is not complete; run the same study again to continue it", results));
 }
 
+void check_replayable(const ResultHeader& header, const std::string& results)
+{
+    if (header.kind == "rare")
+        throw InputError(
+            fmt::format("{}: a realization of a chain follows from all before it; none can be run again by "
+                        "itself",
+                        results));
+}
+
 bool followed_to_rest(const ResultReader& reader, const std::string& results)
 {
     return parse_study(reader.header().study_toml, results + " (its study)").outcome.follow == Follow::rest;
@@ -82,6 +92,16 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
     for (const ResultRow& row : reader.rows())
         counts.add(row);
     return counts.table();
+}
+
+SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results)
+{
+    if (reader.header().kind != "sensitivity")
+        throw InputError(fmt::format("{}: a result of kind '{}' has no sensitivities; a study of study.kind = "
+                                     "\"sensitivity\" has",
+                                     results, reader.header().kind));
+    check_complete(reader, results);
+    return reader.sensitivity();
 }
 
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,

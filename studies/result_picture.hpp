@@ -14,12 +14,18 @@ namespace stylobate {
 /// @throws InputError if the run is not complete
 void check_complete(const ResultReader& reader, const std::string& results);
 
+/// @throws InputError if its realizations cannot be run one by one
+void check_replayable(const ResultHeader& header, const std::string& results);
+
 /// Whether the realizations were followed beyond the first fall.
 bool followed_to_rest(const ResultReader& reader, const std::string& results);
 
 /// The surface of the store, or that of another limit state from the rows.
 /// @throws InputError if there is none, if the run is not complete, or if the limit state was not followed
 SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit);
+
+/// @throws InputError if there are none, or if the run is not complete
+SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results);
 
 /// One realization over time: from the file's trajectory, or else run again.
 /// @throws InputError if there is no such realization, and as `plot_strip` does

@@ -12,6 +12,8 @@
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/run_rare.hpp"
+#include "studies/sensitivity.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
 
@@ -33,10 +35,11 @@ std::string default_results(const std::string& study)
 }
 
 /// Draws every realization once, so that one that cannot be run (a fixed step above its bound, drums drawn off each
-/// other) is refused before anything is written. It costs less than a hundredth of running them.
+/// other) is refused before anything is written. It costs less than a hundredth of running them. Of a study of rare
+/// events a number of plain draws: where its chains will lead nobody knows.
 void check_realizations(const LoadedStudy& loaded)
 {
-    const std::uint64_t total = loaded.study().total();
+    const std::uint64_t total = loaded.study().rare ? 10 * loaded.study().rare->samples : loaded.study().total();
     tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, total, 256), [&](const auto& range) {
         for (std::uint64_t index = range.begin(); index != range.end(); ++index)
             loaded.sampler().realization(index);
@@ -55,14 +58,21 @@ struct Counts {
 };
 
 /// Counts what an earlier part of the run has done. (Only while no row is being added.)
-/// @param outcomes of an adaptive surface, else null
-void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes)
+/// @param outcomes    of an adaptive surface, else null
+/// @param sensitivity of a sensitivity study, else null
+/// @param rare        of a study of rare events, else null
+void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes, SensitivityOutcomes* sensitivity,
+                RareOutcomes* rare)
 {
     const ResultReader reader(results);
     for (const ResultRow& row : reader.rows()) {
         counts.add(row);
         if (outcomes)
             outcomes->add(row);
+        if (sensitivity)
+            sensitivity->add(row);
+        if (rare)
+            rare->add(row);
     }
 }
 
@@ -85,9 +95,10 @@ Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Co
     return progress;
 }
 
-/// All realizations of a study of any other kind.
+/// All realizations of a study of any other kind but a rare one.
+/// @param sensitivity of a sensitivity study, else null
 Progress run_many(const LoadedStudy& loaded, const RunOptions& options, ResultWriter& writer, Counts& counts,
-                  Observer& observer)
+                  SensitivityOutcomes* sensitivity, Observer& observer)
 {
     RunPlan plan;
     plan.total = loaded.study().total();
@@ -96,6 +107,8 @@ Progress run_many(const LoadedStudy& loaded, const RunOptions& options, ResultWr
         const ResultRow row = result_row(loaded.study(), realization, outcome);
         writer.add(row);
         counts.add(row);
+        if (sensitivity)
+            sensitivity->add(row);
     };
     const std::vector<std::uint64_t> states = writer.rows_by_state();
     plan.before.done = writer.rows();
@@ -192,11 +205,17 @@ Json adaptive_json(const SurfaceTable& table)
         .member("uniform_realizations", table.lower.size() * uniform_trials(table.half_width, adaptive_level));
 }
 
-/// @param adaptive the table of a complete adaptive surface, else null
-/// @param fragility of a complete fragility study, else null
+/// What is said of a whole study beside its counts; what it has not is null.
+struct Findings {
+    const SurfaceTable* adaptive = nullptr;
+    const Fragility* fragility = nullptr;
+    const SensitivityTable* sensitivity = nullptr;
+    const RareTable* rare = nullptr;
+};
+
+/// @param found of a complete study
 void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
-            const LimitCounts& counts, const RunOptions& run, bool complete, const SurfaceTable* adaptive,
-            const Fragility* fragility)
+            const LimitCounts& counts, const RunOptions& run, bool complete, const Findings& found)
 {
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
@@ -210,7 +229,6 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("total", p.total)
             .member("collapsed", p.collapsed)
             .member("invalid", p.invalid)
-            .member("limit_states", limits_json(counts, names, to_rest))
             .member("seconds", p.seconds)
             .member("realizations_per_second", p.rate)
             .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
@@ -218,10 +236,16 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("backend", options.backend)
             .member("simd", to_string(run.isa))
             .member("threads", run.threads);
-        if (adaptive)
-            json.member("adaptive", adaptive_json(*adaptive));
-        if (fragility)
-            json.member("fragility", fragility_json(*fragility));
+        if (!loaded.study().rare) // whose realizations lean to the collapse
+            json.member("limit_states", limits_json(counts, names, to_rest));
+        if (found.adaptive)
+            json.member("adaptive", adaptive_json(*found.adaptive));
+        if (found.fragility)
+            json.member("fragility", fragility_json(*found.fragility));
+        if (found.sensitivity)
+            json.member("sensitivity", sensitivity_json(*found.sensitivity));
+        if (found.rare)
+            json.member("rare", rare_json(*found.rare));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
@@ -231,12 +255,17 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
                        run.devices.empty() ? to_string(run.isa) : "the host and " + run.devices.front()->name(),
                        p.rate);
         fmt::print("\n");
-        if (adaptive)
-            fmt::print("  {}\n", describe_adaptive(*adaptive));
-        if (counts.trials() > 0)
+        if (found.adaptive)
+            fmt::print("  {}\n", describe_adaptive(*found.adaptive));
+        if (counts.trials() > 0 && !loaded.study().rare)
             print_limits(counts, names, to_rest);
-        if (fragility)
-            fmt::print("{}", fragility_text(*fragility));
+        if (found.fragility)
+            fmt::print("{}", fragility_text(*found.fragility));
+        if (found.sensitivity)
+            fmt::print("{}", sensitivity_text(*found.sensitivity));
+        if (found.rare)
+            for (const std::string& sentence : rare_sentences(*found.rare))
+                fmt::print("  {}\n", sentence);
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
@@ -271,6 +300,13 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
+    std::optional<SensitivityOutcomes> of_factors;
+    if (loaded.study().sensitivity)
+        of_factors.emplace(loaded.study(), header.input_names);
+    SensitivityOutcomes* const sensitivity = of_factors ? &*of_factors : nullptr;
+    const bool is_rare = loaded.study().rare.has_value();
+    RareOutcomes rare_outcomes;
+    std::optional<RareTable> rare;
     std::unique_ptr<ResultWriter> writer;
     Progress progress;
     std::optional<SurfaceTable> table;
@@ -279,34 +315,48 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
         writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
         if (found && !is_single) // the file is ours now: no other run adds to it in between
-            count_done(results, counts, adaptive ? &outcomes : nullptr);
-        if (adaptive) {
-            const auto sink = [&](const ResultRow& row) {
-                writer->add(row);
-                counts.add(row);
-            };
+            count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity,
+                       is_rare ? &rare_outcomes : nullptr);
+        const auto sink = [&](const ResultRow& row) {
+            writer->add(row);
+            counts.add(row);
+        };
+        if (is_rare) {
+            RareRun ran = run_rare(loaded, run, rare_outcomes, sink, console);
+            progress = ran.progress;
+            complete = ran.complete;
+            if (complete)
+                rare = std::move(ran.table);
+        } else if (adaptive) {
             AdaptiveRun ran = run_adaptive(loaded, run, outcomes, sink, console);
             progress = ran.progress;
             table = std::move(ran.table);
             complete = ran.complete;
         } else {
             progress = is_single ? run_single(loaded, run.isa, *writer, counts, console)
-                                 : run_many(loaded, run, *writer, counts, console);
+                                 : run_many(loaded, run, *writer, counts, sensitivity, console);
             complete = progress.done == progress.total;
             if (complete && is_surface)
                 table = counts.cells.table();
         }
     }
+    std::optional<SensitivityTable> indices;
+    if (complete && sensitivity)
+        indices = sensitivity->table();
     if (complete)
-        writer->finish(table ? &*table : nullptr);
+        writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr, rare ? &*rare : nullptr);
     else
         writer->flush();
     writer.reset();
+    Findings findings;
     std::optional<Fragility> fragility;
-    if (complete && loaded.study().fragility)
-        fragility = fragility_of(ResultReader(results), results);
-    report(options, loaded, results, progress, counts.limits, run, complete, adaptive && table ? &*table : nullptr,
-           fragility ? &*fragility : nullptr);
+    if (complete) {
+        if (loaded.study().fragility)
+            fragility = fragility_of(ResultReader(results), results);
+        findings = {adaptive && table ? &*table : nullptr, fragility ? &*fragility : nullptr,
+                    indices ? &*indices : nullptr, rare ? &*rare : nullptr};
+    }
+    report(options, loaded, results, progress, counts.limits, run, complete, findings);
     if (!complete)
         return exit_interrupted;
     const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);

@@ -38,6 +38,18 @@ frequency_hz = { from = 0.5, to = 8, count = 5, spacing = "log" }
 pga_m_s2 = { from = 1, to = 9, count = 3 }
 )";
 
+const std::string sensitivity = R"(
+[study]
+kind = "sensitivity"
+[excitation]
+kind = "harmonic"
+frequency_hz = 4
+pga_m_s2 = 5
+[sensitivity]
+samples = 100
+factors = ["tilt", "phase"]
+)";
+
 const std::string perturbed = R"(
 [perturbation]
 phase = { distribution = "uniform" }
@@ -62,7 +74,8 @@ Study single(const std::string& excitation, const std::vector<std::string>& sett
 std::vector<Study> all_sorts()
 {
     const std::string still = "kind = \"none\"\nduration_s = 2";
-    std::vector<Study> studies = {read(surface + structure), read(surface + structure + perturbed), single(still)};
+    std::vector<Study> studies = {read(surface + structure), read(surface + structure + perturbed), single(still),
+                                  read(sensitivity + structure + perturbed)};
     for (const std::string excitation :
          {"kind = \"harmonic\"\nfrequency_hz = 0.1\npga_m_s2 = 0.3\nphase_rad = -0.0\nend = \"abrupt\"",
           "kind = \"full_sine\"\nfrequency_hz = 0.7\npga_m_s2 = 3.3\ntail_s = 1.5",
@@ -242,6 +255,18 @@ TEST(StudyText, AnAdaptiveSurfaceReadsBackToItself)
     EXPECT_EQ(again.text, study_text(base));
     base.surface->adaptive->borrow = true;
     EXPECT_NE(again.text, study_text(base));
+}
+
+TEST(StudyText, DiffersWhereverASensitivityStudyDoes)
+{
+    const std::string text = sensitivity + structure + perturbed;
+    const Study study = read(text);
+    EXPECT_EQ(study.sensitivity->factors, (std::vector<std::string>{"tilt", "phase"}));
+    EXPECT_EQ(study.sensitivity->inner, 4U);
+    for (const char* setting : {"sensitivity.samples=101", "sensitivity.inner=3", "sensitivity.method=morris",
+                                "sensitivity.factors=[\"tilt\"]"})
+        EXPECT_NE(read(text, {setting}).text, study.text) << setting;
+    EXPECT_EQ(read(text, {"sensitivity.factors=[\"phase\", \"tilt\"]"}).text, study.text) << "no order";
 }
 
 TEST(StudyText, DiffersWhereverAColonnadeDoes)

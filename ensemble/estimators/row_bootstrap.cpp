@@ -1,0 +1,87 @@
+#include "ensemble/estimators/row_bootstrap.hpp"
+
+#include "ensemble/random.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+/// Of sorted values, linear between them.
+double quantile(const std::vector<double>& sorted, double share)
+{
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+} // namespace
+
+Estimate Estimate::undetermined()
+{
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none, none};
+}
+
+std::vector<double> row_means(std::span<const double> rows, std::size_t width)
+{
+    std::vector<double> means(width, 0);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        means[i % width] += rows[i];
+    for (double& mean : means)
+        mean /= static_cast<double>(rows.size() / width);
+    return means;
+}
+
+std::vector<Estimate> bootstrap_rows(std::span<const double> rows, std::size_t width, std::size_t estimates,
+                                     const FromMeans& from_means, const BootstrapOptions& options)
+{
+    assert(width > 0 && rows.size() % width == 0 && "the rows have as many numbers each");
+    const std::size_t n = rows.size() / width;
+    if (n < 2 || options.resamples < 2)
+        return std::vector<Estimate>(estimates, Estimate::undetermined());
+    std::vector<double> value(estimates);
+    from_means(row_means(rows, width), value);
+
+    std::vector<std::vector<double>> drawn(estimates);
+    std::vector<double> means(width), resampled(estimates);
+    std::vector<std::uint32_t> times(n);
+    for (std::size_t resample = 0; resample < options.resamples; ++resample) {
+        std::fill(times.begin(), times.end(), 0U);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double u = uniform01(options.seed, resample, Stream::bootstrap, i);
+            ++times[static_cast<std::size_t>(u * static_cast<double>(n))];
+        }
+        std::fill(means.begin(), means.end(), 0);
+        for (std::size_t i = 0; i < n; ++i)
+            if (times[i] > 0)
+                for (std::size_t k = 0; k < width; ++k)
+                    means[k] += times[i] * rows[i * width + k];
+        for (double& mean : means)
+            mean /= static_cast<double>(n);
+        from_means(means, resampled);
+        for (std::size_t k = 0; k < estimates; ++k)
+            if (std::isfinite(resampled[k]))
+                drawn[k].push_back(resampled[k]);
+    }
+
+    std::vector<Estimate> result;
+    const double tail = (1 - options.level) / 2;
+    for (std::size_t k = 0; k < estimates; ++k) {
+        const auto lost = static_cast<double>(options.resamples - drawn[k].size());
+        if (!std::isfinite(value[k]) || lost > tail * static_cast<double>(options.resamples)) {
+            result.push_back(Estimate::undetermined());
+            continue;
+        }
+        std::sort(drawn[k].begin(), drawn[k].end());
+        result.push_back({value[k], quantile(drawn[k], tail), quantile(drawn[k], 1 - tail)});
+    }
+    return result;
+}
+
+} // namespace stylobate

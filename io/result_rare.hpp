@@ -1,0 +1,14 @@
+#pragma once
+/// /rare of a results file; for the writer and the reader alone, as `io/hdf5.hpp` is.
+
+#include "io/hdf5.hpp"
+#include "io/rare_table.hpp"
+
+namespace stylobate {
+
+void write_rare(hid_t file, const RareTable& table);
+
+/// Empty if there is none. @throws hdf5::Error if it is not as it was written
+RareTable read_rare_table(hid_t file);
+
+} // namespace stylobate

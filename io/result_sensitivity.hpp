@@ -1,0 +1,15 @@
+#pragma once
+/// /sensitivity of a results file; for the writer and the reader alone, as `io/hdf5.hpp` is.
+
+#include "io/hdf5.hpp"
+#include "io/sensitivity_table.hpp"
+
+namespace stylobate {
+
+/// @throws std::invalid_argument if its arrays do not fit its names
+void write_sensitivity(hid_t file, const SensitivityTable& table);
+
+/// Empty if there is none. @throws hdf5::Error if it is not as it was written
+SensitivityTable read_sensitivity_table(hid_t file);
+
+} // namespace stylobate

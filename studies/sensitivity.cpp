@@ -1,0 +1,183 @@
+#include "studies/sensitivity.hpp"
+
+#include "ensemble/estimators/elementary_effects.hpp"
+#include "ensemble/estimators/sobol_indices.hpp"
+#include "ensemble/input_error.hpp"
+#include "ensemble/structure.hpp"
+#include "io/study_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+void append(IntervalArray& array, const Estimate& estimate)
+{
+    array.add(estimate.value, estimate.lower, estimate.upper);
+}
+
+void append(SensitivityTable& table, const SobolIndices& found, bool rest)
+{
+    const auto array = [&](std::size_t i) -> IntervalArray& { return table.indices[i].of; };
+    append(table.mean, found.mean);
+    append(table.explained, found.explained);
+    for (const FactorIndices& factor : found.of_mean) {
+        append(array(0), factor.first);
+        append(array(1), factor.total);
+    }
+    if (rest) // it has no part in the mean over it
+        for (const std::size_t i : {0, 1})
+            append(array(i), Estimate::undetermined());
+    for (const FactorIndices& factor : found.of_value) {
+        append(array(2), factor.first);
+        append(array(3), factor.total);
+    }
+}
+
+void append(SensitivityTable& table, const std::vector<ElementaryEffects>& found)
+{
+    for (const ElementaryEffects& effect : found) {
+        append(table.indices[0].of, effect.mu_star);
+        append(table.indices[1].of, effect.rms);
+        append(table.indices[2].of, effect.mu);
+        append(table.indices[3].of, effect.sigma);
+    }
+}
+
+} // namespace
+
+SensitivityOutcomes::SensitivityOutcomes(const Study& study, const std::vector<std::string>& inputs)
+    : spec_(*study.sensitivity), seed_(study.seed), width_m_(0), kept_(study.total()),
+      drawn_(spec_.samples * spec_.points() * spec_.factors.size())
+{
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        if (block.role == BlockRole::drum)
+            width_m_ = std::max(width_m_, block.width_m);
+    for (const std::string& factor : spec_.factors) {
+        const auto found = std::find(inputs.begin(), inputs.end(), factor);
+        input_.push_back(found == inputs.end() ? none : static_cast<std::size_t>(found - inputs.begin()));
+    }
+}
+
+void SensitivityOutcomes::add(const ResultRow& row)
+{
+    const Outcome& o = row.outcome;
+    kept_.at(row.index) = {o.state, o.collapse_time_s, o.end_time_s, o.peak_top_displacement_m,
+                           std::abs(o.residual_top_displacement_m)};
+    const SensitivitySpec::Place place = spec_.place(row.index);
+    for (std::size_t k = 0; k < input_.size(); ++k)
+        drawn_[(place.row * spec_.points() + place.point) * input_.size() + k] =
+            input_[k] == none ? std::nan("") : row.inputs.at(input_[k]);
+}
+
+/// Whether all realizations of a row are valid.
+bool SensitivityOutcomes::usable(std::size_t row) const
+{
+    const auto of_row = static_cast<std::ptrdiff_t>(spec_.points() * spec_.inner);
+    const auto first = kept_.begin() + static_cast<std::ptrdiff_t>(row) * of_row;
+    return std::none_of(first, first + of_row, [](const Kept& kept) { return kept.state == State::invalid; });
+}
+
+/// Which way each factor moves from A, in the usable rows: 1, -1, or NaN where it has several values.
+std::vector<double> SensitivityOutcomes::directions() const
+{
+    std::vector<double> directions;
+    const std::size_t factors = input_.size();
+    for (std::size_t row = 0; row < spec_.samples; ++row)
+        if (usable(row))
+            for (std::size_t k = 0; k < factors; ++k) {
+                const double* a = &drawn_[row * spec_.points() * factors];
+                const double change = a[(spec_.first_changed() + k) * factors + k] - a[k];
+                directions.push_back(std::isnan(change) ? change : change > 0 ? 1 : -1);
+            }
+    return directions;
+}
+
+std::array<double, SensitivityOutcomes::outcomes> SensitivityOutcomes::values(const Kept& kept, double longest_s) const
+{
+    if (kept.state == State::collapsed)
+        return {1, kept.collapse_time_s, width_m_, width_m_};
+    return {0, longest_s, std::min(kept.peak_m, width_m_), std::min(kept.residual_m, width_m_)};
+}
+
+SensitivityTable SensitivityOutcomes::table() const
+{
+    const bool sobol = spec_.method == SensitivityMethod::sobol;
+    const std::size_t of_row = spec_.points() * spec_.inner;
+    const std::size_t factors = spec_.factors.size();
+    const BootstrapOptions options{.seed = seed_};
+    SensitivityTable table;
+    table.method = word_for(sensitivity_method_names, spec_.method);
+    table.interval = fmt::format("bootstrap {}", options.level);
+    table.factors = spec_.factors;
+    const bool rest = sobol && spec_.inner > 1;
+    if (rest)
+        table.factors.emplace_back(rest_name);
+    table.inner = spec_.inner;
+
+    double longest_s = 0;
+    for (const Kept& kept : kept_)
+        if (kept.state != State::invalid)
+            longest_s = std::max(longest_s, kept.end_time_s);
+    std::array<std::vector<double>, outcomes> value;
+    for (std::size_t row = 0; row < spec_.samples; ++row) {
+        if (!usable(row)) {
+            ++table.invalid_rows;
+            continue;
+        }
+        ++table.rows;
+        for (std::size_t i = row * of_row; i < (row + 1) * of_row; ++i) {
+            const auto all = values(kept_[i], longest_s);
+            for (std::size_t o = 0; o < outcomes; ++o)
+                value[o].push_back(all[o]);
+        }
+    }
+
+    table.outcomes = {"collapse", "time_upright", "peak_displacement", "residual_displacement"};
+    table.units = {"", "s", "m", "m"};
+    const std::string most = fmt::format("at most a drum's width of {:g} m, which stands for a collapse", width_m_);
+    table.meanings = {"1 if a block has fallen, else 0",
+                      fmt::format("until the first fall; {:.4g} s, the longest end of any, where it stood", longest_s),
+                      "largest of the top, " + most, "of the top at the end, its size, " + most};
+    for (const char* name : sobol ? std::array{"first", "total", "value_first", "value_total"}
+                                  : std::array{"mu_star", "rms", "mu", "sigma"})
+        table.indices.push_back({name, {}});
+    if (table.rows < 2)
+        throw InputError(fmt::format("of the {} rows of the design {} have an invalid realization: nothing can be said "
+                                     "of the rest. A smaller run.step_fraction may help.",
+                                     spec_.samples, table.invalid_rows));
+    std::vector<std::uint64_t> acts(factors, 0);
+    for (std::size_t o = 0; o < outcomes; ++o) {
+        DesignValues design{table.rows, factors, spec_.inner, std::move(value[o])};
+        std::vector<bool> here(factors);
+        if (sobol) {
+            const SobolIndices found = sobol_indices(design, options);
+            append(table, found, rest);
+            here = found.acts;
+        } else {
+            const std::size_t points = spec_.points();
+            std::vector<double> mean(table.rows);
+            for (std::size_t r = 0; r < table.rows; ++r)
+                for (std::size_t i = 0; i < spec_.inner; ++i)
+                    mean[r] += design.at(r, 0, i, points) / static_cast<double>(spec_.inner);
+            const auto same = [](std::span<const double> means, std::span<double> out) { out[0] = means[0]; };
+            append(table.mean, bootstrap_rows(mean, 1, 1, same, options)[0]);
+            const std::vector<ElementaryEffects> found = elementary_effects(design, directions(), options);
+            append(table, found);
+            for (std::size_t k = 0; k < factors; ++k)
+                here[k] = found[k].acts;
+        }
+        for (std::size_t k = 0; k < factors; ++k)
+            acts[k] |= here[k];
+    }
+    table.acts = acts;
+    if (rest)
+        table.acts.push_back(1);
+    return table;
+}
+
+} // namespace stylobate

@@ -1,0 +1,66 @@
+#pragma once
+/// Which factors the outcomes of a sensitivity study depend on, from its realizations.
+///
+/// The outcomes are told of every valid realization, so that the factors stay independent; what only some of them have
+/// would be told of a selection whose factors depend on each other, and of which no indices are defined:
+///
+///   collapse            1 if a block has fallen, else 0: the mean is the probability
+///   time_upright        time of the first fall, or the longest end of any realization where it stood
+///   peak_displacement   of the top, at most the width of a drum: that much where it collapsed
+///   residual_displacement   its size, likewise
+
+#include "ensemble/study.hpp"
+#include "io/result_store.hpp"
+#include "io/sensitivity_table.hpp"
+#include "studies/html.hpp"
+#include "studies/json.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What became of the realizations of a sensitivity study; in any order.
+class SensitivityOutcomes {
+public:
+    /// @param inputs names of the inputs of a row
+    SensitivityOutcomes(const Study& study, const std::vector<std::string>& inputs);
+    void add(const ResultRow& row);
+    /// @pre all realizations have been added
+    /// @throws InputError if fewer than two rows of the design are valid
+    SensitivityTable table() const;
+
+private:
+    struct Kept {
+        State state = State::invalid;
+        double collapse_time_s = -1;
+        double end_time_s = 0;
+        double peak_m = 0;
+        double residual_m = 0;
+    };
+    static constexpr std::size_t outcomes = 4;
+    std::array<double, outcomes> values(const Kept& kept, double longest_s) const;
+
+    bool usable(std::size_t row) const;
+    std::vector<double> directions() const;
+
+    SensitivitySpec spec_;
+    std::uint64_t seed_;
+    double width_m_; ///< of the widest drum
+    std::vector<Kept> kept_;
+    std::vector<std::size_t> input_; ///< (factors) place of the input, of a factor with a single value; else `none`
+    std::vector<double> drawn_;      ///< (rows x points x factors) these inputs
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+};
+
+/// For the end of a run.
+std::string sensitivity_text(const SensitivityTable& table);
+Json sensitivity_json(const SensitivityTable& table);
+/// A table for each outcome, with what there is to say of it.
+void add_sensitivity(HtmlPage& page, const SensitivityTable& table);
+
+/// What must be known of a table: factors without effect, outcomes that do not vary, rows left out.
+std::vector<std::string> sensitivity_remarks(const SensitivityTable& table);
+
+} // namespace stylobate

@@ -1,0 +1,175 @@
+/// What a sensitivity study found, in words, as JSON and as a page.
+
+#include "studies/sensitivity.hpp"
+
+#include "io/plot_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+std::string interval_text(const IntervalArray& of, std::size_t i)
+{
+    if (std::isnan(of.value[i]))
+        return "–";
+    return fmt::format("{:.3g} ({:.3g} to {:.3g})", of.value[i], of.lower[i], of.upper[i]);
+}
+
+std::string spoken(std::string name)
+{
+    for (char& c : name)
+        if (c == '_')
+            c = ' ';
+    return name;
+}
+
+/// What a column says, in a word or two.
+std::string heading(const std::string& index)
+{
+    if (index == "first" || index == "total")
+        return index + " index";
+    if (index.starts_with("value_"))
+        return index.substr(6) + ", of single outcomes";
+    return index == "mu_star" ? "mu*" : index;
+}
+
+std::string design_text(const SensitivityTable& table)
+{
+    return fmt::format("{} rows of {} points{}", table.rows,
+                       table.acts.size() + (table.method == "sobol" ? 2 : 1) -
+                           (table.factors.back() == rest_name ? 1 : 0),
+                       table.inner > 1 ? fmt::format(" with {} realizations", table.inner) : "");
+}
+
+std::string mean_text(const SensitivityTable& table, std::size_t outcome)
+{
+    const std::string unit = table.units[outcome].empty() ? "" : " " + table.units[outcome];
+    std::string text = fmt::format("mean {}{}", interval_text(table.mean, outcome), unit);
+    if (!table.explained.value.empty() && table.inner > 1 && !std::isnan(table.explained.value[outcome]))
+        text += fmt::format("; the factors explain {} of the variance of single outcomes",
+                            interval_text(table.explained, outcome));
+    return text;
+}
+
+std::string explanation(const SensitivityTable& table)
+{
+    if (table.method == "morris")
+        return "Effects of moving a factor by half its range of probability, per range: mu* their mean size, rms the "
+               "root of their mean square without the noise of the trials, mu their mean with its sign, sigma how "
+               "much they differ from place to place.";
+    return table.inner > 1
+               ? "Shares of the variance: of the mean over all that is no factor (of the probability, where the "
+                 "outcome "
+                 "is a collapse), and of single outcomes. First: by the factor alone; total: with all that it "
+                 "interacts "
+                 "with."
+               : "Shares of the variance. First: by the factor alone; total: with all that it interacts with.";
+}
+
+} // namespace
+
+std::vector<std::string> sensitivity_remarks(const SensitivityTable& table)
+{
+    std::vector<std::string> remarks;
+    for (std::size_t k = 0; k < table.factors.size(); ++k)
+        if (!table.acts[k])
+            remarks.push_back(
+                fmt::format("{} has no effect: it changed no outcome of any realization.", spoken(table.factors[k])));
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
+        bool known = false;
+        for (std::size_t k = 0; k < table.factors.size(); ++k)
+            known = known || !std::isnan(table.indices[1].of.value[o * table.factors.size() + k]);
+        if (!known)
+            remarks.push_back(fmt::format("{}: its {} not told from none, so that there is nothing to divide "
+                                          "among the factors. More rows may help, or a shaking at which it varies.",
+                                          spoken(table.outcomes[o]),
+                                          table.inner > 1 ? "mean's variance is" : "variance is"));
+    }
+    if (table.invalid_rows > 0)
+        remarks.push_back(fmt::format("{} rows were left out: a realization in them is invalid.", table.invalid_rows));
+    return remarks;
+}
+
+std::string sensitivity_text(const SensitivityTable& table)
+{
+    std::string text = fmt::format("  {}; in brackets: {}\n", design_text(table), describe_interval(table.interval));
+    const std::size_t n = table.factors.size();
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
+        text += fmt::format("  {}: {}\n    {:22}", spoken(table.outcomes[o]), mean_text(table, o), "");
+        for (const SensitivityTable::Index& index : table.indices)
+            text += fmt::format("{:<28}", heading(index.name));
+        text += '\n';
+        for (std::size_t k = 0; k < n; ++k) {
+            text += fmt::format("    {:22}", spoken(table.factors[k]));
+            for (const SensitivityTable::Index& index : table.indices)
+                text += fmt::format("{:<28}", interval_text(index.of, o * n + k));
+            text += '\n';
+        }
+    }
+    for (const std::string& remark : sensitivity_remarks(table))
+        text += "  " + remark + '\n';
+    return text;
+}
+
+Json sensitivity_json(const SensitivityTable& table)
+{
+    const auto estimate = [](const IntervalArray& of, std::size_t i) {
+        return Json::object().member("value", of.value[i]).member("lower", of.lower[i]).member("upper", of.upper[i]);
+    };
+    Json outcomes = Json::object();
+    const std::size_t n = table.factors.size();
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
+        Json outcome = Json::object();
+        outcome.member("unit", table.units[o]).member("meaning", table.meanings[o]);
+        outcome.member("mean", estimate(table.mean, o));
+        if (!table.explained.value.empty())
+            outcome.member("explained", estimate(table.explained, o));
+        Json factors = Json::object();
+        for (std::size_t k = 0; k < n; ++k) {
+            Json factor = Json::object();
+            for (const SensitivityTable::Index& index : table.indices)
+                factor.member(index.name, estimate(index.of, o * n + k));
+            factors.member(table.factors[k], factor);
+        }
+        outcomes.member(table.outcomes[o], outcome.member("factors", factors));
+    }
+    Json remarks = Json::list();
+    for (const std::string& remark : sensitivity_remarks(table))
+        remarks.item(remark);
+    return Json::object()
+        .member("method", table.method)
+        .member("interval", table.interval)
+        .member("rows", table.rows)
+        .member("invalid_rows", table.invalid_rows)
+        .member("inner", table.inner)
+        .member("outcomes", outcomes)
+        .member("remarks", remarks);
+}
+
+void add_sensitivity(HtmlPage& page, const SensitivityTable& table)
+{
+    page.paragraph(explanation(table));
+    const std::size_t n = table.factors.size();
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
+        HtmlTable of{"l" + std::string(table.indices.size(), 'r'), {"factor"}, {}, ""};
+        of.caption = fmt::format("{} ({}): {}", spoken(table.outcomes[o]), table.meanings[o], mean_text(table, o));
+        for (const SensitivityTable::Index& index : table.indices)
+            of.head.emplace_back(heading(index.name));
+        for (std::size_t k = 0; k < n; ++k) {
+            std::vector<Html> row = {spoken(table.factors[k])};
+            for (const SensitivityTable::Index& index : table.indices)
+                row.emplace_back(interval_text(index.of, o * n + k));
+            of.rows.push_back(std::move(row));
+        }
+        page.table(of);
+    }
+    for (const std::string& remark : sensitivity_remarks(table))
+        page.note(remark);
+    page.note(fmt::format("{}; in brackets: {}.", design_text(table), describe_interval(table.interval)));
+}
+
+} // namespace stylobate
