@@ -73,8 +73,8 @@ bool is_vertical(const Record& record)
 FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
                              std::uint64_t structures)
 {
-    keys.allow_only({"method", "records", "folder", "pattern", "unit", "motions", "intensity", "scale", "contacts",
-                     "twins", "twin_m", "peak_limits", "residual_limits", "periods_s"});
+    keys.allow_only({"method", "records", "folder", "pattern", "unit", "motions", "intensity", "scale", "shakings",
+                     "pause_s", "contacts", "twins", "twin_m", "peak_limits", "residual_limits", "periods_s"});
     FragilitySpec f;
     f.method = keys.choice_or("method", fragility_method_names, f.method);
     const bool recorded = excitation.kind == ExcitationKind::record;

@@ -45,6 +45,7 @@ struct Fragility {
     std::vector<double> grid; ///< intensities at which curves are given
     std::vector<StateFragility> states;
     std::vector<RankedMeasure> measures; ///< of the collapse, the most efficient first
+    std::vector<SequenceShare> sequence; ///< of a study of sequences, by stripes
     std::vector<std::string> says;       ///< what a reader must know of the whole
 };
 
