@@ -126,6 +126,8 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
             keys.refuse("intensity", "is not used by method = \"cloud\"", "Remove it, or give method = \"stripes\".");
         f.scale = keys.number_or("scale", {0, 100, true, "Every motion so many times as strong.", 0}, f.scale);
     }
+    f.shakings = static_cast<int>(keys.whole_or("shakings", 1, 100, 1, "Shakings one after the other."));
+    f.pause_s = keys.number_or("pause_s", {0, 1000, false, "Times are in seconds.", 1e-3}, f.pause_s);
     f.contacts = static_cast<int>(
         keys.whole_or("contacts", 1, structures, 1, "Structures that are built alike, with contacts of their own."));
     f.twins = static_cast<int>(keys.whole_or(

@@ -145,7 +145,7 @@ private:
                 const auto [a, b] = shares(k, m);
                 without.push_back(a - b);
             }
-            out_.sequence.push_back({k, by_k, fresh, jackknife_limits(by_k - fresh, without)});
+            out_.sequence.push_back({k, by_k, fresh, k == 1 ? Limits{0, 0} : jackknife_limits(by_k - fresh, without)});
         }
     }
 
