@@ -219,7 +219,7 @@ TEST_F(Falls, PicturesOfLimitStatesAndOfTheOrder)
     };
     refused({"--limit", "fell"}, {"fell", "collapse", "unseated"});
     refused({"--limit", "total"}, {"--limit total", "a.h5", "outcome.follow"});
-    refused({"--limit", "rocked", "--picture", "strip"}, {"--limit rocked", "strip", "surface and slice"});
+    refused({"--limit", "rocked", "--picture", "strip"}, {"--limit rocked", "strip", "surface, slice"});
     refused({"--limit", "rocked", "--picture", "order"}, {"--limit rocked", "order"});
     refused({"--cell", "4"}, {"--cell 4", "0 to 3"});
     refused({"--cell", "-1"}, {"--cell", "-1"});

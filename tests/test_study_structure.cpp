@@ -3,6 +3,7 @@
 #include "ensemble/input_error.hpp"
 #include "ensemble/sampler.hpp"
 #include "io/study_file.hpp"
+#include "studies/fragility/motions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -364,7 +365,10 @@ TEST(StudyStructure, EveryStudyOfTheCatalogueIsReadAndDrawn)
         const Study study = read_study(entry.path(), settings);
         EXPECT_EQ(parse_study(study.text, "again.toml").text, study.text) << entry.path();
         if (study.excitation.kind != ExcitationKind::record) {
-            const Sampler sampler(study, nullptr);
+            std::shared_ptr<const MotionSet> motions;
+            if (study.fragility)
+                motions = std::make_shared<const MotionSet>(load_motions(study));
+            const Sampler sampler(study, nullptr, nullptr, motions);
             for (std::uint64_t i = 0; i < study.total(); i += 1 + study.total() / 100)
                 EXPECT_NO_THROW(sampler.realization(i)) << entry.path() << ' ' << i;
         }
