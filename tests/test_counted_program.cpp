@@ -126,14 +126,13 @@ TEST_F(Counted, KilledAndContinuedItIsTheSame)
     std::uint64_t kept = 0;
     int continued = 0;
     double after_s = 1.2; // the file is written once a second
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 12 && kept < total / 2; ++i) {
         ProgramRun part{
             .arguments = run_words(column_study, settings, {"-o", "parts.h5", "--threads", "1", "--simd", "scalar"})};
         part.signal = i % 3 == 2 ? SIGINT : SIGKILL;
         part.after_s = after_s * (0.7 + static_cast<double>(random() % 1000) / 1000);
         const Ended ended = run(part);
-        if (ended.status == 0)
-            break;
+        ASSERT_NE(ended.status, 0) << "it was not stopped in time";
         EXPECT_TRUE(ended.status == 130 || ended.signal == part.signal) << testing::PrintToString(ended);
         if (!fs::exists(folder / "parts.h5"))
             continue;
@@ -149,8 +148,8 @@ TEST_F(Counted, KilledAndContinuedItIsTheSame)
     EXPECT_GT(kept, 0U);
     EXPECT_LT(kept, total);
     EXPECT_GT(continued, 0) << "no part began where another one had stopped: nothing was tested";
-    if (const Ended last = run(run_words(column_study, settings, {"-o", "parts.h5"})); last.status != 0)
-        EXPECT_NE(last.err.find("is complete already"), std::string::npos) << testing::PrintToString(last);
+    const Ended last = run(run_words(column_study, settings, {"-o", "parts.h5"}));
+    EXPECT_EQ(last.status, 0) << testing::PrintToString(last);
     EXPECT_TRUE(read_bytes(folder / "parts.h5") == read_bytes(folder / "whole.h5"));
     EXPECT_EQ(names(), (Words{"parts.h5", "whole.h5"})); // no leftovers
 }
@@ -187,7 +186,7 @@ TEST_F(Counted, WhatIsLeftToDoWithoutRows)
     const std::string page = read_bytes(folder / "counts.html");
     for (const char* part : {"128", "Probability of collapse", "First to fall", "Energy audit", "valid realizations"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
-    for (const char* part : {"How far it moved", "Order of falls", "nan", "inf "})
+    for (const char* part : {"How far it moved", "Order of falls", ">nan"})
         EXPECT_EQ(page.find(part), std::string::npos) << part;
 }
 
@@ -200,8 +199,8 @@ TEST_F(Counted, WhatDoesNotGoWithoutRowsIsRefused)
     const std::vector<std::string> settings = without_rows(short_surface(8));
     const Words parts = {"output.realizations", "does not go with", "leave it out"};
     expect_refused(run_words(column_study, with(settings, "surface.adaptive={budget=1000,minimum=8}")), parts);
-    expect_refused(run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", {"output.realizations=\"none\""}),
-                   parts);
+    expect_refused(
+        run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", {"output.realizations=\"none\""}), parts);
     expect_refused(run_words(column_study, with(short_surface(8), "output.realizations=\"non\"")),
                    {"output.realizations", "none"});
     // a file of the one sort is not continued as the other
@@ -244,8 +243,8 @@ TEST_F(Counted, MemoryDoesNotGrowWithTheNumberOfRealizations)
     const int few = 4000, many = 200'000;
     for (const char* kept : {"all", "none"}) {
         const long small = peak_kb(folder, kept, few), large = peak_kb(folder, kept, many);
-        // a double for each that collapsed would be more
-        EXPECT_LT(large - small, 1200) << kept << ": " << small << " kB, then " << large;
+        // a list of the times of collapse would take 4000
+        EXPECT_LT(large - small, 2500) << kept << ": " << small << " kB, then " << large;
     }
     EXPECT_LT(fs::file_size(folder / "none200000.h5"), 3 * fs::file_size(folder / "none4000.h5"));
     EXPECT_GT(fs::file_size(folder / "all200000.h5"), 40 * fs::file_size(folder / "all4000.h5"));

@@ -341,10 +341,12 @@ TEST_F(TallyStore, AnotherStudyIsRefusedAndNothingChanges)
     ResultWriter::create(rows, sample_header(1000));
     expect_part(refusal([&] { TallyWriter::resume(rows, tally_header(1000)); }), "keeps a row of each");
 
-    const auto writer = TallyWriter::resume(file, tally_header(1000));
-    for (std::uint64_t i = 0; i < 1000; ++i)
-        writer->add(entry(i));
-    writer->finish(sample_surface());
+    {
+        const auto writer = TallyWriter::resume(file, tally_header(1000));
+        for (std::uint64_t i = 0; i < 1000; ++i)
+            writer->add(entry(i));
+        writer->finish(sample_surface());
+    }
     expect_part(refusal([&] { TallyWriter::resume(file, tally_header(1000)); }), "is complete already");
     EXPECT_THROW(TallyWriter::create(folder / "x.h5", sample_header(10)), std::invalid_argument);
 }
