@@ -351,12 +351,19 @@ struct RunSpec {
     double max_invalid_fraction = 0.001; ///< more invalid realizations than this: exit status 3
 };
 
+/// What a results file holds of the realizations.
+enum class KeptRealizations {
+    all, ///< a row of each
+    none ///< of a surface: counts alone, so that the file does not grow with their number
+};
+
 struct Study {
     StudyKind kind = StudyKind::single;
     std::uint64_t seed = 1;
     /// Per cell of a surface; under a motion in a stripe; of a single study, in all; not used by other kinds.
     std::uint64_t realizations = 1;
     Sampling sampling = Sampling::independent;
+    KeptRealizations kept = KeptRealizations::all;
 
     StructureSpec structure;
     ContactSpec contact;

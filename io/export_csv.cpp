@@ -184,12 +184,38 @@ std::string surface_text(const SurfaceTable& surface)
     return text;
 }
 
-} // namespace
-
-void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
-               const SurfaceTable& surface)
+std::string counts_text(const ResultHeader& header, const Tally& tally)
 {
-    const std::string realizations = realizations_text(header, rows);
+    const std::size_t columns = header.pga_m_s2.size();
+    std::string text;
+    {
+        Line line(text);
+        line << "cell"
+             << "frequency_hz"
+             << "pga_m_s2"
+             << "trials"
+             << "invalid";
+        for (const std::string& name : header.limit_states)
+            line << name;
+        for (std::size_t i = 0; i < tally.blocks; ++i)
+            line << fmt::format("first_fallen[{}]", i);
+    }
+    for (std::size_t cell = 0; cell < tally.cells(); ++cell) {
+        Line line(text);
+        line << cell << header.frequency_hz[cell / columns] << header.pga_m_s2[cell % columns] << tally.trials[cell]
+             << tally.invalid[cell];
+        for (std::size_t i = 0; i < tally.limit_states; ++i)
+            line << tally.reached[cell * tally.limit_states + i];
+        for (std::size_t i = 0; i < tally.blocks; ++i)
+            line << tally.first[cell * tally.blocks + i];
+    }
+    return text;
+}
+
+/// @param table a file of this name with this text, beside those that every result has
+void write_tables(const std::filesystem::path& folder, const ResultHeader& header, const SurfaceTable& surface,
+                  const char* table, const std::string& text)
+{
     const bool has_surface = !surface.frequency_hz.empty() && !surface.pga_m_s2.empty();
     const std::string cells = has_surface ? surface_text(surface) : std::string();
 
@@ -199,8 +225,8 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
         throw InputError(fmt::format("cannot make the folder '{}': {}.\n  Name a folder whose parent exists and can be "
                                      "written; nothing was written.",
                                      folder.string(), error.message()));
-    AtomicFile realizations_file(folder / "realizations.csv");
-    realizations_file.write(realizations);
+    AtomicFile table_file(folder / table);
+    table_file.write(text);
     AtomicFile blocks_file(folder / "blocks.csv");
     blocks_file.write(blocks_text(header));
     if (has_surface) {
@@ -209,7 +235,21 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
         surface_file.commit();
     }
     blocks_file.commit();
-    realizations_file.commit();
+    table_file.commit();
+}
+
+} // namespace
+
+void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
+               const SurfaceTable& surface)
+{
+    write_tables(folder, header, surface, "realizations.csv", realizations_text(header, rows));
+}
+
+void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
+               const SurfaceTable& surface)
+{
+    write_tables(folder, header, surface, "counts.csv", counts_text(header, tally));
 }
 
 void write_sensitivity_csv(const std::filesystem::path& file, const SensitivityTable& table)

@@ -33,12 +33,18 @@ ResultHeader read_header(hid_t file)
     header.total = hdf5::read_number(file, "realizations");
     header.first = hdf5::read_number(file, "first_realization");
     header.selected = hdf5::has_attribute(file, names::selected);
-    const hdf5::Handle input = hdf5::open_group(file, names::input);
+    const bool counted = hdf5::exists(file, names::tally);
+    const hdf5::Handle input = hdf5::open_group(file, counted ? names::tally : names::input);
     std::istringstream order(hdf5::read_text(input.id(), names::input_order));
     for (std::string name; order >> name;)
         header.input_names.push_back(name);
-    const hdf5::Handle outcome = hdf5::open_group(file, names::outcome);
+    const hdf5::Handle outcome = hdf5::open_group(file, counted ? names::tally : names::outcome);
     header.block_names = split_names(hdf5::read_text(outcome.id(), names::blocks));
+    if (counted) {
+        header.limit_states = split_names(hdf5::read_text(outcome.id(), names::limit_states));
+        if (header.limit_states.empty())
+            throw hdf5::Error("it counts no limit state");
+    }
     if (hdf5::exists(file, names::surface)) {
         header.frequency_hz = read_axis(file, names::surface_frequency);
         header.pga_m_s2 = read_axis(file, names::surface_pga);
@@ -57,7 +63,139 @@ ResultHeader read_header(hid_t file)
     return header;
 }
 
+/// Where two study texts part, for a message; empty if they are the same.
+std::string study_difference(const std::string& in_file, const std::string& asked)
+{
+    std::istringstream a(in_file);
+    std::istringstream b(asked);
+    for (int line = 1;; ++line) {
+        std::string left;
+        std::string right;
+        const bool more_left = static_cast<bool>(std::getline(a, left));
+        const bool more_right = static_cast<bool>(std::getline(b, right));
+        if (!more_left && !more_right)
+            return in_file == asked ? "" : "its study text ends differently";
+        if (more_left != more_right || left != right)
+            return "line " + std::to_string(line) + " of the study is\n    " +
+                   (more_left ? left : "(the end of the text)") + "\n  in the file and\n    " +
+                   (more_right ? right : "(the end of the text)") + "\n  in the study that was given";
+    }
+}
+
 } // namespace
+
+std::filesystem::path beside(const std::filesystem::path& file, const char* suffix)
+{
+    return file.parent_path() / (file.filename().string() + suffix);
+}
+
+std::string joined_inputs(const ResultHeader& header)
+{
+    std::string order;
+    for (const std::string& name : header.input_names)
+        order += (order.empty() ? "" : " ") + name;
+    return order;
+}
+
+void write_header(hid_t file, const ResultHeader& header, bool complete)
+{
+    hdf5::write_text(file, "format", names::format);
+    hdf5::write_number(file, "format_version", H5T_STD_U32LE, result_format_version);
+    hdf5::write_text(file, "kind", header.kind);
+    hdf5::write_text(file, "study_toml", header.study_toml);
+    hdf5::write_number(file, "seed", H5T_STD_U64LE, header.seed);
+    hdf5::write_text(file, "code_version", header.code_version);
+    hdf5::write_number(file, "realizations", H5T_STD_U64LE, header.total);
+    hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
+    if (header.selected)
+        hdf5::write_number(file, names::selected, H5T_STD_U8LE, 1);
+    hdf5::write_number(file, "complete", H5T_STD_U8LE, complete);
+    if (!header.frequency_hz.empty()) {
+        hdf5::create_group(file, names::surface);
+        hdf5::write_array(file, names::surface_frequency, header.frequency_hz, {header.frequency_hz.size()}, "Hz");
+        hdf5::write_array(file, names::surface_pga, header.pga_m_s2, {header.pga_m_s2.size()}, "m/s2");
+    }
+    if (const MotionTable& motions = header.motions; !motions.names.empty()) {
+        const hdf5::Handle group = hdf5::create_group(file, names::motions);
+        hdf5::write_text(group.id(), names::motion_names, joined_names(motions.names));
+        hdf5::write_text(group.id(), names::measure_names, joined_names(motions.measures));
+        hdf5::write_array(file, names::motion_values, motions.value, {motions.names.size(), motions.measures.size()},
+                          "");
+        hdf5::write_array(file, names::motion_exponents, motions.exponent, {motions.measures.size()}, "");
+        if (!motions.shaking_end_s.empty())
+            hdf5::write_array(file, names::shaking_ends, motions.shaking_end_s,
+                              {motions.names.size(), motions.shaking_end_s.size() / motions.names.size()}, "s");
+    }
+}
+
+void write_surface(hid_t file, const SurfaceTable& table)
+{
+    const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
+    const std::string group = std::string(names::surface) + "/";
+    hdf5::write_array(file, group + "trials", table.trials, dims, "");
+    hdf5::write_array(file, group + "collapses", table.collapses, dims, "");
+    hdf5::write_array(file, group + "probability", table.probability, dims, "");
+    hdf5::write_array(file, group + "lower", table.lower, dims, "");
+    hdf5::write_array(file, group + "upper", table.upper, dims, "");
+    const hdf5::Handle opened = hdf5::open_group(file, names::surface);
+    hdf5::write_text(opened.id(), "interval", table.interval);
+    if (table.method.empty())
+        return;
+    std::vector<std::uint8_t> methods;
+    for (const IntervalMethod method : table.method)
+        methods.push_back(static_cast<std::uint8_t>(method));
+    hdf5::write_bytes(file, group + "method", method_type().id(), methods, dims);
+    hdf5::write_real(opened.id(), "half_width", table.half_width);
+    hdf5::write_number(opened.id(), "rounds", H5T_STD_U64LE, table.rounds);
+}
+
+void check_table(const ResultHeader& header, const SurfaceTable& table)
+{
+    const std::size_t cells = table.frequency_hz.size() * table.pga_m_s2.size();
+    if (cells == 0 || table.frequency_hz != header.frequency_hz || table.pga_m_s2 != header.pga_m_s2)
+        throw std::invalid_argument("the surface's axes are not those that its file was created with");
+    if (table.trials.size() != cells || table.collapses.size() != cells || table.probability.size() != cells ||
+        table.lower.size() != cells || table.upper.size() != cells)
+        throw std::invalid_argument("the surface's table is not (nf x np)");
+}
+
+void check_same_study(const ResultFile& file, const ResultHeader& asked)
+{
+    const ResultHeader& found = file.header;
+    const auto refuse = [&](const std::string& text) { throw InputError(file.path.string(), 0, text); };
+    std::string other = study_difference(found.study_toml, asked.study_toml);
+    if (other.empty() && found.kind != asked.kind)
+        other = "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
+    if (other.empty() && found.seed != asked.seed)
+        other = "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
+    const bool fewer = file.complete && found.selected; // a finished file has the rows that were needed
+    if (other.empty() && found.total != asked.total && !fewer)
+        other = "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
+    if (other.empty() && found.selected != asked.selected)
+        other = "its rows are chosen in another way";
+    if (other.empty() && found.limit_states != asked.limit_states)
+        other = found.has_rows() == asked.has_rows() ? "it counts other limit states"
+                : found.has_rows()                   ? "it keeps a row of each realization"
+                                                     : "it keeps no rows of its realizations";
+    if (other.empty() && found.first != asked.first)
+        other =
+            "it begins with realization " + std::to_string(found.first) + " instead of " + std::to_string(asked.first);
+    if (other.empty() && found.input_names != asked.input_names)
+        other = "its inputs have other names";
+    if (other.empty() && found.block_names != asked.block_names)
+        other = "its blocks have other names";
+    if (other.empty() && (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2))
+        other = "its surface has other axes";
+    if (other.empty() && found.motions != asked.motions)
+        other = "its motions differ";
+    if (!other.empty())
+        refuse("holds the results of another study: " + other + ". Choose another output.");
+    if (found.code_version != asked.code_version)
+        refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
+               ", whose results may have other bits. Finish it with the old version, or choose another output.");
+    if (file.complete)
+        refuse("is complete already: nothing is left to run. Choose another output to run the study again.");
+}
 
 std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
 {
@@ -188,6 +326,11 @@ ResultFile open_result(const std::filesystem::path& path, bool writable)
             result.refuse_damaged("its two format versions differ");
         result.header = read_header(file);
         result.complete = hdf5::read_number(file, "complete") != 0;
+        if (!result.header.has_rows()) {
+            if (!extents.empty())
+                result.refuse_damaged("it has no rows, and yet a place for them");
+            return result;
+        }
         // a row has some bytes in the file, so that a larger number is wrong before anything is allocated for it
         if (result.header.total > result.handle.size() || result.header.block_names.size() > result.handle.size())
             result.refuse_damaged("it cannot hold the rows that it promises");

@@ -11,6 +11,37 @@
 
 namespace stylobate {
 
+/// A name in the same folder, for what is not ready to be seen.
+std::filesystem::path beside(const std::filesystem::path& file, const char* suffix);
+
+/// Removes an unfinished file when something fails on the way.
+class Temporary {
+public:
+    explicit Temporary(std::filesystem::path file) : file_(std::move(file)) {}
+    ~Temporary()
+    {
+        std::error_code ignored;
+        if (!kept_)
+            std::filesystem::remove(file_, ignored);
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    void keep() { kept_ = true; }
+
+private:
+    std::filesystem::path file_;
+    bool kept_ = false;
+};
+
+/// The names of the inputs as one text.
+std::string joined_inputs(const ResultHeader& header);
+/// The attributes of the file, the axes of its surface and its motions.
+void write_header(hid_t file, const ResultHeader& header, bool complete);
+/// The table of a finished surface, into the group that `write_header` has made.
+void write_surface(hid_t file, const SurfaceTable& table);
+/// @throws std::invalid_argument if the table does not fit the header's axes
+void check_table(const ResultHeader& header, const SurfaceTable& table);
+
 /// Where the rows lie in the file, in bytes from its start.
 struct RowPlaces {
     std::vector<std::uint64_t> column; ///< by column of the layout
@@ -74,5 +105,8 @@ struct ResultFile {
 /// @param writable also takes the lock of the one writer
 /// @throws InputError as `ResultReader` and `ResultWriter::resume` say
 ResultFile open_result(const std::filesystem::path& path, bool writable);
+
+/// @throws InputError unless the file is an unfinished one of this study and version
+void check_same_study(const ResultFile& file, const ResultHeader& asked);
 
 } // namespace stylobate

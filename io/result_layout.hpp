@@ -38,6 +38,8 @@ inline constexpr char motion_values[] = "motions/value";
 inline constexpr char motion_exponents[] = "motions/exponent";
 inline constexpr char shaking_ends[] = "motions/shaking_end_s";
 inline constexpr char trajectories[] = "trajectories";
+inline constexpr char tally[] = "tally";
+inline constexpr char limit_states[] = "limit_states"; ///< attribute of the group: `ResultHeader::limit_states`
 } // namespace result_names
 
 /// Names of blocks as one text, and back.

@@ -3,6 +3,7 @@
 #include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
+#include "io/tally_file.hpp"
 
 #include <algorithm>
 
@@ -14,6 +15,7 @@ struct ResultReader::Impl {
     ResultFile file;
     std::vector<bool> there; ///< by chunk
     RowNumbers numbers;
+    std::optional<TallyFile> counted; ///< instead of rows
 
     /// The chunk read last, so that reading row after row is cheap.
     mutable std::uint64_t cached_chunk = 0;
@@ -59,6 +61,10 @@ ResultReader::ResultReader(const std::filesystem::path& file) : impl_(std::make_
 {
     impl_->file = open_result(file, false);
     const ResultFile& opened = impl_->file;
+    if (!opened.header.has_rows()) {
+        impl_->counted = impl_->guarded([&](hid_t id) { return read_tally(id, opened.header); });
+        return;
+    }
     for (std::uint64_t chunk = 0; chunk < opened.layout.chunks(); ++chunk) {
         impl_->there.push_back(opened.read_chunk(chunk).has_value());
         if (opened.complete && !impl_->there.back())
@@ -82,6 +88,22 @@ bool ResultReader::complete() const
     return impl_->file.complete;
 }
 
+const Tally* ResultReader::tally() const
+{
+    return impl_->counted ? &impl_->counted->tally : nullptr;
+}
+
+std::uint64_t ResultReader::done() const
+{
+    if (impl_->counted)
+        return impl_->counted->tally.added();
+    std::uint64_t done = 0;
+    const ResultLayout& layout = impl_->file.layout;
+    for (std::uint64_t chunk = 0; chunk < impl_->there.size(); ++chunk)
+        done += impl_->there[chunk] ? layout.rows_in(chunk) : 0;
+    return done;
+}
+
 bool ResultReader::has(std::uint64_t index) const
 {
     const auto number = impl_->numbers.of(index);
@@ -92,6 +114,10 @@ ResultRow ResultReader::row(std::uint64_t index) const
 {
     const auto number = impl_->numbers.of(index);
     const ResultHeader& of = header();
+    if (!of.has_rows())
+        throw InputError(impl_->file.path.string(), 0,
+                         "keeps no rows of its realizations (output.realizations = \"none\"). Replay realization " +
+                             std::to_string(index) + " instead.");
     if (!number && of.selected)
         throw InputError(impl_->file.path.string(), 0,
                          "does not hold realization " + std::to_string(index) +
@@ -111,12 +137,17 @@ ResultRow ResultReader::row(std::uint64_t index) const
 std::vector<ResultRow> ResultReader::rows() const
 {
     std::vector<ResultRow> rows;
+    for_each_row([&](const ResultRow& row) { rows.push_back(row); });
+    std::sort(rows.begin(), rows.end(), [](const ResultRow& a, const ResultRow& b) { return a.index < b.index; });
+    return rows;
+}
+
+void ResultReader::for_each_row(const std::function<void(const ResultRow&)>& f) const
+{
     const ResultLayout& layout = impl_->file.layout;
     for (std::uint64_t number = 0; number < layout.rows(); ++number)
         if (impl_->there[layout.chunk_of(number)])
-            rows.push_back(impl_->row(number));
-    std::sort(rows.begin(), rows.end(), [](const ResultRow& a, const ResultRow& b) { return a.index < b.index; });
-    return rows;
+            f(impl_->row(number));
 }
 
 SurfaceTable ResultReader::surface() const

@@ -6,9 +6,11 @@
 #include "ensemble/realization.hpp"
 #include "io/rare_table.hpp"
 #include "io/sensitivity_table.hpp"
+#include "io/tally.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,13 +38,16 @@ struct ResultHeader {
     bool selected =
         false; ///< the rows are some of the study's realizations, each row says which: an adaptive surface, rare
                ///< events. `total` is how many they can become at most, in a finished file how many they are
-    std::vector<std::string> input_names; ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
-                                          ///< column 3 of the two-dimensional dataset input/friction
-    std::vector<std::string> block_names; ///< of the blocks but the ground, in layout order; as many values has
-                                          ///< `Outcome::fall_time_s` of every row
-    std::vector<double> frequency_hz;     ///< surface axis (nf), empty for other kinds
-    std::vector<double> pga_m_s2;         ///< surface axis (np)
-    MotionTable motions;                  ///< of a fragility study, else empty
+    std::vector<std::string> input_names;  ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
+                                           ///< column 3 of the two-dimensional dataset input/friction
+    std::vector<std::string> block_names;  ///< of the blocks but the ground, in layout order; as many values has
+                                           ///< `Outcome::fall_time_s` of every row
+    std::vector<double> frequency_hz;      ///< surface axis (nf), empty for other kinds
+    std::vector<double> pga_m_s2;          ///< surface axis (np)
+    MotionTable motions;                   ///< of a fragility study, else empty
+    std::vector<std::string> limit_states; ///< that are counted where no rows are kept (`TallyWriter`), else empty
+    /// Whether there is a row of each realization.
+    bool has_rows() const { return limit_states.empty(); }
 };
 
 /// One row of /realizations.
@@ -135,7 +140,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// A results file that is read. Opening verifies every checksum.
+/// A results file that is read, with rows or without. Opening verifies every checksum.
 class ResultReader {
 public:
     /// @throws InputError if there is no such file, if it is no result of stylobate, or if it is damaged
@@ -152,6 +157,12 @@ public:
     ResultRow row(std::uint64_t index) const;
     /// All rows that are there, in index order.
     std::vector<ResultRow> rows() const;
+    /// The same one by one, in the order of the file: for what must not grow with their number.
+    void for_each_row(const std::function<void(const ResultRow&)>& f) const;
+    /// Realizations that are done: rows that are there, or that have been counted.
+    std::uint64_t done() const;
+    /// What was counted where there are no rows, else null.
+    const Tally* tally() const;
     /// Empty axes if there is none.
     SurfaceTable surface() const;
     /// Empty if there is none.

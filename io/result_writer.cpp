@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 namespace stylobate {
@@ -15,39 +14,11 @@ namespace {
 
 namespace names = result_names;
 
-/// A name in the same folder, for what is not ready to be seen.
-std::filesystem::path beside(const std::filesystem::path& file, const char* suffix)
-{
-    return file.parent_path() / (file.filename().string() + suffix);
-}
-
-/// Removes an unfinished file when something fails on the way.
-class Temporary {
-public:
-    explicit Temporary(std::filesystem::path file) : file_(std::move(file)) {}
-    ~Temporary()
-    {
-        std::error_code ignored;
-        if (!kept_)
-            std::filesystem::remove(file_, ignored);
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-    void keep() { kept_ = true; }
-
-private:
-    std::filesystem::path file_;
-    bool kept_ = false;
-};
-
 void write_rows_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& layout)
 {
     hdf5::create_group(file, names::realizations);
     const hdf5::Handle input = hdf5::create_group(file, names::input);
-    std::string order;
-    for (const std::string& name : header.input_names)
-        order += (order.empty() ? "" : " ") + name;
-    hdf5::write_text(input.id(), names::input_order, order);
+    hdf5::write_text(input.id(), names::input_order, joined_inputs(header));
     const hdf5::Handle outcome = hdf5::create_group(file, names::outcome);
     hdf5::write_text(outcome.id(), names::blocks, joined_names(header.block_names));
     for (const Column& column : layout.columns()) {
@@ -64,55 +35,8 @@ void write_rows_skeleton(hid_t file, const ResultHeader& header, const ResultLay
 /// Everything but the values of the rows.
 void write_skeleton(hid_t file, const ResultHeader& header, const ResultLayout& layout)
 {
-    hdf5::write_text(file, "format", names::format);
-    hdf5::write_number(file, "format_version", H5T_STD_U32LE, result_format_version);
-    hdf5::write_text(file, "kind", header.kind);
-    hdf5::write_text(file, "study_toml", header.study_toml);
-    hdf5::write_number(file, "seed", H5T_STD_U64LE, header.seed);
-    hdf5::write_text(file, "code_version", header.code_version);
-    hdf5::write_number(file, "realizations", H5T_STD_U64LE, header.total);
-    hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
-    if (header.selected)
-        hdf5::write_number(file, names::selected, H5T_STD_U8LE, 1);
-    hdf5::write_number(file, "complete", H5T_STD_U8LE, 0);
+    write_header(file, header, false);
     write_rows_skeleton(file, header, layout);
-    if (!header.frequency_hz.empty()) {
-        hdf5::create_group(file, names::surface);
-        hdf5::write_array(file, names::surface_frequency, header.frequency_hz, {header.frequency_hz.size()}, "Hz");
-        hdf5::write_array(file, names::surface_pga, header.pga_m_s2, {header.pga_m_s2.size()}, "m/s2");
-    }
-    if (const MotionTable& motions = header.motions; !motions.names.empty()) {
-        const hdf5::Handle group = hdf5::create_group(file, names::motions);
-        hdf5::write_text(group.id(), names::motion_names, joined_names(motions.names));
-        hdf5::write_text(group.id(), names::measure_names, joined_names(motions.measures));
-        hdf5::write_array(file, names::motion_values, motions.value, {motions.names.size(), motions.measures.size()},
-                          "");
-        hdf5::write_array(file, names::motion_exponents, motions.exponent, {motions.measures.size()}, "");
-        if (!motions.shaking_end_s.empty())
-            hdf5::write_array(file, names::shaking_ends, motions.shaking_end_s,
-                              {motions.names.size(), motions.shaking_end_s.size() / motions.names.size()}, "s");
-    }
-}
-
-void write_surface(hid_t file, const SurfaceTable& table)
-{
-    const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
-    const std::string group = std::string(names::surface) + "/";
-    hdf5::write_array(file, group + "trials", table.trials, dims, "");
-    hdf5::write_array(file, group + "collapses", table.collapses, dims, "");
-    hdf5::write_array(file, group + "probability", table.probability, dims, "");
-    hdf5::write_array(file, group + "lower", table.lower, dims, "");
-    hdf5::write_array(file, group + "upper", table.upper, dims, "");
-    const hdf5::Handle opened = hdf5::open_group(file, names::surface);
-    hdf5::write_text(opened.id(), "interval", table.interval);
-    if (table.method.empty())
-        return;
-    std::vector<std::uint8_t> methods;
-    for (const IntervalMethod method : table.method)
-        methods.push_back(static_cast<std::uint8_t>(method));
-    hdf5::write_bytes(file, group + "method", method_type().id(), methods, dims);
-    hdf5::write_real(opened.id(), "half_width", table.half_width);
-    hdf5::write_number(opened.id(), "rounds", H5T_STD_U64LE, table.rounds);
 }
 
 void write_trajectory(hid_t file, const Trajectory& trajectory)
@@ -149,59 +73,6 @@ RowPlaces write_unfilled(const std::filesystem::path& path, FileHandle& handle, 
     handle.reserve();
     write_seal(handle, block, places.extents(layout));
     return places;
-}
-
-/// Where two study texts part, for a message; empty if they are the same.
-std::string study_difference(const std::string& in_file, const std::string& asked)
-{
-    std::istringstream a(in_file);
-    std::istringstream b(asked);
-    for (int line = 1;; ++line) {
-        std::string left;
-        std::string right;
-        const bool more_left = static_cast<bool>(std::getline(a, left));
-        const bool more_right = static_cast<bool>(std::getline(b, right));
-        if (!more_left && !more_right)
-            return in_file == asked ? "" : "its study text ends differently";
-        if (more_left != more_right || left != right)
-            return "line " + std::to_string(line) + " of the study is\n    " +
-                   (more_left ? left : "(the end of the text)") + "\n  in the file and\n    " +
-                   (more_right ? right : "(the end of the text)") + "\n  in the study that was given";
-    }
-}
-
-void check_same_study(const ResultFile& file, const ResultHeader& asked)
-{
-    const ResultHeader& found = file.header;
-    const auto refuse = [&](const std::string& text) { throw InputError(file.path.string(), 0, text); };
-    std::string other = study_difference(found.study_toml, asked.study_toml);
-    if (other.empty() && found.kind != asked.kind)
-        other = "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
-    if (other.empty() && found.seed != asked.seed)
-        other = "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
-    const bool fewer = file.complete && found.selected; // a finished file has the rows that were needed
-    if (other.empty() && found.total != asked.total && !fewer)
-        other = "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
-    if (other.empty() && found.selected != asked.selected)
-        other = "its rows are chosen in another way";
-    if (other.empty() && found.first != asked.first)
-        other =
-            "it begins with realization " + std::to_string(found.first) + " instead of " + std::to_string(asked.first);
-    if (other.empty() && found.input_names != asked.input_names)
-        other = "its inputs have other names";
-    if (other.empty() && found.block_names != asked.block_names)
-        other = "its blocks have other names";
-    if (other.empty() && (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2))
-        other = "its surface has other axes";
-    if (other.empty() && found.motions != asked.motions)
-        other = "its motions differ";
-    if (!other.empty())
-        refuse("holds the results of another study: " + other + ". Choose another output.");
-    if (found.code_version != asked.code_version)
-        refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
-               ", whose results may have other bits. Finish it with the old version, or choose another output.");
-    if (file.complete)
-        refuse("is complete already: nothing is left to run. Choose another output to run the study again.");
 }
 
 } // namespace
@@ -263,19 +134,7 @@ struct ResultWriter::Impl {
         if (finished)
             throw std::logic_error("the results file is finished: nothing can be added");
     }
-
-    void check_table(const SurfaceTable& table) const;
 };
-
-void ResultWriter::Impl::check_table(const SurfaceTable& table) const
-{
-    const std::size_t cells = table.frequency_hz.size() * table.pga_m_s2.size();
-    if (cells == 0 || table.frequency_hz != file.header.frequency_hz || table.pga_m_s2 != file.header.pga_m_s2)
-        throw std::invalid_argument("the surface's axes are not those that its file was created with");
-    if (table.trials.size() != cells || table.collapses.size() != cells || table.probability.size() != cells ||
-        table.lower.size() != cells || table.upper.size() != cells)
-        throw std::invalid_argument("the surface's table is not (nf x np)");
-}
 
 void ResultWriter::Impl::write_selected(const std::filesystem::path& path, FileHandle& handle)
 {
@@ -451,7 +310,7 @@ void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* s
         throw std::logic_error("only " + std::to_string(impl_->rows) + " of " + std::to_string(file.layout.rows()) +
                                " rows have been added");
     if (surface)
-        impl_->check_table(*surface);
+        check_table(file.header, *surface);
 
     // The HDF5 structure changes now, in a copy that takes the file's place in one step: a run that is killed here
     // leaves the unfinished file as it was.

@@ -124,6 +124,25 @@ OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
     return o;
 }
 
+/// @param study its kind and surface must be read
+void read_output(const KeyReader& keys, Study& study)
+{
+    keys.allow_only({"trajectory_rate_hz", "realizations"});
+    OutputSpec& output = study.output;
+    output.trajectory_rate_hz =
+        keys.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0}, output.trajectory_rate_hz);
+    study.kept = keys.choice_or("realizations", kept_realizations_names, study.kept);
+    const auto refuse = [&](const std::string& why) {
+        keys.refuse("realizations", "= \"none\" does not go with " + why,
+                    "Only a surface with equally many realizations in each cell does without their rows. "
+                    "Give realizations = \"all\", or leave it out.");
+    };
+    if (study.kept == KeptRealizations::none && study.kind != StudyKind::surface)
+        refuse(fmt::format("study.kind = \"{}\"", word_for(study_kind_names, study.kind)));
+    if (study.kept == KeptRealizations::none && study.surface->adaptive)
+        refuse("surface.adaptive");
+}
+
 /// Single precision knows the paper's model alone.
 void check_precision(const KeyReader& keys, const Study& study)
 {
@@ -241,10 +260,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         study.rare = read_rare(top.table("rare"), study);
 
     study.initial = read_initial(top.table("initial"), study.structure);
-    const KeyReader output = top.table("output");
-    output.allow_only({"trajectory_rate_hz"});
-    study.output.trajectory_rate_hz = output.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0},
-                                                       study.output.trajectory_rate_hz);
+    read_output(top.table("output"), study);
     study.outcome = read_outcome(top.table("outcome"), study.structure.kind);
     study.run = read_run(top.table("run"));
     if (study.run.precision == Precision::single)

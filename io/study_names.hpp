@@ -59,6 +59,8 @@ inline constexpr std::array step_basis_names = {Name<StepBasis>{"block", StepBas
                                                 Name<StepBasis>{"structure", StepBasis::structure}};
 inline constexpr std::array spacing_names = {Name<Spacing>{"linear", Spacing::linear},
                                              Name<Spacing>{"log", Spacing::log}};
+inline constexpr std::array kept_realizations_names = {Name<KeptRealizations>{"all", KeptRealizations::all},
+                                                       Name<KeptRealizations>{"none", KeptRealizations::none}};
 inline constexpr std::array distribution_names = {Name<DistributionKind>{"normal", DistributionKind::normal},
                                                   Name<DistributionKind>{"lognormal", DistributionKind::lognormal},
                                                   Name<DistributionKind>{"uniform", DistributionKind::uniform},

@@ -387,6 +387,8 @@ std::string study_text(const Study& study)
     out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));
     out.section("output");
     out.number("trajectory_rate_hz", study.output.trajectory_rate_hz);
+    if (study.kept != KeptRealizations::all) // as with the precision below
+        out.word("realizations", word_for(kept_realizations_names, study.kept));
     out.section("outcome");
     out.word("follow", word_for(follow_names, study.outcome.follow));
     out.line("collapse", inline_table({{"height_fraction", toml_number(study.outcome.collapse_height_fraction)}}));

@@ -84,7 +84,11 @@ fs::path export_csv(const std::string& results, const std::string& output)
 {
     const ResultReader reader(results);
     const fs::path folder = output.empty() ? beside(results, "_csv") : fs::path(output);
-    write_csv(folder, reader.header(), reader.rows(), reader.complete() ? reader.surface() : SurfaceTable{});
+    const SurfaceTable surface = reader.complete() ? reader.surface() : SurfaceTable{};
+    if (const Tally* tally = reader.tally())
+        write_csv(folder, reader.header(), *tally, surface);
+    else
+        write_csv(folder, reader.header(), reader.rows(), surface);
     if (reader.header().kind == "fragility" && reader.complete()) {
         write_whole(folder / "motions.csv", motions_csv(reader.header().motions));
         const Fragility fragility = fragility_of(reader, results);

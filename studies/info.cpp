@@ -121,7 +121,7 @@ int info_of_result(const CommonOptions& options, const std::string& file)
 {
     const ResultReader reader(file);
     const ResultHeader& header = reader.header();
-    const std::size_t rows = reader.rows().size();
+    const std::uint64_t rows = reader.done();
     if (options.json) {
         fmt::print("{}\n", Json::object()
                                .member("holds", "results")

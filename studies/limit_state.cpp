@@ -10,21 +10,6 @@
 
 namespace stylobate {
 
-namespace {
-
-/// The mean of the two middle ones where they are even in number.
-double median(std::vector<double> values)
-{
-    if (values.empty())
-        return std::numeric_limits<double>::quiet_NaN();
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    const double upper = *middle;
-    return values.size() % 2 == 1 ? upper : (upper + *std::max_element(values.begin(), middle)) / 2;
-}
-
-} // namespace
-
 std::string interval_name()
 {
     return fmt::format("jeffreys {}", interval_level);
@@ -77,6 +62,24 @@ bool reached(LimitState limit, const Outcome& outcome)
     return false;
 }
 
+TallyEntry tally_entry(const ResultRow& row)
+{
+    const Outcome& o = row.outcome;
+    TallyEntry entry;
+    entry.index = row.index;
+    entry.cell = row.cell;
+    entry.invalid = o.invalid_reason;
+    entry.energy_residual = o.energy_residual;
+    for (std::size_t limit = 0; limit < limit_state_names().size(); ++limit)
+        entry.reached |= static_cast<std::uint32_t>(reached(static_cast<LimitState>(limit), o)) << limit;
+    if (reached(LimitState::collapse, o)) {
+        entry.first_block = o.first_collapse_block;
+        entry.collapse_time_s = o.collapse_time_s;
+    }
+    entry.total_collapse_time_s = o.total_collapse_time_s;
+    return entry;
+}
+
 Share share_of(std::uint64_t trials, std::uint64_t count)
 {
     const BinomialInterval interval = jeffreys(trials, count, interval_level);
@@ -94,12 +97,22 @@ void LimitCounts::add(const ResultRow& row)
     for (std::size_t limit = 0; limit < reached_.size(); ++limit)
         reached_[limit] += reached(static_cast<LimitState>(limit), o);
     if (reached(LimitState::collapse, o)) {
-        collapse_time_s_.push_back(o.collapse_time_s);
+        collapse_time_s_.add(o.collapse_time_s);
         if (o.first_collapse_block >= 0 && static_cast<std::size_t>(o.first_collapse_block) < first_.size())
             ++first_[static_cast<std::size_t>(o.first_collapse_block)];
     }
     if (reached(LimitState::total, o))
-        total_collapse_time_s_.push_back(o.total_collapse_time_s);
+        total_collapse_time_s_.add(o.total_collapse_time_s);
+}
+
+LimitCounts::LimitCounts(const Tally& tally)
+    : trials_(tally.all_trials()), first_(tally.blocks), collapse_time_s_(tally.collapse_time_s),
+      total_collapse_time_s_(tally.total_collapse_time_s)
+{
+    for (std::size_t limit = 0; limit < reached_.size(); ++limit)
+        reached_[limit] = tally.all_reached(limit);
+    for (std::size_t i = 0; i < tally.first.size(); ++i)
+        first_[i % tally.blocks] += tally.first[i];
 }
 
 Share LimitCounts::share(LimitState limit) const
@@ -109,12 +122,12 @@ Share LimitCounts::share(LimitState limit) const
 
 double LimitCounts::median_collapse_time_s() const
 {
-    return median(collapse_time_s_);
+    return collapse_time_s_.median();
 }
 
 double LimitCounts::median_total_collapse_time_s() const
 {
-    return median(total_collapse_time_s_);
+    return total_collapse_time_s_.median();
 }
 
 FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows)

@@ -1,6 +1,7 @@
 #pragma once
 /// Limit states of a structure: which a realization has reached, and how often that happened.
 
+#include "ensemble/time_counts.hpp"
 #include "io/plot_order.hpp"
 #include "io/result_store.hpp"
 
@@ -33,6 +34,9 @@ const char* describe(LimitState limit);
 /// Whether a valid realization reached it.
 bool reached(LimitState limit, const Outcome& outcome);
 
+/// What is counted of a realization where no row of it is kept; its limit states in the order of the enumeration.
+TallyEntry tally_entry(const ResultRow& row);
+
 /// How often, with its interval.
 struct Share {
     std::uint64_t trials = 0;
@@ -47,13 +51,15 @@ Share share_of(std::uint64_t trials, std::uint64_t count);
 class LimitCounts {
 public:
     explicit LimitCounts(std::size_t blocks) : first_(blocks) {}
+    /// Over all cells.
+    explicit LimitCounts(const Tally& tally);
     void add(const ResultRow& row);
 
     Share share(LimitState limit) const;
     /// How often each block fell before all others. (blocks)
     const std::vector<std::uint64_t>& first() const { return first_; }
     std::uint64_t trials() const { return trials_; }
-    /// Median over the realizations that collapsed [s]; NaN if there is none.
+    /// Median over the realizations that collapsed [s]; NaN if there is none. (As exact as `TimeCounts`.)
     double median_collapse_time_s() const;
     /// Median over those that collapsed in all [s]; NaN if there is none.
     double median_total_collapse_time_s() const;
@@ -62,8 +68,7 @@ private:
     std::uint64_t trials_ = 0;
     std::vector<std::uint64_t> reached_ = std::vector<std::uint64_t>(limit_state_names().size());
     std::vector<std::uint64_t> first_;
-    std::vector<double> collapse_time_s_;
-    std::vector<double> total_collapse_time_s_;
+    TimeCounts collapse_time_s_, total_collapse_time_s_;
 };
 
 /// Which blocks fell, in which order and when, for its picture.

@@ -8,6 +8,7 @@
 #include "io/study_names.hpp"
 #include "studies/block_names.hpp"
 #include "studies/fragility/motions.hpp"
+#include "studies/limit_state.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -115,6 +116,8 @@ ResultHeader LoadedStudy::result_header() const
         header.selected = true;
         header.total = study_->rare->most();
     }
+    if (study_->kept == KeptRealizations::none)
+        header.limit_states = limit_state_names();
     header.input_names = sampler_->input_names();
     header.block_names = block_names(*study_);
     if (study_->surface) {

@@ -59,6 +59,7 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
     one.first = index;
     one.total = 1;
     one.selected = false;
+    one.limit_states.clear();
     one.kind = "replay"; // of one realization: there is no surface to it
     one.frequency_hz.clear();
     one.pga_m_s2.clear();
@@ -123,10 +124,11 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
         }
         if (o.total_collapse_time_s >= 0)
             fmt::print("  total collapse at {:.4f} s\n", o.total_collapse_time_s);
-        fmt::print("  {}\n", !known ? (reader.complete() ? "not in the results: the run did not need it"
-                                                         : "not in the results yet")
-                             : same ? "the same bits as in the results"
-                                    : "NOT the bits of the results");
+        fmt::print("  {}\n", !header.has_rows() ? "the results keep no rows: there is nothing to compare it with"
+                             : !known           ? (reader.complete() ? "not in the results: the run did not need it"
+                                                                     : "not in the results yet")
+                             : same             ? "the same bits as in the results"
+                                                : "NOT the bits of the results");
         if (!trajectory.empty())
             fmt::print("  trajectory in {}\n", trajectory);
     }

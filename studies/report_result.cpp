@@ -90,10 +90,21 @@ public:
           counts_(header_.block_names.size()), page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
           surface_(!header_.frequency_hz.empty())
     {
+        if (const Tally* tally = reader.tally()) {
+            counts_ = LimitCounts(*tally);
+            invalid_count_ = tally->all_invalid();
+            for (const auto& [index, reason] : tally->first_invalid)
+                invalid_.emplace_back(index, reason);
+        }
         for (const ResultRow& row : rows_) {
             counts_.add(row);
-            (row.outcome.state == State::invalid ? invalid_ : valid_).push_back(&row);
+            if (row.outcome.state == State::invalid)
+                invalid_.emplace_back(row.index, row.outcome.invalid_reason);
+            else
+                valid_.push_back(&row);
         }
+        if (!reader.tally())
+            invalid_count_ = invalid_.size();
     }
 
     HtmlPage page()
@@ -172,11 +183,10 @@ private:
         if (!invalid_.empty()) {
             std::string list;
             for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)
-                list += fmt::format("{}{} ({})", i > 0 ? ", " : "", invalid_[i]->index,
-                                    to_string(invalid_[i]->outcome.invalid_reason));
-            page_.box("warn", fmt::format("{} of {} realizations invalid", invalid_.size(), rows_.size()),
+                list += fmt::format("{}{} ({})", i > 0 ? ", " : "", invalid_[i].first, to_string(invalid_[i].second));
+            page_.box("warn", fmt::format("{} of {} realizations invalid", invalid_count_, header_.total),
                       "They were set aside and are no trials. Realizations " + list +
-                          (invalid_.size() > 10 ? " and others." : "."));
+                          (invalid_count_ > 10 ? " and others." : "."));
         }
     }
 
@@ -298,6 +308,8 @@ private:
 
     void order()
     {
+        if (!header_.has_rows())
+            return first_falls();
         const FallOrder falls = fall_order(header_.block_names, rows_);
         const std::vector<std::size_t> blocks = order_of_falls(falls);
         if (blocks.empty())
@@ -320,6 +332,22 @@ private:
         page_.table(table);
         if (study_.outcome.follow != Follow::rest)
             page_.note("Each realization was followed until its first fall only.");
+    }
+
+    /// What the order of falls comes to without rows.
+    void first_falls()
+    {
+        HtmlTable table{"lrrr", {"block", "fell first", "share", describe_interval(interval_name())}, {}, ""};
+        for (std::size_t i = 0; i < counts_.first().size(); ++i)
+            if (const std::uint64_t first = counts_.first()[i]; first > 0) {
+                const Share share = share_of(counts_.trials(), first);
+                table.rows.push_back({header_.block_names[i], fmt::format("{} of {}", share.count, share.trials),
+                                      percent(share.probability), interval_text(share)});
+            }
+        if (table.rows.empty())
+            return;
+        page_.section("First to fall");
+        page_.table(table);
     }
 
     void motions()
@@ -345,6 +373,10 @@ private:
 
     void energy()
     {
+        if (const Tally* tally = reader_.tally(); tally && tally->all_trials() > 0) {
+            page_.section("Energy audit");
+            page_.paragraph(worst_balance(tally->energy_residual, tally->energy_realization));
+        }
         if (valid_.empty())
             return;
         page_.section("Energy audit");
@@ -357,9 +389,13 @@ private:
         const auto worst = std::max_element(valid_.begin(), valid_.end(), [](const ResultRow* a, const ResultRow* b) {
             return std::abs(a->outcome.energy_residual) < std::abs(b->outcome.energy_residual);
         });
-        page_.paragraph(fmt::format("What the balance lacks is at most {:.2g} of the energy of the run (realization "
-                                    "{}).",
-                                    std::abs((*worst)->outcome.energy_residual), (*worst)->index));
+        page_.paragraph(worst_balance((*worst)->outcome.energy_residual, (*worst)->index));
+    }
+
+    static std::string worst_balance(double residual, std::uint64_t index)
+    {
+        return fmt::format("What the balance lacks is at most {:.2g} of the energy of the run (realization {}).",
+                           std::abs(residual), index);
     }
 
     void again()
@@ -409,7 +445,9 @@ private:
     LimitCounts counts_;
     HtmlPage page_;
     const bool surface_;
-    std::vector<const ResultRow*> valid_, invalid_;
+    std::vector<const ResultRow*> valid_;
+    std::vector<std::pair<std::uint64_t, InvalidReason>> invalid_; ///< by index; where there are no rows the first ones
+    std::uint64_t invalid_count_ = 0;
     const TemporaryFolder folder_;
 };
 

@@ -88,9 +88,10 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
         throw InputError(fmt::format("--limit total: {} followed each realization until its first fall only. Run the "
                                      "study again with outcome.follow = \"rest\".",
                                      results));
+    if (const Tally* tally = reader.tally())
+        return surface_of(header, *tally, limit);
     SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
-    for (const ResultRow& row : reader.rows())
-        counts.add(row);
+    reader.for_each_row([&](const ResultRow& row) { counts.add(row); });
     return counts.table();
 }
 
@@ -115,6 +116,11 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
 {
     const ResultHeader& header = reader.header();
     check_complete(reader, results);
+    if (!header.has_rows())
+        throw InputError(
+            fmt::format("{}: keeps no rows of its realizations (output.realizations = \"none\"), and so not "
+                        "when each block fell; which fell first is in counts.csv of 'export --to csv'",
+                        results));
     std::vector<ResultRow> rows = reader.rows();
     std::string title = "Falls: " + fs::path(results).stem().string();
     const std::size_t np = header.pga_m_s2.size();

@@ -12,6 +12,7 @@
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/run_adaptive.hpp"
+#include "studies/run_counted.hpp"
 #include "studies/run_rare.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/surface.hpp"
@@ -64,8 +65,7 @@ struct Counts {
 void count_done(const std::string& results, Counts& counts, CellOutcomes* outcomes, SensitivityOutcomes* sensitivity,
                 RareOutcomes* rare)
 {
-    const ResultReader reader(results);
-    for (const ResultRow& row : reader.rows()) {
+    ResultReader(results).for_each_row([&](const ResultRow& row) {
         counts.add(row);
         if (outcomes)
             outcomes->add(row);
@@ -73,7 +73,7 @@ void count_done(const std::string& results, Counts& counts, CellOutcomes* outcom
             sensitivity->add(row);
         if (rare)
             rare->add(row);
-    }
+    });
 }
 
 Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Counts& counts, Observer& observer)
@@ -293,10 +293,11 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (options.backend == "cuda")
         demand_of_device(loaded.study(), study);
     const RunOptions run = options.run_options();
-    check_realizations(loaded);
+    const bool found = std::filesystem::exists(results);
+    if (!found) // else it has been done before the file was made
+        check_realizations(loaded);
     const ResultHeader header = loaded.result_header();
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};
-    const bool found = std::filesystem::exists(results);
     const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
@@ -313,15 +314,21 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     bool complete = false;
     {
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
-        writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
-        if (found && !is_single) // the file is ours now: no other run adds to it in between
+        if (header.has_rows())
+            writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
+        if (writer && found && !is_single) // the file is ours now: no other run adds to it in between
             count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity,
                        is_rare ? &rare_outcomes : nullptr);
         const auto sink = [&](const ResultRow& row) {
             writer->add(row);
             counts.add(row);
         };
-        if (is_rare) {
+        if (!writer) {
+            CountedRun ran = run_counted(loaded, run, results, found, console);
+            progress = ran.progress;
+            complete = ran.complete;
+            counts.limits = std::move(ran.limits);
+        } else if (is_rare) {
             RareRun ran = run_rare(loaded, run, rare_outcomes, sink, console);
             progress = ran.progress;
             complete = ran.complete;
@@ -343,9 +350,9 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     std::optional<SensitivityTable> indices;
     if (complete && sensitivity)
         indices = sensitivity->table();
-    if (complete)
+    if (writer && complete)
         writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr, rare ? &*rare : nullptr);
-    else
+    else if (writer)
         writer->flush();
     writer.reset();
     Findings findings;

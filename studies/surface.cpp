@@ -2,6 +2,23 @@
 
 namespace stylobate {
 
+namespace {
+
+/// Counts with their probabilities and intervals.
+SurfaceTable with_shares(SurfaceTable table)
+{
+    table.interval = interval_name();
+    for (std::size_t i = 0; i < table.trials.size(); ++i) {
+        const Share share = share_of(table.trials[i], table.collapses[i]);
+        table.probability.push_back(share.probability);
+        table.lower.push_back(share.lower);
+        table.upper.push_back(share.upper);
+    }
+    return table;
+}
+
+} // namespace
+
 SurfaceCounts::SurfaceCounts(std::vector<double> frequency_hz, std::vector<double> pga_m_s2, LimitState limit)
     : limit_(limit)
 {
@@ -22,15 +39,18 @@ void SurfaceCounts::add(const ResultRow& row)
 
 SurfaceTable SurfaceCounts::table() const
 {
-    SurfaceTable table = table_;
-    table.interval = interval_name();
-    for (std::size_t i = 0; i < table.trials.size(); ++i) {
-        const Share share = share_of(table.trials[i], table.collapses[i]);
-        table.probability.push_back(share.probability);
-        table.lower.push_back(share.lower);
-        table.upper.push_back(share.upper);
-    }
-    return table;
+    return with_shares(table_);
+}
+
+SurfaceTable surface_of(const ResultHeader& header, const Tally& tally, LimitState limit)
+{
+    SurfaceTable table;
+    table.frequency_hz = header.frequency_hz;
+    table.pga_m_s2 = header.pga_m_s2;
+    table.trials = tally.trials;
+    for (std::size_t cell = 0; cell < tally.cells(); ++cell)
+        table.collapses.push_back(tally.reached[cell * tally.limit_states + static_cast<std::size_t>(limit)]);
+    return with_shares(table);
 }
 
 } // namespace stylobate

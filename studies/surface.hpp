@@ -22,4 +22,7 @@ private:
     LimitState limit_;
 };
 
+/// The same from the counts of a study that keeps no rows.
+SurfaceTable surface_of(const ResultHeader& header, const Tally& tally, LimitState limit);
+
 } // namespace stylobate

@@ -77,8 +77,7 @@ bool compute(const LoadedStudy& loaded, const fs::path& results, bool resume, co
     plan.total = loaded.study().total();
     plan.before.done = writer->rows();
     if (resume)
-        for (const ResultRow& row : ResultReader(results).rows())
-            counts.add(row);
+        ResultReader(results).for_each_row([&](const ResultRow& row) { counts.add(row); });
     plan.done = [&](std::uint64_t index) { return writer->has(index); };
     plan.sink = [&](const Realization& realization, const Outcome& outcome) {
         const ResultRow row = result_row(loaded.study(), realization, outcome);
@@ -123,6 +122,8 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
             throw InputError(file.file, 0,
                              "surface.adaptive: a claim is judged on cells with equally many realizations; leave it "
                              "out");
+        if (study.kept == KeptRealizations::none)
+            throw InputError(file.file, 0, "output.realizations = \"none\": a claim is judged on rows; leave it out");
         const std::vector<std::string> record = record_setting(study, place);
         settings.insert(settings.end(), record.begin(), record.end());
 

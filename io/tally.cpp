@@ -1,0 +1,62 @@
+#include "io/tally.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace stylobate {
+
+Tally::Tally(std::size_t cells, std::size_t number_of_limit_states, std::size_t number_of_blocks)
+    : limit_states(number_of_limit_states), blocks(number_of_blocks), trials(cells), invalid(cells),
+      reached(cells * limit_states), first(cells * blocks)
+{
+}
+
+std::uint64_t Tally::all_trials() const
+{
+    return std::accumulate(trials.begin(), trials.end(), std::uint64_t{0});
+}
+
+std::uint64_t Tally::all_invalid() const
+{
+    return std::accumulate(invalid.begin(), invalid.end(), std::uint64_t{0});
+}
+
+std::uint64_t Tally::all_reached(std::size_t limit) const
+{
+    std::uint64_t all = 0;
+    for (std::size_t cell = 0; cell < cells(); ++cell)
+        all += reached[cell * limit_states + limit];
+    return all;
+}
+
+void Tally::add(const TallyEntry& entry)
+{
+    if (entry.cell >= cells() || (entry.first_block >= 0 && static_cast<std::size_t>(entry.first_block) >= blocks))
+        throw std::invalid_argument("realization " + std::to_string(entry.index) + " does not fit into the counts");
+    if (entry.invalid != InvalidReason::none) {
+        ++invalid[entry.cell];
+        first_invalid.emplace(entry.index, entry.invalid);
+        if (first_invalid.size() > most_invalid)
+            first_invalid.erase(std::prev(first_invalid.end()));
+        return;
+    }
+    ++trials[entry.cell];
+    for (std::size_t limit = 0; limit < limit_states; ++limit)
+        reached[entry.cell * limit_states + limit] += (entry.reached >> limit) & 1;
+    if (entry.first_block >= 0)
+        ++first[entry.cell * blocks + static_cast<std::size_t>(entry.first_block)];
+    if (entry.collapse_time_s >= 0)
+        collapse_time_s.add(entry.collapse_time_s);
+    if (entry.total_collapse_time_s >= 0)
+        total_collapse_time_s.add(entry.total_collapse_time_s);
+    const double size = std::abs(entry.energy_residual), most = std::abs(energy_residual);
+    if (size > most || (size == most && entry.index < energy_realization)) {
+        energy_residual = entry.energy_residual;
+        energy_realization = entry.index;
+    }
+}
+
+} // namespace stylobate

@@ -1,0 +1,49 @@
+#pragma once
+/// A results file without rows: what a study's tables need, cell by cell, however many realizations there are.
+/// `io/FORMAT.md` describes it; `ResultReader` reads it.
+
+#include "io/result_store.hpp"
+
+namespace stylobate {
+
+/// A results file of counts that is being written. Realizations may come in any order; a chunk of 256 is counted when
+/// all of it is there. Now and then, and in `flush`, the whole file is written anew under another name and takes the
+/// old one's place in one step: a process that is killed at any moment leaves a file that `resume` continues, in which
+/// no realization is counted twice.
+///
+/// What is waiting for the rest of its chunk, and the list of chunks that are done, grow with the number of
+/// realizations that are stepped at the same time, if realizations are begun in index order; nothing grows with their
+/// number.
+class TallyWriter {
+public:
+    /// Creates the file, as `ResultWriter::create` does. @pre header.limit_states is not empty, and the header has axes
+    /// @throws InputError as that one does
+    static std::unique_ptr<TallyWriter> create(const std::filesystem::path& file, const ResultHeader& header);
+    /// Opens an unfinished file of the same study. @throws InputError as `ResultWriter::resume` does
+    static std::unique_ptr<TallyWriter> resume(const std::filesystem::path& file, const ResultHeader& header);
+
+    ~TallyWriter();
+    TallyWriter(const TallyWriter&) = delete;
+    TallyWriter& operator=(const TallyWriter&) = delete;
+
+    /// True for realizations that are counted: those of whole chunks.
+    bool has(std::uint64_t index) const;
+    /// What is counted.
+    const Tally& tally() const;
+
+    /// Takes one realization; not thread-safe. One that is there already changes nothing.
+    /// @throws std::invalid_argument if it does not fit; std::system_error or std::runtime_error if the file cannot be
+    ///         written; it stays then as it was written last
+    void add(const TallyEntry& entry);
+    /// Writes what is counted.
+    void flush();
+    /// Writes the surface and marks the file complete, in one step. All realizations must have been added.
+    void finish(const SurfaceTable& surface);
+
+private:
+    struct Impl;
+    explicit TallyWriter(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,35 @@
+#include "studies/run_counted.hpp"
+
+#include "io/tally_store.hpp"
+#include "studies/surface.hpp"
+#include "studies/trajectory.hpp"
+
+namespace stylobate {
+
+CountedRun run_counted(const LoadedStudy& loaded, const RunOptions& options, const std::string& results, bool found,
+                       Observer& observer)
+{
+    const Study& study = loaded.study();
+    const ResultHeader header = loaded.result_header();
+    const std::unique_ptr<TallyWriter> writer =
+        found ? TallyWriter::resume(results, header) : TallyWriter::create(results, header);
+    RunPlan plan;
+    plan.total = study.total();
+    plan.done = [&](std::uint64_t index) { return writer->has(index); };
+    plan.sink = [&](const Realization& realization, const Outcome& outcome) {
+        writer->add(tally_entry(result_row(study, realization, outcome)));
+    };
+    const Tally& tally = writer->tally();
+    plan.before.done = tally.added();
+    plan.before.collapsed = tally.all_reached(static_cast<std::size_t>(LimitState::collapse));
+    plan.before.invalid = tally.all_invalid();
+    const Progress progress = run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observer);
+    const bool complete = progress.done == progress.total;
+    if (complete)
+        writer->finish(surface_of(header, tally, LimitState::collapse));
+    else
+        writer->flush();
+    return {progress, complete, LimitCounts(tally)};
+}
+
+} // namespace stylobate

@@ -1,0 +1,24 @@
+#pragma once
+/// A surface that keeps counts of its realizations and no rows.
+
+#include "ensemble/executor.hpp"
+#include "studies/limit_state.hpp"
+#include "studies/loaded_study.hpp"
+
+#include <string>
+
+namespace stylobate {
+
+struct CountedRun {
+    Progress progress;
+    bool complete = false;
+    LimitCounts limits; ///< of what is in the file
+};
+
+/// Runs what is left, and completes the file where nothing is.
+/// @param found whether the file is there, and is to be continued
+/// @throws InputError and what else `TallyWriter` and `run_ensemble` throw
+CountedRun run_counted(const LoadedStudy& loaded, const RunOptions& options, const std::string& results, bool found,
+                       Observer& observer);
+
+} // namespace stylobate
