@@ -75,6 +75,21 @@ bool followed_to_rest(const ResultReader& reader, const std::string& results)
     return parse_study(reader.header().study_toml, results + " (its study)").outcome.follow == Follow::rest;
 }
 
+bool has_twins(const ResultReader& reader, const std::string& results)
+{
+    return reader.complete() && !reader.header().frequency_hz.empty() &&
+           parse_study(reader.header().study_toml, results + " (its study)").twins.has_value();
+}
+
+std::vector<ResultRow> original_rows(const ResultReader& reader, const std::string& results)
+{
+    const Study study = parse_study(reader.header().study_toml, results + " (its study)");
+    std::vector<ResultRow> rows = reader.rows();
+    if (study.twins)
+        std::erase_if(rows, [&](const ResultRow& row) { return row.index >= study.originals(); });
+    return rows;
+}
+
 SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit)
 {
     const ResultHeader& header = reader.header();
@@ -89,7 +104,7 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
                                      "study again with outcome.follow = \"rest\".",
                                      results));
     SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
-    for (const ResultRow& row : reader.rows())
+    for (const ResultRow& row : original_rows(reader, results))
         counts.add(row);
     return counts.table();
 }
@@ -115,7 +130,7 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
 {
     const ResultHeader& header = reader.header();
     check_complete(reader, results);
-    std::vector<ResultRow> rows = reader.rows();
+    std::vector<ResultRow> rows = original_rows(reader, results);
     std::string title = "Falls: " + fs::path(results).stem().string();
     const std::size_t np = header.pga_m_s2.size();
     const std::size_t cells = header.frequency_hz.size() * np;
