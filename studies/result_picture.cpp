@@ -85,7 +85,7 @@ std::vector<ResultRow> original_rows(const ResultReader& reader, const std::stri
 {
     const Study study = parse_study(reader.header().study_toml, results + " (its study)");
     std::vector<ResultRow> rows = reader.rows();
-    if (study.twins)
+    if (study.twins && reader.header().kind != "replay")
         std::erase_if(rows, [&](const ResultRow& row) { return row.index >= study.originals(); });
     return rows;
 }
