@@ -75,6 +75,21 @@ bool followed_to_rest(const ResultReader& reader, const std::string& results)
     return parse_study(reader.header().study_toml, results + " (its study)").outcome.follow == Follow::rest;
 }
 
+bool has_twins(const ResultReader& reader, const std::string& results)
+{
+    return reader.complete() && !reader.header().frequency_hz.empty() &&
+           parse_study(reader.header().study_toml, results + " (its study)").twins.has_value();
+}
+
+std::vector<ResultRow> original_rows(const ResultReader& reader, const std::string& results)
+{
+    const Study study = parse_study(reader.header().study_toml, results + " (its study)");
+    std::vector<ResultRow> rows = reader.rows();
+    if (study.twins && reader.header().kind != "replay")
+        std::erase_if(rows, [&](const ResultRow& row) { return row.index >= study.originals(); });
+    return rows;
+}
+
 SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit)
 {
     const ResultHeader& header = reader.header();
@@ -91,7 +106,8 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
     if (const Tally* tally = reader.tally())
         return surface_of(header, *tally, limit);
     SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
-    reader.for_each_row([&](const ResultRow& row) { counts.add(row); });
+    for (const ResultRow& row : original_rows(reader, results))
+        counts.add(row);
     return counts.table();
 }
 
@@ -121,7 +137,7 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
             fmt::format("{}: keeps no rows of its realizations (output.realizations = \"none\"), and so not "
                         "when each block fell; which fell first is in counts.csv of 'export --to csv'",
                         results));
-    std::vector<ResultRow> rows = reader.rows();
+    std::vector<ResultRow> rows = original_rows(reader, results);
     std::string title = "Falls: " + fs::path(results).stem().string();
     const std::size_t np = header.pga_m_s2.size();
     const std::size_t cells = header.frequency_hz.size() * np;
