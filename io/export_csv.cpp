@@ -246,8 +246,8 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
     write_tables(folder, header, surface, "realizations.csv", realizations_text(header, rows));
 }
 
-void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
-               const SurfaceTable& surface)
+void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
+                      const SurfaceTable& surface)
 {
     write_tables(folder, header, surface, "counts.csv", counts_text(header, tally));
 }

@@ -22,8 +22,8 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
 /// The same of a result that keeps no rows: `counts.csv` instead of `realizations.csv`, one line per cell: its trials,
 /// its invalid realizations, how many reached each limit state, and how often each block fell first
 /// ("first_fallen[i]").
-void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
-               const SurfaceTable& surface);
+void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
+                      const SurfaceTable& surface);
 
 /// Writes a table of sensitivities: a line for each outcome, index and factor, with value, lower and upper; the lines
 /// "mean" and "explained" have no factor.

@@ -91,7 +91,7 @@ fs::path export_csv(const std::string& results, const std::string& output)
     const fs::path folder = output.empty() ? beside(results, "_csv") : fs::path(output);
     const SurfaceTable surface = reader.complete() ? reader.surface() : SurfaceTable{};
     if (const Tally* tally = reader.tally())
-        write_csv(folder, reader.header(), *tally, surface);
+        write_counts_csv(folder, reader.header(), *tally, surface);
     else
         write_csv(folder, reader.header(), reader.rows(), surface);
     if (reader.header().kind == "fragility" && reader.complete()) {
