@@ -268,9 +268,6 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         check_precision(top.table("run"), study);
     if (top.has("twins")) {
         study.twins = read_twins(top.table("twins"), study);
-        if (study.kept == KeptRealizations::none)
-            top.table("twins").refuse_all("[twins] does not go with output.realizations = \"none\": twins are compared "
-                                          "row by row.\n  Give realizations = \"all\", or leave it out.");
         if (study.total() > most_realizations)
             keys.refuse("realizations",
                         fmt::format("and {} twins of each come to {}, more than {}", study.twins->kinds.size(),

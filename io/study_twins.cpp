@@ -62,6 +62,9 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
     if (study.surface->adaptive)
         keys.refuse_all("[twins] and surface.adaptive exclude each other: every realization has its twins.\n  Remove "
                         "one of the two.");
+    if (study.kept == KeptRealizations::none)
+        keys.refuse_all("[twins] are compared row by row, and output.realizations = \"none\" keeps no rows.\n  Remove "
+                        "one of the two.");
     if (study.run.precision == Precision::single)
         keys.refuse_all("[twins] compares double precision with single, and run.precision = \"single\".\n  Give "
                         "run.precision = \"double\".");

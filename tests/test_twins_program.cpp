@@ -137,6 +137,7 @@ TEST_F(TwinsProgram, BadInputIsRefusedWithItsRange)
             {"twins.precision", "single precision"});
     refused({"twins.forms=true", "run.precision=\"single\""}, {"run.precision"});
     refused({"twins.forms=true", "surface.adaptive={budget=400}"}, {"surface.adaptive"});
+    refused({"twins.forms=true", "output.realizations=\"none\""}, {"output.realizations"});
     expect_refused(
         run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", {"twins.forms=true"}, {"-o", "none.h5"}),
         {"[twins]", "kind = \"single\""});
