@@ -121,11 +121,59 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     std::stable_partition(places.begin(), places.end(),
                           [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
     points_ = PointSet(study_, places);
+
+    if (!study.twins)
+        return;
+    for (const Twin& kind : study.twins->kinds) {
+        if (kind.by != TwinBy::form) {
+            forms_.push_back(nullptr);
+            continue;
+        }
+        Study other = study;
+        other.twins.reset();
+        other.contact.form = kind.form;
+        forms_.push_back(std::make_shared<const Sampler>(other, record, vertical));
+    }
 }
 
-Realization Sampler::build(std::uint64_t index, const PointSet& points) const
+Realization Sampler::realization(std::uint64_t index) const
 {
     assert(index < study_.total() && "the index is one of the study's");
+    const Twin* twin = study_.twin(index);
+    if (twin == nullptr)
+        return build(index, points_);
+    const Sampler* form = forms_[static_cast<std::size_t>(twin - study_.twins->kinds.data())].get();
+    Realization realization = (form ? *form : *this).realization(study_.original(index));
+    realization.index = index;
+    if (twin->by == TwinBy::move)
+        move(*twin, realization);
+    if (twin->by == TwinBy::step)
+        realization.step_s *= twin->size;
+    return realization;
+}
+
+/// Last of all, so that nothing follows from it: contacts, dashpots and step stay as they are.
+void Sampler::move(const Twin& twin, Realization& realization) const
+{
+    const int moved = study_.twins->block;
+    realization.blocks[static_cast<std::size_t>(moved)].x_m += twin.size;
+    for (int j = 0; j < realization.beds(); ++j) {
+        const Joint& bed = realization.joints[static_cast<std::size_t>(j)];
+        if (bed.lower != moved && bed.upper != moved)
+            continue;
+        const Block& below = realization.blocks[static_cast<std::size_t>(bed.lower)];
+        const Block& above = realization.blocks[static_cast<std::size_t>(bed.upper)];
+        if (std::abs(above.x_m - below.x_m) >= above.half_width_m + below.half_width_m)
+            throw InputError(fmt::format("twins.moves_m: moved by {:g} m, {} of realization {} does not touch {} any "
+                                         "more. Move it less.",
+                                         twin.size, name(moved), study_.original(realization.index),
+                                         name(bed.lower == moved ? bed.upper : bed.lower)));
+    }
+}
+
+/// One that is no twin.
+Realization Sampler::build(std::uint64_t index, const PointSet& points) const
+{
     Realization realization;
     realization.index = index;
     realization.gravity_m_s2 = study_.structure.gravity_m_s2;

@@ -35,10 +35,11 @@ public:
     Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr,
             std::shared_ptr<const MotionSet> motions = nullptr);
 
-    /// @param index from 0 to study.total() - 1; in a surface it says the cell too
+    /// @param index from 0 to study.total() - 1; in a surface it says the cell too. A twin has all that its original
+    ///        has but what its kind says: moved, its step stays; in another form, it has that form's own step
     /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
     ///         that this is meant, or if what was drawn cannot be built: blocks that miss each other or overlap
-    Realization realization(std::uint64_t index) const { return build(index, points_); }
+    Realization realization(std::uint64_t index) const;
 
     /// Of a study of rare events: one whose uniform numbers are given, in any order that is always the same.
     /// @param numbers (size()) each in (0, 1)
@@ -79,6 +80,7 @@ private:
 
     void watch_pairs();
     Realization build(std::uint64_t index, const PointSet& points) const;
+    void move(const Twin& twin, Realization& realization) const;
     Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
     void stack(const Values& values, Realization& realization) const;
     void lay_epistyles(const Values& values, Realization& realization) const;
@@ -102,6 +104,7 @@ private:
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
     PointSet points_;
+    std::vector<std::shared_ptr<const Sampler>> forms_; ///< (kinds of twins) of another contact form, else null
     std::optional<Distribution> twin_; ///< of a fragility study with twins: how far a drum is from its twin's place
 };
 

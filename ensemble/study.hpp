@@ -245,6 +245,31 @@ struct RareSpec {
     std::uint64_t most() const { return repeats * samples * (most_levels + 1); }
 };
 
+/// What the twin of a realization differs in.
+enum class TwinBy {
+    move,      ///< the place of one drum
+    step,      ///< the time step
+    precision, ///< stepped in single precision
+    form       ///< the contact form
+};
+
+/// One kind of twin: the same realization in all draws, but for one thing.
+struct Twin {
+    TwinBy by = TwinBy::move;
+    double size = 0; ///< move: how far to the right [m]; step: times the realization's own
+    ContactForm form = ContactForm::area;
+    friend bool operator==(const Twin&, const Twin&) = default;
+};
+
+/// Twins of every realization of a surface: how sure a verdict is, and what decides it (ensemble/twins.hpp).
+struct TwinsSpec {
+    std::vector<Twin> kinds; ///< moves, then the step, the precision and the forms
+    int block = 0;           ///< the drum that is moved, in layout order
+    /// In each cell the pairs of the first so many realizations are followed step by step, those that are moved.
+    std::uint64_t followed = 8;
+    double tolerance = 0.01; ///< predictable as long as twins are closer than this part of the drums' width
+};
+
 /// What can be perturbed. The names in study files are the enumerators' names.
 enum class Quantity {
     friction,             ///< mu; per joint or structure
@@ -372,6 +397,7 @@ struct Study {
     std::optional<FragilitySpec> fragility;
     std::optional<SensitivitySpec> sensitivity;
     std::optional<RareSpec> rare;
+    std::optional<TwinsSpec> twins;          ///< of a surface
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -399,17 +425,27 @@ struct Study {
             return static_cast<std::uint64_t>(fragility->motions) * static_cast<std::uint64_t>(fragility->stripes());
         return 1;
     }
-    /// Realizations of the whole study.
+    /// Realizations that are nobody's twins.
+    std::uint64_t originals() const { return twins ? realizations * cells() : total(); }
+    /// Realizations of the whole study. Of a surface with twins: the originals, then all twins of the first kind in the
+    /// same order, and so on.
     std::uint64_t total() const
     {
         if (sensitivity)
             return sensitivity->total();
         if (rare)
             return rare->repeats * RareSpec::indices_of_repeat;
-        return realizations * cells();
+        return realizations * cells() * (1 + (twins ? twins->kinds.size() : 0));
+    }
+    /// The realization whose twin this one is; an original's own index.
+    std::uint64_t original(std::uint64_t index) const { return twins ? index % originals() : index; }
+    /// What makes it one; null of an original.
+    const Twin* twin(std::uint64_t index) const
+    {
+        return twins && index >= originals() ? &twins->kinds[index / originals() - 1] : nullptr;
     }
     /// The cell of a realization: frequency row x number of PGAs + PGA column, or motion x number of stripes + stripe.
-    std::uint64_t cell(std::uint64_t index) const { return surface || fragility ? index / realizations : 0; }
+    std::uint64_t cell(std::uint64_t index) const { return surface || fragility ? original(index) / realizations : 0; }
     /// The number of a factor of a sensitivity study, by its name among the inputs; -1: it is none.
     int factor(const std::string& name) const
     {

@@ -3,6 +3,7 @@
 #include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
+#include "io/result_twins.hpp"
 #include "io/tally_file.hpp"
 
 #include <algorithm>
@@ -188,6 +189,11 @@ SensitivityTable ResultReader::sensitivity() const
 RareTable ResultReader::rare() const
 {
     return impl_->guarded([](hid_t file) { return read_rare_table(file); });
+}
+
+std::vector<FollowedTwin> ResultReader::twins() const
+{
+    return impl_->guarded([](hid_t file) { return read_twins_group(file); });
 }
 
 std::vector<std::uint64_t> ResultReader::trajectory_indices() const

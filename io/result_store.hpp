@@ -1,6 +1,7 @@
 #pragma once
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
+#include "ensemble/followed_twin.hpp"
 #include "ensemble/interval.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/realization.hpp"
@@ -125,12 +126,13 @@ public:
     /// Takes a trajectory; it is kept in memory until `finish`, so a resumed run adds it again, also where it `has` the
     /// row.
     void add(const Trajectory& trajectory);
-    /// Writes the surface's table or that of the sensitivities or of a rare event, and the trajectories, and marks the
+    /// Writes the surface's table or that of the sensitivities or of a rare event, the twins that were followed,
+    /// and the trajectories, and marks the
     /// file complete, in one step: killed meanwhile, the file stays as it was. All rows must have been added; where
     /// they are selected, those that were added are all, and are put in index order. Needs the disk space of the file
     /// once more.
     void finish(const SurfaceTable* surface, const SensitivityTable* sensitivity = nullptr,
-                const RareTable* rare = nullptr);
+                const RareTable* rare = nullptr, const std::vector<FollowedTwin>* twins = nullptr);
     /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
@@ -169,6 +171,8 @@ public:
     SensitivityTable sensitivity() const;
     /// Empty if there is none.
     RareTable rare() const;
+    /// Twins that were followed, of a surface with twins that is complete.
+    std::vector<FollowedTwin> twins() const;
     std::vector<std::uint64_t> trajectory_indices() const;
     /// @throws InputError if there is none of this index
     Trajectory trajectory(std::uint64_t index) const;

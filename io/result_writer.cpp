@@ -3,6 +3,7 @@
 #include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
+#include "io/result_twins.hpp"
 
 #include <algorithm>
 #include <array>
@@ -302,7 +303,8 @@ void ResultWriter::flush()
     impl_->file.handle.sync();
 }
 
-void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity, const RareTable* rare)
+void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity, const RareTable* rare,
+                          const std::vector<FollowedTwin>* twins)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
@@ -329,6 +331,8 @@ void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* s
         write_sensitivity(opened.id(), *sensitivity);
     if (rare)
         write_rare(opened.id(), *rare);
+    if (twins)
+        write_twins(opened.id(), *twins);
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, trajectory] : impl_->trajectories)

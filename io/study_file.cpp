@@ -11,6 +11,7 @@
 #include "io/study_ranges.hpp"
 #include "io/study_sensitivity.hpp"
 #include "io/study_structure.hpp"
+#include "io/study_twins.hpp"
 
 #include <fmt/format.h>
 
@@ -194,8 +195,8 @@ RunSpec read_run(const KeyReader& keys)
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "fragility", "sensitivity", "rare",
-                    "perturbation", "mechanisms", "initial", "output", "outcome", "run",
+    top.allow_only({"study", "structure", "contact", "excitation", "surface", "twins", "fragility", "sensitivity",
+                    "rare", "perturbation", "mechanisms", "initial", "output", "outcome", "run",
                     "claim"}); // [claim] is for stylobate_claims, which reads it itself
 
     Study study;
@@ -265,6 +266,14 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.run = read_run(top.table("run"));
     if (study.run.precision == Precision::single)
         check_precision(top.table("run"), study);
+    if (top.has("twins")) {
+        study.twins = read_twins(top.table("twins"), study);
+        if (study.total() > most_realizations)
+            keys.refuse("realizations",
+                        fmt::format("and {} twins of each come to {}, more than {}", study.twins->kinds.size(),
+                                    study.total(), most_realizations),
+                        "Give fewer realizations, cells or twins.");
+    }
     return study;
 }
 

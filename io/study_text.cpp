@@ -324,6 +324,29 @@ void write(Writer& out, const FragilitySpec& f)
     out.line("periods_s", numbers(f.periods_s));
 }
 
+void write(Writer& out, const TwinsSpec& twins)
+{
+    out.section("twins");
+    std::vector<double> moves;
+    double step_ratio = 1;
+    bool precision = false, forms = false;
+    for (const Twin& kind : twins.kinds) {
+        if (kind.by == TwinBy::move)
+            moves.push_back(kind.size);
+        if (kind.by == TwinBy::step)
+            step_ratio = kind.size;
+        precision = precision || kind.by == TwinBy::precision;
+        forms = forms || kind.by == TwinBy::form;
+    }
+    out.line("moves_m", numbers(moves));
+    out.whole("block", static_cast<std::uint64_t>(twins.block));
+    out.number("step_ratio", step_ratio);
+    out.boolean("precision", precision);
+    out.boolean("forms", forms);
+    out.whole("followed", twins.followed);
+    out.number("tolerance", twins.tolerance);
+}
+
 } // namespace
 
 std::string study_text(const Study& study)
@@ -348,6 +371,8 @@ std::string study_text(const Study& study)
                                                {"half_width", toml_number(adaptive->half_width)},
                                                {"borrow", adaptive->borrow ? "true" : "false"}}));
     }
+    if (study.twins)
+        write(out, *study.twins);
     if (study.fragility)
         write(out, *study.fragility);
     if (const std::optional<SensitivitySpec>& sensitivity = study.sensitivity) {

@@ -14,6 +14,7 @@
 #include "studies/limit_state.hpp"
 #include "studies/output_path.hpp"
 #include "studies/result_picture.hpp"
+#include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,10 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
         order_picture(reader, results, wanted.cell, png);
     } else if (picture == "sensitivity") {
         plot_sensitivity(finished_sensitivity(reader, results), "What it depends on: " + name, png);
+    } else if (picture == "twins") {
+        plot_flips(twins_of(reader, results), "How sure the verdict is: " + name, png);
+    } else if (picture == "predictability") {
+        plot_growth(twins_of(reader, results), "How long the motion can be foretold: " + name, png);
     } else {
         if (!wanted.limit.empty() && std::find(limit_state_names().begin(), limit_state_names().end(), wanted.limit) ==
                                          limit_state_names().end())
@@ -97,6 +102,8 @@ fs::path export_csv(const std::string& results, const std::string& output)
     }
     if (reader.complete() && !reader.sensitivity().empty())
         write_sensitivity_csv(folder / "sensitivity.csv", reader.sensitivity());
+    if (has_twins(reader, results))
+        write_twins_csv(folder, twins_of(reader, results));
     for (const std::uint64_t index : reader.trajectory_indices())
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
     return folder;

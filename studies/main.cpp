@@ -169,8 +169,10 @@ int main(int argc, char** argv)
         ->check(CLI::IsMember({"csv", "png", "nrml", "json"}));
     exporting
         ->add_option("--picture", wanted.picture,
-                     "png: surface, slice, fragility, sensitivity, strip or order (default: by the kind of the study)")
-        ->check(CLI::IsMember({"surface", "slice", "fragility", "sensitivity", "strip", "order"}));
+                     "png: surface, slice, twins, predictability, fragility, sensitivity, strip or order (default: by "
+                     "the kind of the study)")
+        ->check(CLI::IsMember(
+            {"surface", "slice", "twins", "predictability", "fragility", "sensitivity", "strip", "order"}));
     exporting->add_option(
         "--limit", wanted.limit,
         "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "

@@ -14,6 +14,7 @@
 #include "studies/run_adaptive.hpp"
 #include "studies/run_rare.hpp"
 #include "studies/sensitivity.hpp"
+#include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>
 
@@ -86,7 +87,7 @@ public:
     ResultPage(const CommonOptions& options, const ResultReader& reader, const std::string& file,
                std::vector<std::string>& warnings)
         : options_(options), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
-          study_(parse_study(header_.study_toml, file + " (its study)")), rows_(reader.rows()),
+          study_(parse_study(header_.study_toml, file + " (its study)")), rows_(reported_rows(reader, file)),
           counts_(header_.block_names.size()), page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
           surface_(!header_.frequency_hz.empty())
     {
@@ -118,6 +119,8 @@ public:
         outcomes();
         if (surface_)
             cells();
+        if (has_twins(reader_, file_))
+            twins();
         if (header_.kind == "fragility")
             fragility();
         if (study_.sensitivity)
@@ -131,6 +134,12 @@ public:
     }
 
 private:
+    /// Of a replayed twin its own row.
+    static std::vector<ResultRow> reported_rows(const ResultReader& reader, const std::string& file)
+    {
+        return reader.header().kind == "replay" ? reader.rows() : original_rows(reader, file);
+    }
+
     static std::string subtitle(const ResultHeader& header)
     {
         return fmt::format("Kind of study: {}. Realizations: {}. Seed {}. Made by stylobate {}.", header.kind,
@@ -228,6 +237,21 @@ private:
                 picture("Curves with their 95 % bands; bars: shares of the stripes with their intervals.",
                         [&](const fs::path& png) { plot_fragility(f, {}, "Fragility", png); });
         });
+    }
+
+    void twins()
+    {
+        const Twins t = twins_of(reader_, file_);
+        twins_section(
+            t, page_,
+            [&] {
+                picture("How sure the verdict is: a map for each kind of twin, over it the probability of collapse.",
+                        [&](const fs::path& png) { plot_flips(t, "How sure the verdict is", png); });
+            },
+            [&] {
+                picture("Growth of the separation, and how long the motion can be foretold.",
+                        [&](const fs::path& png) { plot_growth(t, "How long the motion can be foretold", png); });
+            });
     }
 
     /// The probability of collapse in each cell.

@@ -53,6 +53,11 @@ std::string strip_title(const ResultReader& reader, const std::string& results, 
     return title;
 }
 
+Study study_of(const ResultReader& reader, const std::string& results)
+{
+    return parse_study(reader.header().study_toml, results + " (its study)");
+}
+
 } // namespace
 
 void check_complete(const ResultReader& reader, const std::string& results)
@@ -72,7 +77,21 @@ void check_replayable(const ResultHeader& header, const std::string& results)
 
 bool followed_to_rest(const ResultReader& reader, const std::string& results)
 {
-    return parse_study(reader.header().study_toml, results + " (its study)").outcome.follow == Follow::rest;
+    return study_of(reader, results).outcome.follow == Follow::rest;
+}
+
+bool has_twins(const ResultReader& reader, const std::string& results)
+{
+    return reader.complete() && !reader.header().frequency_hz.empty() && study_of(reader, results).twins.has_value();
+}
+
+std::vector<ResultRow> original_rows(const ResultReader& reader, const std::string& results)
+{
+    const Study study = study_of(reader, results);
+    std::vector<ResultRow> rows = reader.rows();
+    if (study.twins)
+        std::erase_if(rows, [&](const ResultRow& row) { return row.index >= study.originals(); });
+    return rows;
 }
 
 SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit)
@@ -91,7 +110,11 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
     if (const Tally* tally = reader.tally())
         return surface_of(header, *tally, limit);
     SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
-    reader.for_each_row([&](const ResultRow& row) { counts.add(row); });
+    const std::uint64_t originals = study_of(reader, results).originals();
+    reader.for_each_row([&](const ResultRow& row) {
+        if (row.index < originals)
+            counts.add(row);
+    });
     return counts.table();
 }
 
@@ -121,7 +144,7 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
             fmt::format("{}: keeps no rows of its realizations (output.realizations = \"none\"), and so not "
                         "when each block fell; which fell first is in counts.csv of 'export --to csv'",
                         results));
-    std::vector<ResultRow> rows = reader.rows();
+    std::vector<ResultRow> rows = original_rows(reader, results);
     std::string title = "Falls: " + fs::path(results).stem().string();
     const std::size_t np = header.pga_m_s2.size();
     const std::size_t cells = header.frequency_hz.size() * np;

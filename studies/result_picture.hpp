@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace stylobate {
 
@@ -19,6 +20,12 @@ void check_replayable(const ResultHeader& header, const std::string& results);
 
 /// Whether the realizations were followed beyond the first fall.
 bool followed_to_rest(const ResultReader& reader, const std::string& results);
+
+/// Whether the results are complete ones of a surface with twins.
+bool has_twins(const ResultReader& reader, const std::string& results);
+
+/// All rows but those of twins, which are no further trials.
+std::vector<ResultRow> original_rows(const ResultReader& reader, const std::string& results);
 
 /// The surface of the store, or that of another limit state from the rows.
 /// @throws InputError if there is none, if the run is not complete, or if the limit state was not followed

@@ -14,9 +14,11 @@
 #include "studies/run_adaptive.hpp"
 #include "studies/run_counted.hpp"
 #include "studies/run_rare.hpp"
+#include "studies/run_twins.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
+#include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -47,12 +49,15 @@ void check_realizations(const LoadedStudy& loaded)
     });
 }
 
-/// What is counted of the rows: cell by cell, and over all of them.
+/// What is counted of the rows: cell by cell, and over all of them. Twins are no further trials.
 struct Counts {
     SurfaceCounts cells;
     LimitCounts limits;
+    std::uint64_t originals;
     void add(const ResultRow& row)
     {
+        if (row.index >= originals)
+            return;
         cells.add(row);
         limits.add(row);
     }
@@ -211,6 +216,7 @@ struct Findings {
     const Fragility* fragility = nullptr;
     const SensitivityTable* sensitivity = nullptr;
     const RareTable* rare = nullptr;
+    const Twins* twins = nullptr;
 };
 
 /// @param found of a complete study
@@ -246,6 +252,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             json.member("sensitivity", sensitivity_json(*found.sensitivity));
         if (found.rare)
             json.member("rare", rare_json(*found.rare));
+        if (found.twins)
+            json.member("twins", twins_json(*found.twins));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
@@ -266,6 +274,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
         if (found.rare)
             for (const std::string& sentence : rare_sentences(*found.rare))
                 fmt::print("  {}\n", sentence);
+        if (found.twins)
+            fmt::print("{}", twins_text(*found.twins));
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
@@ -279,6 +289,8 @@ void demand_of_device(const Study& study, const std::string& file)
     };
     if (study.kind == StudyKind::single)
         refuse("is of kind \"single\", whose realizations are followed step by step on the processor");
+    if (study.twins)
+        refuse("has [twins], some of which are the processor's (run.precision)");
     if (study.run.precision == Precision::single)
         refuse("asks for run.precision = \"single\", which is the processor's");
 }
@@ -297,7 +309,8 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (!found) // else it has been done before the file was made
         check_realizations(loaded);
     const ResultHeader header = loaded.result_header();
-    Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size())};
+    Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size()),
+                  loaded.study().originals()};
     const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
@@ -311,6 +324,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     std::unique_ptr<ResultWriter> writer;
     Progress progress;
     std::optional<SurfaceTable> table;
+    std::vector<FollowedTwin> followed;
     bool complete = false;
     {
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
@@ -334,6 +348,13 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
             complete = ran.complete;
             if (complete)
                 rare = std::move(ran.table);
+        } else if (loaded.study().twins) {
+            TwinsRun ran = run_twins(loaded, run, *writer, sink, console);
+            progress = ran.progress;
+            followed = std::move(ran.followed);
+            complete = ran.complete;
+            if (complete)
+                table = counts.cells.table();
         } else if (adaptive) {
             AdaptiveRun ran = run_adaptive(loaded, run, outcomes, sink, console);
             progress = ran.progress;
@@ -351,17 +372,21 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (complete && sensitivity)
         indices = sensitivity->table();
     if (writer && complete)
-        writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr, rare ? &*rare : nullptr);
+        writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr, rare ? &*rare : nullptr,
+                       followed.empty() ? nullptr : &followed);
     else if (writer)
         writer->flush();
     writer.reset();
     Findings findings;
     std::optional<Fragility> fragility;
+    std::optional<Twins> twins;
     if (complete) {
+        if (loaded.study().twins)
+            twins = twins_of(ResultReader(results), results);
         if (loaded.study().fragility)
             fragility = fragility_of(ResultReader(results), results);
         findings = {adaptive && table ? &*table : nullptr, fragility ? &*fragility : nullptr,
-                    indices ? &*indices : nullptr, rare ? &*rare : nullptr};
+                    indices ? &*indices : nullptr, rare ? &*rare : nullptr, twins ? &*twins : nullptr};
     }
     report(options, loaded, results, progress, counts.limits, run, complete, findings);
     if (!complete)

@@ -1,6 +1,7 @@
 #include "studies/trajectory.hpp"
 
 #include "ensemble/lanes.hpp"
+#include "ensemble/twins.hpp"
 #include "studies/block_names.hpp"
 
 #include <cmath>
@@ -63,7 +64,8 @@ FollowedRealization follow(const LoadedStudy& loaded, std::uint64_t index, Isa i
     }
 
     constexpr int lane = 0;
-    LaneSet lanes(loaded.study(), loaded.record(), kernels(isa), r);
+    const Study stepped = stepped_as(loaded.study(), index);
+    LaneSet lanes(stepped, loaded.record(), kernels(isa), r);
     lanes.load(lane, r);
     Recorder recorder(t, lanes.motion(lane), loaded.study().output.trajectory_rate_hz, r.step_s);
     for (std::uint64_t n = 0; !lanes.outcome(lane); ++n) {

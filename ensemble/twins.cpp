@@ -1,0 +1,269 @@
+#include "ensemble/twins.hpp"
+
+#include "ensemble/lanes.hpp"
+#include "ensemble/scales.hpp"
+#include "ensemble/slope.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Where the free blocks were, look by look.
+class History {
+public:
+    explicit History(const Realization& r) : width_m_(scales_of(r).width_m)
+    {
+        for (std::size_t i = 0; i < r.blocks.size(); ++i)
+            if (!r.blocks[i].fixed)
+                free_.push_back(i);
+    }
+    void add(const Snapshot& s)
+    {
+        for (const std::size_t i : free_)
+            for (const double value : {s.x_m[i] / width_m_, s.y_m[i] / width_m_, s.theta_rad[i]})
+                values_.push_back(value);
+    }
+    std::size_t looks() const { return values_.size() / (3 * free_.size()); }
+
+    double separation(const Snapshot& twin, std::size_t look) const
+    {
+        double sum = 0;
+        visit(look, twin, [&](double d) { sum += d * d; });
+        return std::sqrt(sum);
+    }
+    /// How far the last look is from the first one.
+    double moved(const Snapshot& now) const
+    {
+        double most = 0;
+        visit(0, now, [&](double d) { most = std::max(most, std::fabs(d)); });
+        return most;
+    }
+
+private:
+    template <class F>
+    void visit(std::size_t look, const Snapshot& s, const F& f) const
+    {
+        const double* before = &values_[look * 3 * free_.size()];
+        for (const std::size_t i : free_) {
+            f(s.x_m[i] / width_m_ - before[0]);
+            f(s.y_m[i] / width_m_ - before[1]);
+            f(s.theta_rad[i] - before[2]);
+            before += 3;
+        }
+    }
+
+    double width_m_;
+    std::vector<std::size_t> free_;
+    std::vector<double> values_; ///< (looks x free blocks x 3)
+};
+
+/// One original and its moved twins, one after the other in the same lane.
+class Group {
+public:
+    Group(const Study& study, const Sampler& sampler, std::uint64_t original)
+        : study_(study), sampler_(sampler), original_(original), history_(sampler.realization(original))
+    {
+    }
+
+    /// Puts the original into the lane.
+    void begin(LaneSet& lanes, int lane)
+    {
+        lanes.load(lane, sampler_.realization(original_));
+        step_s_ = lanes.realization(lane).step_s;
+        shaking_s_ = lanes.motion(lane).duration_s();
+        history_.add(lanes.snapshot(lane));
+    }
+
+    /// After each chunk. @return false when all is done
+    bool look(LaneSet& lanes, int lane)
+    {
+        return kind_ < 0 ? look_at_original(lanes, lane) : look_at_twin(lanes, lane);
+    }
+
+    const std::vector<FollowedTwin>& pairs() const { return pairs_; }
+
+private:
+    double time(std::size_t look) const { return static_cast<double>(look * chunk_steps) * step_s_; }
+
+    bool look_at_original(LaneSet& lanes, int lane)
+    {
+        const Snapshot now = lanes.snapshot(lane);
+        if (left_at_ == 0 && history_.moved(now) > left_place)
+            left_at_ = history_.looks();
+        history_.add(now);
+        if (!lanes.outcome(lane))
+            return true;
+        return lanes.outcome(lane)->state != State::invalid && next(lanes, lane);
+    }
+
+    /// The next moved twin, if there is one. One that begins beyond the tolerance is done at once.
+    bool next(LaneSet& lanes, int lane)
+    {
+        const std::vector<Twin>& kinds = study_.twins->kinds;
+        while (++kind_ < static_cast<int>(kinds.size())) {
+            if (kinds[static_cast<std::size_t>(kind_)].by != TwinBy::move)
+                continue;
+            lanes.load(lane,
+                       sampler_.realization(original_ + (static_cast<std::uint64_t>(kind_) + 1) * study_.originals()));
+            look_ = 0;
+            growth_ = Slope();
+            FollowedTwin pair;
+            pair.original = original_;
+            pair.kind = static_cast<std::uint64_t>(kind_);
+            pair.start = history_.separation(lanes.snapshot(lane), 0);
+            pair.original_end_s = time(history_.looks() - 1);
+            pair.exponent_per_s = nan;
+            pair.horizon_s = pair.start < study_.twins->tolerance ? nan : 0;
+            pairs_.push_back(pair);
+            if (std::isnan(pair.horizon_s))
+                return true;
+        }
+        return false;
+    }
+
+    bool look_at_twin(LaneSet& lanes, int lane)
+    {
+        FollowedTwin& pair = pairs_.back();
+        const double s = history_.separation(lanes.snapshot(lane), ++look_);
+        pair.followed_s = time(look_);
+        if (s < study_.twins->tolerance) {
+            if (left_at_ > 0 && look_ >= left_at_ && time(look_) <= shaking_s_ && s > 0)
+                growth_.add(time(look_), std::log(s));
+            if (look_ + 1 < history_.looks() && !lanes.outcome(lane))
+                return true;
+        } else {
+            pair.horizon_s = time(look_);
+        }
+        pair.exponent_per_s = growth_.count() < least_looks ? nan : growth_.value();
+        return next(lanes, lane);
+    }
+
+    const Study& study_;
+    const Sampler& sampler_;
+    const std::uint64_t original_;
+    History history_;
+    std::size_t left_at_ = 0; ///< look at which the original had left its place; 0: never
+    double step_s_ = 0, shaking_s_ = 0;
+    int kind_ = -1; ///< of the twin that is followed; -1: the original
+    std::size_t look_ = 0;
+    Slope growth_;
+    std::vector<FollowedTwin> pairs_;
+};
+
+} // namespace
+
+Study stepped_as(const Study& study, std::uint64_t index)
+{
+    Study stepped = study;
+    if (const Twin* twin = study.twin(index); twin && twin->by == TwinBy::precision)
+        stepped.run.precision = Precision::single;
+    return stepped;
+}
+
+std::vector<TwinRange> twin_ranges(const Study& study)
+{
+    std::vector<TwinRange> ranges;
+    const std::uint64_t n = study.originals();
+    for (std::uint64_t begin = 0; begin < study.total(); begin += n) {
+        const Twin* twin = study.twin(begin);
+        // moves and steps go with the originals
+        if (twin == nullptr || twin->by == TwinBy::precision || twin->by == TwinBy::form)
+            ranges.push_back({begin, begin, stepped_as(study, begin)});
+        ranges.back().end = begin + n;
+    }
+    return ranges;
+}
+
+std::uint64_t followed_originals(const Study& study)
+{
+    const bool moves = std::any_of(study.twins->kinds.begin(), study.twins->kinds.end(),
+                                   [](const Twin& kind) { return kind.by == TwinBy::move; });
+    return moves ? study.cells() * std::min(study.twins->followed, study.realizations) : 0;
+}
+
+std::vector<FollowedTwin> follow_twins(const Study& study, const Sampler& sampler, const Motion* record,
+                                       const RunOptions& options, Observer& observer)
+{
+    const std::uint64_t all = followed_originals(study), of_cell = all / study.cells();
+    std::vector<std::vector<FollowedTwin>> pairs(all);
+    if (all == 0)
+        return {};
+    const Realization pattern = sampler.realization(0);
+    std::atomic<std::uint64_t> next = 0;
+    std::atomic<bool> stopped = false;
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    std::mutex mutex; ///< of what follows
+    Progress progress;
+    progress.total = all;
+    double next_report_s = 0;
+    const auto report = [&](bool last) {
+        progress.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!last && progress.seconds < next_report_s)
+            return;
+        next_report_s = progress.seconds + 0.1;
+        progress.rate = static_cast<double>(progress.done) / progress.seconds;
+        observer.progress(progress);
+        if (observer.stop_requested())
+            stopped = true;
+    };
+
+    const auto work = [&](int) {
+        LaneSet lanes(study, record, kernels(options.isa), pattern);
+        std::vector<std::unique_ptr<Group>> groups(static_cast<std::size_t>(lanes.lanes()));
+        std::vector<std::uint64_t> task(groups.size());
+        const auto refill = [&](int lane) {
+            const auto i = static_cast<std::size_t>(lane);
+            groups[i].reset();
+            lanes.clear(lane);
+            task[i] = next++;
+            if (task[i] >= all)
+                return;
+            const std::uint64_t original = task[i] / of_cell * study.realizations + task[i] % of_cell;
+            groups[i] = std::make_unique<Group>(study, sampler, original);
+            groups[i]->begin(lanes, lane);
+        };
+        for (int lane = 0; lane < lanes.lanes(); ++lane)
+            refill(lane);
+        while (lanes.active() > 0 && !stopped) {
+            lanes.advance();
+            for (int lane = 0; lane < lanes.lanes(); ++lane) {
+                const auto i = static_cast<std::size_t>(lane);
+                if (groups[i] == nullptr || groups[i]->look(lanes, lane))
+                    continue;
+                pairs[task[i]] = groups[i]->pairs();
+                refill(lane);
+                const std::lock_guard lock(mutex);
+                ++progress.done;
+            }
+            if (const std::unique_lock lock(mutex, std::try_to_lock); lock.owns_lock())
+                report(false);
+        }
+    };
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(options.threads));
+    tbb::task_arena arena(options.threads);
+    arena.execute([&] { tbb::parallel_for(0, options.threads, work, tbb::simple_partitioner()); });
+    report(true);
+
+    std::vector<FollowedTwin> joined;
+    for (const std::vector<FollowedTwin>& of : pairs)
+        joined.insert(joined.end(), of.begin(), of.end());
+    return joined;
+}
+
+} // namespace stylobate

@@ -1,0 +1,38 @@
+#pragma once
+/// A picture of several maps over the same frequencies and PGAs, one beside the other.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// One colour for all values from `from` up to the next one's.
+struct MapClass {
+    double from = 0;
+    std::string colour; ///< "#rrggbb"
+    std::string name;
+};
+
+struct MapPanel {
+    std::string title;
+    std::vector<double> value;     ///< (nf x np), frequency by frequency; NaN: grey
+    std::vector<MapClass> classes; ///< ascending; empty: a continuous scale with its own box of colours
+    double low = 0, high = 1;      ///< of the continuous scale; values beyond take the colour of its end
+};
+
+struct MapPicture {
+    std::string title, subtitle;
+    std::vector<double> frequency_hz, pga_m_s2;
+    std::vector<MapPanel> panels;
+    int columns = 2;
+    std::vector<double>
+        line;        ///< (nf x np), of which the lines at 0.05, 0.5 and 0.95 are drawn over every map; or empty
+    std::string key; ///< said of grey cells and lines, below the maps
+};
+
+/// The classes of the first panel that has any are explained below the maps.
+/// @throws InputError if the axes are not such, if gnuplot is missing or fails, or if the picture cannot be written
+void plot_maps(const MapPicture& picture, const std::filesystem::path& png);
+
+} // namespace stylobate

@@ -1,0 +1,14 @@
+#pragma once
+/// The [twins] of a study file.
+
+#include "ensemble/study.hpp"
+#include "io/key_reader.hpp"
+
+namespace stylobate {
+
+/// @param keys  the table [twins]
+/// @param study all else of it
+/// @throws InputError naming the key
+TwinsSpec read_twins(const KeyReader& keys, const Study& study);
+
+} // namespace stylobate

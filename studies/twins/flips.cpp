@@ -1,0 +1,97 @@
+#include "studies/twins/flips.hpp"
+
+#include "ensemble/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double level = 0.95;
+constexpr double two_sided = 1.959963984540054; ///< of the normal distribution at this level
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// With n pairs, a and b collapsed: all n^2 comparisons less those within a pair.
+double independent_share(const PairCounts& c)
+{
+    const auto n = static_cast<double>(c.trials()), a = static_cast<double>(c.original + c.both),
+               b = static_cast<double>(c.twin + c.both);
+    return n < 2 ? nan : (a * (n - b) + (n - a) * b - static_cast<double>(c.flips())) / (n * (n - 1));
+}
+
+} // namespace
+
+Sureness sureness(double flip_probability)
+{
+    return flip_probability < certain_below      ? Sureness::certain
+           : flip_probability <= coin_flip_above ? Sureness::probable
+                                                 : Sureness::coin_flip;
+}
+
+FlipShare flip_share(const PairCounts& counts)
+{
+    FlipShare share;
+    share.trials = counts.trials();
+    share.flips = counts.flips();
+    share.probability = share.trials > 0 ? static_cast<double>(share.flips) / static_cast<double>(share.trials) : nan;
+    const BinomialInterval interval = jeffreys(share.trials, share.flips, level);
+    share.lower = interval.lower;
+    share.upper = interval.upper;
+    share.independent = independent_share(counts);
+    return share;
+}
+
+FlipRatio flip_ratio(const std::vector<PairCounts>& cells)
+{
+    PairCounts all;
+    double pairs = 0, independent = 0;
+    for (const PairCounts& c : cells)
+        if (c.trials() >= 2) {
+            all.neither += c.neither;
+            all.original += c.original;
+            all.twin += c.twin;
+            all.both += c.both;
+            const auto n = static_cast<double>(c.trials());
+            pairs += n;
+            independent += n * independent_share(c);
+        }
+    FlipRatio ratio;
+    ratio.all = flip_share(all);
+    ratio.all.independent = pairs > 0 ? independent / pairs : nan;
+    const double flips = static_cast<double>(all.flips());
+    ratio.ratio = independent > 0 ? flips / independent : nan;
+    ratio.lower = ratio.upper = ratio.ratio;
+    if (!(independent > 0))
+        return ratio;
+    if (all.flips() == 0) { // nothing to take a variance of
+        ratio.upper = ratio.all.upper / ratio.all.independent;
+        return ratio;
+    }
+    // What a pair adds to flips - ratio x independent: the latter by Hajek's projection, pair i against all others
+    double variance = 0;
+    for (const PairCounts& c : cells) {
+        if (c.trials() < 2)
+            continue;
+        const auto n = static_cast<double>(c.trials());
+        const double a = static_cast<double>(c.original + c.both) / n, b = static_cast<double>(c.twin + c.both) / n;
+        const std::array<double, 4> count = {static_cast<double>(c.neither), static_cast<double>(c.original),
+                                             static_cast<double>(c.twin), static_cast<double>(c.both)};
+        const std::array<double, 4> adds = {-ratio.ratio * (a + b), 1 - ratio.ratio * (1 - b + a),
+                                            1 - ratio.ratio * (b + 1 - a), -ratio.ratio * (2 - a - b)};
+        double sum = 0, squares = 0;
+        for (std::size_t k = 0; k < count.size(); ++k) {
+            sum += count[k] * adds[k];
+            squares += count[k] * adds[k] * adds[k];
+        }
+        variance += std::max(0.0, squares - sum * sum / n) * n / (n - 1);
+    }
+    const double half = two_sided * std::sqrt(variance) / independent;
+    ratio.lower = std::max(0.0, ratio.ratio - half);
+    ratio.upper = ratio.ratio + half;
+    return ratio;
+}
+
+} // namespace stylobate

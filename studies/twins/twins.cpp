@@ -1,0 +1,172 @@
+#include "studies/twins/twins.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/study_file.hpp"
+#include "io/study_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void count_flips(const Study& study, const std::vector<ResultRow>& rows, Twins& out)
+{
+    const std::uint64_t n = study.originals();
+    const auto cells = static_cast<std::size_t>(study.cells());
+    std::vector<std::vector<PairCounts>> counts(out.kinds.size(), std::vector<PairCounts>(cells));
+    std::vector<std::uint64_t> valid(cells), collapsed(cells);
+    for (const ResultRow& row : rows) {
+        const State twin = row.outcome.state, original = rows[row.index % n].outcome.state;
+        if (row.index < n) {
+            valid[row.cell] += twin != State::invalid;
+            collapsed[row.cell] += twin == State::collapsed;
+            continue;
+        }
+        if (twin == State::invalid || original == State::invalid) {
+            ++out.invalid_pairs;
+            continue;
+        }
+        PairCounts& c = counts[row.index / n - 1][row.cell];
+        const bool fell = original == State::collapsed, twin_fell = twin == State::collapsed;
+        ++(fell && twin_fell ? c.both : fell ? c.original : twin_fell ? c.twin : c.neither);
+    }
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        out.probability.push_back(
+            valid[cell] > 0 ? static_cast<double>(collapsed[cell]) / static_cast<double>(valid[cell]) : nan);
+    for (std::size_t k = 0; k < out.kinds.size(); ++k) {
+        TwinFlips& kind = out.kinds[k];
+        kind.all = flip_ratio(counts[k]);
+        for (const PairCounts& c : counts[k]) {
+            const FlipShare share = flip_share(c);
+            kind.cells.push_back(share);
+            if (share.trials == 0)
+                continue;
+            const auto place = static_cast<std::size_t>(sureness(share.probability));
+            ++kind.classes[place];
+            kind.resolved[place] += share.resolved();
+        }
+    }
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        std::size_t k = 0;
+        while (k < out.moves && !(out.kinds[k].cells[cell].probability >= certain_below))
+            ++k;
+        out.lost_at.push_back(k);
+    }
+}
+
+double median(std::vector<double> values)
+{
+    return median_of(std::move(values)).value;
+}
+
+TwinGrowth growth_of(const Study& study, std::size_t kind, const std::vector<FollowedTwin>& pairs)
+{
+    TwinGrowth growth;
+    growth.kind = kind;
+    const auto cells = static_cast<std::size_t>(study.cells());
+    std::vector<std::vector<double>> exponents(cells), horizons(cells);
+    std::vector<double> starts, all_exponents, all_horizons;
+    growth.lost.resize(cells);
+    for (const FollowedTwin& pair : pairs)
+        if (pair.kind == kind) {
+            const auto cell = static_cast<std::size_t>(study.cell(pair.original));
+            const bool lost = !std::isnan(pair.horizon_s);
+            const double horizon = lost ? pair.horizon_s : infinity;
+            ++growth.pairs;
+            growth.pairs_lost += lost;
+            growth.lost[cell] += lost;
+            starts.push_back(pair.start);
+            exponents[cell].push_back(pair.exponent_per_s);
+            horizons[cell].push_back(horizon);
+            if (!std::isnan(pair.exponent_per_s))
+                all_exponents.push_back(pair.exponent_per_s);
+            all_horizons.push_back(horizon);
+        }
+    growth.start = median(starts);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        growth.exponent_per_s.push_back(mean_of(exponents[cell]));
+        growth.horizon_s.push_back(median_of(horizons[cell]));
+    }
+    growth.all_exponents_per_s = median_of(all_exponents);
+    growth.all_horizons_s = median_of(all_horizons);
+    return growth;
+}
+
+/// Horizons of one kind against those of the next one.
+void add_gain(const std::vector<Twin>& kinds, std::size_t next, const std::vector<FollowedTwin>& pairs,
+              TwinGrowth& growth)
+{
+    std::map<std::uint64_t, double> of_next;
+    for (const FollowedTwin& pair : pairs)
+        if (pair.kind == next)
+            of_next.emplace(pair.original, pair.horizon_s);
+    std::vector<double> gains;
+    for (const FollowedTwin& pair : pairs)
+        if (pair.kind == growth.kind)
+            if (const auto found = of_next.find(pair.original); found != of_next.end())
+                gains.push_back(pair.horizon_s - found->second); // NaN unless both came apart
+    growth.gained_s = mean_of(gains);
+    growth.gained_exponent_per_s = std::log(kinds[next].size / kinds[growth.kind].size) / growth.gained_s.value;
+}
+
+} // namespace
+
+std::string describe(const Twin& kind)
+{
+    switch (kind.by) {
+    case TwinBy::move:
+        return fmt::format("moved by {:g} m", kind.size);
+    case TwinBy::step:
+        return fmt::format("step x {:g}", kind.size);
+    case TwinBy::precision:
+        return "single precision";
+    case TwinBy::form:
+        return fmt::format("form {}", word_for(contact_form_names, kind.form));
+    }
+    return {};
+}
+
+Twins twins_of(const ResultReader& results, const std::string& file)
+{
+    const Study study = parse_study(results.header().study_toml, file + " (its study)");
+    if (!study.twins || results.header().frequency_hz.empty())
+        throw InputError(fmt::format("{}: its study has no twins. Run it with a table [twins].", file));
+    if (!results.complete())
+        throw InputError(fmt::format("{}: the run is not complete; run the same study again to continue it", file));
+    Twins out;
+    out.frequency_hz = results.header().frequency_hz;
+    out.pga_m_s2 = results.header().pga_m_s2;
+    out.realizations = study.realizations;
+    out.followed = study.twins->followed;
+    out.tolerance = study.twins->tolerance;
+    for (const Twin& kind : study.twins->kinds) {
+        out.kinds.push_back({kind, describe(kind), {}, {}, {}, {}});
+        out.moves += kind.by == TwinBy::move;
+    }
+    count_flips(study, results.rows(), out);
+    const std::vector<FollowedTwin> pairs = results.twins();
+    for (std::size_t k = 0; k < out.moves; ++k) {
+        const bool begins_beyond = std::all_of(pairs.begin(), pairs.end(), [&](const FollowedTwin& pair) {
+            return pair.kind != k || pair.start >= out.tolerance;
+        });
+        if (!begins_beyond)
+            out.growth.push_back(growth_of(study, k, pairs));
+    }
+    for (std::size_t i = 0; i < out.growth.size(); ++i) {
+        out.growth[i].gained_exponent_per_s = nan;
+        if (i + 1 < out.growth.size())
+            add_gain(study.twins->kinds, out.growth[i + 1].kind, pairs, out.growth[i]);
+    }
+    return out;
+}
+
+} // namespace stylobate

@@ -1,0 +1,63 @@
+#pragma once
+/// What a surface with twins says: how sure the verdict of each cell is, what decides it, and how long it can be
+/// foretold. Flips are computed from the rows of the results whenever they are asked for.
+
+#include "ensemble/study.hpp"
+#include "io/result_store.hpp"
+#include "studies/twins/flips.hpp"
+#include "studies/twins/growth.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// One kind of twin over the surface.
+struct TwinFlips {
+    Twin kind;
+    std::string name;             ///< "moved by 1e-12 m"
+    std::vector<FlipShare> cells; ///< (nf x np)
+    FlipRatio all;
+    std::array<std::uint64_t, 3> classes{};  ///< cells by `Sureness`, those without a pair not counted
+    std::array<std::uint64_t, 3> resolved{}; ///< of these so many whose interval says the same
+};
+
+/// How the separation of twins of one kind grows.
+struct TwinGrowth {
+    std::size_t kind = 0;                  ///< in `Twins::kinds`
+    double start = 0;                      ///< separation at rest, median
+    std::vector<Estimated> exponent_per_s; ///< (nf x np) mean
+    std::vector<Estimated> horizon_s;      ///< (nf x np) median; infinite: not lost
+    std::vector<std::uint64_t> lost;       ///< (nf x np) pairs that came apart by the tolerance
+    std::uint64_t pairs = 0, pairs_lost = 0;
+    Estimated all_exponents_per_s; ///< median over the pairs of all cells
+    Estimated all_horizons_s;      ///< the same, of the horizon
+    /// How much longer than that of the next kind, a greater move, the horizon is: mean over the realizations in which
+    /// both came apart; ln of the ratio of the moves over it is the exponent once more, without any window in time.
+    Estimated gained_s;
+    double gained_exponent_per_s = 0; ///< NaN for the greatest move
+};
+
+struct Twins {
+    std::vector<double> frequency_hz, pga_m_s2;
+    std::uint64_t realizations = 0; ///< originals of each cell
+    std::uint64_t followed = 0;     ///< of these
+    double tolerance = 0;
+    std::vector<double> probability; ///< (nf x np) of collapse, of the originals; NaN without a valid one
+    std::vector<TwinFlips> kinds;
+    std::vector<TwinGrowth> growth;  ///< of the moves that begin below the tolerance
+    std::uint64_t invalid_pairs = 0; ///< with an invalid member: left out
+    /// (nf x np) number of the smallest move at which the verdict is not certain; as many as there are moves: none.
+    std::vector<std::size_t> lost_at;
+    std::size_t moves = 0; ///< the first so many kinds
+};
+
+/// @throws InputError if the study of the results has no twins, or if the run is not complete
+Twins twins_of(const ResultReader& results, const std::string& file);
+
+/// "moved by 1e-09 m", "step x 0.8", "single precision", "form two_corner"
+std::string describe(const Twin& kind);
+
+} // namespace stylobate

@@ -1,0 +1,231 @@
+#include "studies/twins/twins_text.hpp"
+
+#include "io/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::isnan(value) ? "–" : value > 0 ? "∞" : "-∞";
+}
+
+std::string percent(double share)
+{
+    return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "–";
+}
+
+std::string interval(double lower, double upper)
+{
+    return fmt::format("{} to {}", number(lower), number(upper));
+}
+
+std::string interval(const Estimated& e)
+{
+    return interval(e.lower, e.upper);
+}
+
+std::string percents(double lower, double upper)
+{
+    return fmt::format("{:.2g} to {:.2g} %", 100 * lower, 100 * upper);
+}
+
+/// The smallest move at which the verdict of a cell is not certain, and in how many cells it is that one.
+std::string lost_text(const Twins& twins)
+{
+    std::string text;
+    for (std::size_t k = 0; k <= twins.moves; ++k) {
+        const auto cells = std::count(twins.lost_at.begin(), twins.lost_at.end(), k);
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                            k < twins.moves ? fmt::format("{:g} m", twins.kinds[k].kind.size) : "none", cells);
+    }
+    return text;
+}
+
+/// In words, what the growth says of one move.
+std::string growth_sentence(const Twins& twins, const TwinGrowth& growth)
+{
+    std::string text = fmt::format("{}: {} of {} pairs come apart; median growth {}/s ({}), median horizon {} s ({})",
+                                   twins.kinds[growth.kind].name, growth.pairs_lost, growth.pairs,
+                                   number(growth.all_exponents_per_s.value), interval(growth.all_exponents_per_s),
+                                   number(growth.all_horizons_s.value), interval(growth.all_horizons_s));
+    if (growth.gained_s.count > 0)
+        text +=
+            fmt::format("; {} s ({}) longer than that of the next move where both come apart, {}/s",
+                        number(growth.gained_s.value), interval(growth.gained_s), number(growth.gained_exponent_per_s));
+    return text;
+}
+
+Json estimated_json(const Estimated& e)
+{
+    return Json::object()
+        .member("count", e.count)
+        .member("value", e.value)
+        .member("lower", e.lower)
+        .member("upper", e.upper);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text)
+{
+    AtomicFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+std::string cell_columns(const Twins& twins, std::size_t cell)
+{
+    const std::size_t np = twins.pga_m_s2.size();
+    return fmt::format("{},{},{},{}", cell, twins.frequency_hz[cell / np], twins.pga_m_s2[cell % np],
+                       twins.probability[cell]);
+}
+
+} // namespace
+
+std::string twins_text(const Twins& twins)
+{
+    std::string text = fmt::format("  twins that differ in their verdict (95 % intervals); of what independent "
+                                   "realizations do; cells that are {} / {} / {}\n",
+                                   sureness_names[0], sureness_names[1], sureness_names[2]);
+    for (const TwinFlips& kind : twins.kinds)
+        text +=
+            fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {}\n", kind.name, kind.all.all.flips,
+                        kind.all.all.trials, percent(kind.all.all.probability),
+                        percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
+                        interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2]);
+    text += fmt::format("  smallest move at which the verdict is not certain, and cells: {}\n", lost_text(twins));
+    for (const TwinGrowth& growth : twins.growth)
+        text += fmt::format("  {}\n", growth_sentence(twins, growth));
+    if (twins.invalid_pairs > 0)
+        text += fmt::format("  {} pairs with an invalid member are left out\n", twins.invalid_pairs);
+    return text;
+}
+
+Json twins_json(const Twins& twins)
+{
+    Json kinds = Json::list();
+    for (const TwinFlips& kind : twins.kinds) {
+        Json cells = Json::object(), resolved = Json::object();
+        for (std::size_t i = 0; i < sureness_names.size(); ++i) {
+            cells.member(sureness_names[i], kind.classes[i]);
+            resolved.member(sureness_names[i], kind.resolved[i]);
+        }
+        kinds.item(Json::object()
+                       .member("name", kind.name)
+                       .member("pairs", kind.all.all.trials)
+                       .member("flips", kind.all.all.flips)
+                       .member("probability", kind.all.all.probability)
+                       .member("lower", kind.all.all.lower)
+                       .member("upper", kind.all.all.upper)
+                       .member("independent", kind.all.all.independent)
+                       .member("ratio", kind.all.ratio)
+                       .member("ratio_lower", kind.all.lower)
+                       .member("ratio_upper", kind.all.upper)
+                       .member("cells", cells)
+                       .member("cells_resolved", resolved));
+    }
+    Json lost_at = Json::list();
+    for (std::size_t k = 0; k <= twins.moves; ++k) {
+        Json lost = Json::object();
+        lost.member("move_m", k < twins.moves ? twins.kinds[k].kind.size : std::nan(""))
+            .member("cells", std::count(twins.lost_at.begin(), twins.lost_at.end(), k));
+        lost_at.item(lost);
+    }
+    Json growths = Json::list();
+    for (const TwinGrowth& growth : twins.growth)
+        growths.item(Json::object()
+                         .member("name", twins.kinds[growth.kind].name)
+                         .member("start", growth.start)
+                         .member("pairs", growth.pairs)
+                         .member("pairs_lost", growth.pairs_lost)
+                         .member("median_exponent_per_s", estimated_json(growth.all_exponents_per_s))
+                         .member("median_horizon_s", estimated_json(growth.all_horizons_s))
+                         .member("gained_s", estimated_json(growth.gained_s))
+                         .member("gained_exponent_per_s", growth.gained_exponent_per_s));
+    return Json::object()
+        .member("tolerance", twins.tolerance)
+        .member("invalid_pairs", twins.invalid_pairs)
+        .member("kinds", kinds)
+        .member("lost_at", lost_at)
+        .member("growth", growths);
+}
+
+void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& flips,
+                   const std::function<void()>& growth)
+{
+    page.section("How sure the verdict is");
+    page.paragraph(fmt::format(
+        "Each of the {} realizations of a cell was run again as its own twin: the same in all that was drawn, but for "
+        "one thing. A verdict (collapsed or not) is certain where fewer than {:g} % of the twins have another one, and "
+        "a coin flip where more than {:g} % have: two tosses of a fair coin differ in 50 %.",
+        twins.realizations, 100 * certain_below, 100 * coin_flip_above));
+    flips();
+    HtmlTable table{"lrrrrrrrr",
+                    {"twin", "differ", "share", "95 %", "of independent", "95 %", "certain", "probable", "coin flip"},
+                    {},
+                    "Pairs over all cells, and cells by class"};
+    for (const TwinFlips& kind : twins.kinds)
+        table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.flips, kind.all.all.trials),
+                              percent(kind.all.all.probability), percents(kind.all.all.lower, kind.all.all.upper),
+                              number(kind.all.ratio), interval(kind.all.lower, kind.all.upper),
+                              fmt::format("{} ({})", kind.classes[0], kind.resolved[0]),
+                              fmt::format("{} ({})", kind.classes[1], kind.resolved[1]),
+                              fmt::format("{} ({})", kind.classes[2], kind.resolved[2])});
+    page.table(table);
+    page.note("Of independent: the share that differs over that of two realizations that have nothing but the cell in "
+              "common: how much of the verdict's variance in a cell is decided by what twins do not share. In "
+              "brackets: cells whose 95 % interval lies within the class.");
+    page.paragraph(fmt::format("The smallest move at which the verdict is not certain, and in how many cells: {}.",
+                               lost_text(twins)));
+    if (twins.invalid_pairs > 0)
+        page.note(fmt::format("{} pairs with an invalid member are left out.", twins.invalid_pairs));
+    if (twins.growth.empty())
+        return;
+    page.heading("How long the motion can be foretold");
+    growth();
+    std::vector<Html> items;
+    for (const TwinGrowth& each : twins.growth)
+        items.emplace_back(growth_sentence(twins, each) + ".");
+    page.list(items);
+    page.note(fmt::format(
+        "{} pairs of each cell were followed. Growth: slope of the logarithm of the separation over time, from when "
+        "the original has left its place. Horizon: until twins are {:g} % of a drum's width apart (or as many "
+        "radians); a pair that ends before counts as one that never comes apart. Medians over all pairs with the "
+        "interval of order statistics.",
+        twins.followed, 100 * twins.tolerance));
+}
+
+void write_twins_csv(const std::filesystem::path& folder, const Twins& twins)
+{
+    std::string flips = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,pairs,flips,probability,lower,upper,"
+                        "independent,class,resolved\n";
+    for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
+        for (const TwinFlips& kind : twins.kinds) {
+            const FlipShare& s = kind.cells[cell];
+            flips += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell_columns(twins, cell), kind.name, s.trials,
+                                 s.flips, s.probability, s.lower, s.upper, s.independent,
+                                 s.trials > 0 ? sureness_names[static_cast<std::size_t>(sureness(s.probability))] : "",
+                                 s.resolved() ? 1 : 0);
+        }
+    write_file(folder / "twins.csv", flips);
+    if (twins.growth.empty())
+        return;
+    std::string growth = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,lost,exponents,exponent_per_s,"
+                         "exponent_lower,exponent_upper,horizons,horizon_s,horizon_lower_s,horizon_upper_s\n";
+    for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
+        for (const TwinGrowth& each : twins.growth) {
+            const Estimated& e = each.exponent_per_s[cell];
+            const Estimated& h = each.horizon_s[cell];
+            growth += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", cell_columns(twins, cell),
+                                  twins.kinds[each.kind].name, each.lost[cell], e.count, e.value, e.lower, e.upper,
+                                  h.count, h.value, h.lower, h.upper);
+        }
+    write_file(folder / "predictability.csv", growth);
+}
+
+} // namespace stylobate

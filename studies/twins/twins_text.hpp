@@ -1,0 +1,31 @@
+#pragma once
+/// A surface with twins in words, as JSON, as a section of a page, as tables and as pictures.
+
+#include "studies/html.hpp"
+#include "studies/json.hpp"
+#include "studies/twins/twins.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace stylobate {
+
+/// Lines for a terminal.
+std::string twins_text(const Twins& twins);
+Json twins_json(const Twins& twins);
+
+/// The section of a result's page. @param flips, growth put these pictures into the page
+void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& flips,
+                   const std::function<void()>& growth);
+
+/// `twins.csv`: each cell and kind; `predictability.csv`: each cell and followed move.
+/// @throws InputError if they cannot be written
+void write_twins_csv(const std::filesystem::path& folder, const Twins& twins);
+
+/// How sure the verdict is, a map for each kind of twin.
+void plot_flips(const Twins& twins, const std::string& title, const std::filesystem::path& png);
+/// Exponents and horizons. @throws InputError if no pair was followed
+void plot_growth(const Twins& twins, const std::string& title, const std::filesystem::path& png);
+
+} // namespace stylobate
