@@ -113,7 +113,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
                                   "set label {} at screen {}, screen 0.058 left font ',17'\n",
                                   c + 1, at, at + 0.02, panel.classes[c].colour, gnuplot_text(panel.classes[c].name),
                                   at + 0.026);
-            at += 0.045 + 0.0088 * static_cast<double>(panel.classes[c].name.size());
+            at += 0.045 + 0.0078 * static_cast<double>(panel.classes[c].name.size());
         }
         break;
     }

@@ -87,7 +87,7 @@ public:
     ResultPage(const CommonOptions& options, const ResultReader& reader, const std::string& file,
                std::vector<std::string>& warnings)
         : options_(options), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
-          study_(parse_study(header_.study_toml, file + " (its study)")), rows_(reported_rows(reader, file)),
+          study_(parse_study(header_.study_toml, file + " (its study)")), rows_(original_rows(reader, file)),
           counts_(header_.block_names.size()), page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
           surface_(!header_.frequency_hz.empty())
     {
@@ -134,12 +134,6 @@ public:
     }
 
 private:
-    /// Of a replayed twin its own row.
-    static std::vector<ResultRow> reported_rows(const ResultReader& reader, const std::string& file)
-    {
-        return reader.header().kind == "replay" ? reader.rows() : original_rows(reader, file);
-    }
-
     static std::string subtitle(const ResultHeader& header)
     {
         return fmt::format("Kind of study: {}. Realizations: {}. Seed {}. Made by stylobate {}.", header.kind,

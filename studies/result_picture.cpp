@@ -89,7 +89,7 @@ std::vector<ResultRow> original_rows(const ResultReader& reader, const std::stri
 {
     const Study study = study_of(reader, results);
     std::vector<ResultRow> rows = reader.rows();
-    if (study.twins)
+    if (study.twins && reader.header().kind != "replay")
         std::erase_if(rows, [&](const ResultRow& row) { return row.index >= study.originals(); });
     return rows;
 }

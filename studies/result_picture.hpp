@@ -24,7 +24,7 @@ bool followed_to_rest(const ResultReader& reader, const std::string& results);
 /// Whether the results are complete ones of a surface with twins.
 bool has_twins(const ResultReader& reader, const std::string& results);
 
-/// All rows but those of twins, which are no further trials.
+/// All rows but those of twins, which are no further trials; of a replayed twin its own.
 std::vector<ResultRow> original_rows(const ResultReader& reader, const std::string& results);
 
 /// The surface of the store, or that of another limit state from the rows.
