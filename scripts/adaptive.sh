@@ -40,14 +40,5 @@ for ((seed = 1; seed <= seeds; ++seed)); do
     sobol+=("$out/sobol_$seed.h5")
 done
 
-page=docs/adaptive.md
-tables=$(mktemp)
-trap 'rm -f "$tables"' EXIT
-"$build/bench/stylobate_adaptive" --reference "$out/reference.h5" --run "${runs[@]}" --sobol "${sobol[@]}" --repeats "$repeats" >"$tables"
-awk -v tables="$tables" '
-    /<!-- end of what scripts\/adaptive.sh writes -->/ { inside = 0 }
-    !inside { print }
-    /<!-- scripts\/adaptive.sh writes what follows -->/ { inside = 1; print ""; while ((getline line < tables) > 0) print line }
-' "$page" >"$tables.page"
-mv "$tables.page" "$page"
-echo "$page"
+"$build/bench/stylobate_adaptive" --reference "$out/reference.h5" --run "${runs[@]}" --sobol "${sobol[@]}" --repeats "$repeats" |
+    scripts/into_page.sh adaptive.sh docs/adaptive.md

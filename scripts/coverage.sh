@@ -13,14 +13,5 @@ if [[ -z ${STYLOBATE_BUILD:-} ]]; then
     cmake --build "$build" --target stylobate_coverage --parallel "$(nproc)"
 fi
 
-page=docs/fragility_statistics.md
-tables=$(mktemp)
-trap 'rm -f "$tables" "$tables.page"' EXIT
-"$build/bench/stylobate_coverage" --repeats "${1:-10000}" >"$tables"
-awk -v tables="$tables" '
-    /<!-- end of what scripts\/coverage.sh writes -->/ { inside = 0 }
-    !inside { print }
-    /<!-- scripts\/coverage.sh writes what follows -->/ { inside = 1; print ""; while ((getline line < tables) > 0) print line; print "" }
-' "$page" >"$tables.page"
-cat "$tables.page" >"$page"
-echo "$page"
+"$build/bench/stylobate_coverage" --repeats "${1:-10000}" |
+    scripts/into_page.sh coverage.sh docs/fragility_statistics.md

@@ -13,14 +13,5 @@ fi
 [[ -n ${STYLOBATE_BUILD:-} ]] || cmake --build build/release --target performance_page instructions >/dev/null
 bench=${STYLOBATE_BUILD:-build/release}/bench
 
-page=docs/performance.md
-tables=$(mktemp)
-trap 'rm -f "$tables" "$tables.page"' EXIT
-{ "$bench/performance_page" "$results"; echo; "$bench/instructions"; } >"$tables"
-awk -v tables="$tables" '
-    /<!-- end of what scripts\/performance.sh writes -->/ { inside = 0 }
-    !inside { print }
-    /<!-- scripts\/performance.sh writes what follows -->/ { inside = 1; print ""; while ((getline line < tables) > 0) print line }
-' "$page" >"$tables.page"
-cat "$tables.page" >"$page"
-echo "$page"
+{ "$bench/performance_page" "$results"; echo; "$bench/instructions"; } |
+    scripts/into_page.sh performance.sh docs/performance.md

@@ -13,14 +13,5 @@ if [[ -z ${STYLOBATE_BUILD:-} ]]; then
     cmake --build "$build" --target work_precision --parallel "$(nproc)"
 fi
 
-page=docs/work_precision.md
-tables=$(mktemp)
-trap 'rm -f "$tables" "$tables.page"' EXIT
-"$build/bench/work_precision/work_precision" --picture docs/images/work_precision.png "$@" >"$tables"
-awk -v tables="$tables" '
-    /<!-- end of what scripts\/work_precision.sh writes -->/ { inside = 0 }
-    !inside { print }
-    /<!-- scripts\/work_precision.sh writes what follows -->/ { inside = 1; print ""; while ((getline line < tables) > 0) print line }
-' "$page" >"$tables.page"
-cat "$tables.page" >"$page"
-echo "$page"
+"$build/bench/work_precision/work_precision" --picture docs/images/work_precision.png "$@" |
+    scripts/into_page.sh work_precision.sh docs/work_precision.md
