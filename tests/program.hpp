@@ -226,6 +226,40 @@ protected:
     Ended run(const ProgramRun& program) const { return run_program(program, folder); }
     Ended run(const Words& arguments) const { return run_program({.arguments = arguments}, folder); }
 
+    /// A study's results are the same bytes with scalar steps on one thread, and where the run is interrupted in turn
+    /// by Ctrl-C and by its death until a part comes to the end.
+    /// @param words the program's words for given results, threads and instruction set
+    template <class MakeWords>
+    void expect_no_byte_changes(const MakeWords& words) const
+    {
+        const Ended whole = run(words("whole.h5", "2", "auto"));
+        ASSERT_EQ(whole.status, 0) << testing::PrintToString(whole);
+        ASSERT_EQ(run(words("scalar.h5", "1", "scalar")).status, 0);
+        EXPECT_TRUE(read_bytes(folder / "whole.h5") == read_bytes(folder / "scalar.h5"));
+
+        int parts = 0;
+        Ended ended;
+        do {
+            ProgramRun part = words("parts.h5", parts % 2 == 0 ? "1" : "3", parts % 2 == 0 ? "scalar" : "auto");
+            if (parts < 6) {
+                part.signal = parts % 2 == 0 ? SIGINT : SIGKILL;
+                part.after_s = whole.seconds * (0.1 + 0.15 * parts);
+            }
+            ended = run(part);
+            ++parts;
+            // a signal may also hit a part that has just written its last byte
+            if (ended.err.find("is complete already") != std::string::npos)
+                ended.status = 0;
+        } while (ended.status != 0 && parts < 8);
+        ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        EXPECT_GT(parts, 1);
+        EXPECT_TRUE(read_bytes(folder / "whole.h5") == read_bytes(folder / "parts.h5"));
+
+        const Ended again = run(words("whole.h5", "1", "auto"));
+        EXPECT_EQ(again.status, 2);
+        EXPECT_NE(again.err.find("is complete already"), std::string::npos) << again.err;
+    }
+
     /// All below the folder; the modification time of a folder is part of it.
     std::map<std::string, FileState> contents() const
     {

@@ -34,33 +34,9 @@ protected:
 
 TEST_F(AdaptiveProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
-    const Ended whole = run(words(adaptive, "whole.h5", "2"));
-    ASSERT_EQ(whole.status, 0) << testing::PrintToString(whole);
-    ASSERT_EQ(run(words(adaptive, "scalar.h5", "1", "scalar")).status, 0);
-    EXPECT_TRUE(bytes("whole.h5") == bytes("scalar.h5"));
-
-    // interrupted in turn by Ctrl-C and by its death, until a part comes to the end
-    int parts = 0;
-    Ended ended;
-    do {
-        ProgramRun part = words(adaptive, "parts.h5", parts % 2 == 0 ? "1" : "3", parts % 2 == 0 ? "scalar" : "auto");
-        if (parts < 6) {
-            part.signal = parts % 2 == 0 ? SIGINT : SIGKILL;
-            part.after_s = whole.seconds * (0.1 + 0.15 * parts);
-        }
-        ended = run(part);
-        ++parts;
-        // a signal may also hit a part that has just written its last byte
-        if (ended.err.find("is complete already") != std::string::npos)
-            ended.status = 0;
-    } while (ended.status != 0 && parts < 8);
-    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
-    EXPECT_GT(parts, 1);
-    EXPECT_TRUE(bytes("whole.h5") == bytes("parts.h5"));
-
-    const Ended again = run(words(adaptive, "whole.h5", "1"));
-    EXPECT_EQ(again.status, 2);
-    EXPECT_NE(again.err.find("is complete already"), std::string::npos) << again.err;
+    expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
+        return words(adaptive, results, threads, simd);
+    });
 }
 
 TEST_F(AdaptiveProgram, ItsRealizationsAreThoseOfTheWholeStudy)

@@ -31,18 +31,9 @@ protected:
 
 TEST_F(FragilityProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
-    const Ended whole = run(words("whole.h5", "2"));
-    ASSERT_EQ(whole.status, 0) << testing::PrintToString(whole);
-    ASSERT_EQ(run(words("scalar.h5", "1", "scalar")).status, 0);
-    EXPECT_TRUE(bytes("whole.h5") == bytes("scalar.h5"));
-    ProgramRun part = words("parts.h5", "1", "scalar");
-    part.signal = SIGINT;
-    part.after_s = 0.3;
-    run(part);
-    const Ended rest = run(words("parts.h5", "2"));
-    ASSERT_TRUE(rest.status == 0 || rest.err.find("complete already") != std::string::npos)
-        << testing::PrintToString(rest);
-    EXPECT_TRUE(bytes("whole.h5") == bytes("parts.h5"));
+    expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
+        return words(results, threads, simd);
+    });
 
     // any realization is there again, by the file's own word
     const Ended again = run(std::vector<std::string>{"replay", "whole.h5", "--realization", "911", "-o", "one.h5"});

@@ -34,26 +34,9 @@ protected:
 
 TEST_F(TwinsProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
-    const Ended whole = run(words(twins, "whole.h5", "2"));
-    ASSERT_EQ(whole.status, 0) << testing::PrintToString(whole);
-    ASSERT_EQ(run(words(twins, "scalar.h5", "1", "scalar")).status, 0);
-    EXPECT_TRUE(bytes("whole.h5") == bytes("scalar.h5"));
-
-    int parts = 0;
-    Ended ended;
-    do {
-        ProgramRun part = words(twins, "parts.h5", parts % 2 == 0 ? "1" : "3", parts % 2 == 0 ? "scalar" : "auto");
-        if (parts < 6) {
-            part.signal = parts % 2 == 0 ? SIGINT : SIGKILL;
-            part.after_s = whole.seconds * (0.2 + 0.2 * parts);
-        }
-        ended = run(part);
-        ++parts;
-        if (ended.err.find("is complete already") != std::string::npos)
-            ended.status = 0;
-    } while (ended.status != 0 && parts < 8);
-    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
-    EXPECT_TRUE(bytes("whole.h5") == bytes("parts.h5"));
+    expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
+        return words(twins, results, threads, simd);
+    });
 }
 
 TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
