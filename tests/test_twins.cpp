@@ -1,12 +1,12 @@
 /// Twins: the same realization but for one thing; how fast they part; how often their verdicts differ, by pairs whose
 /// truth is known.
 
+#include "ensemble/estimators/mean_and_median.hpp"
 #include "ensemble/executor.hpp"
 #include "ensemble/slope.hpp"
 #include "ensemble/twins.hpp"
 #include "io/study_file.hpp"
 #include "studies/twins/flips.hpp"
-#include "studies/twins/growth.hpp"
 #include "tests/outcome_bits.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "studies/twins/growth.hpp"
+#include "ensemble/estimators/mean_and_median.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>

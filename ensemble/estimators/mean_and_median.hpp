@@ -1,5 +1,5 @@
 #pragma once
-/// Means and medians of how fast twins part, over realizations that are independent of each other.
+/// Means and medians of independent values, with their intervals.
 
 #include <cstddef>
 #include <vector>
