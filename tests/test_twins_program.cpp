@@ -19,7 +19,8 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::vect
 constexpr int realizations = 6;
 constexpr std::uint64_t originals = 16 * realizations;
 const std::vector<std::string> small = short_surface(realizations);
-const std::vector<std::string> twins = with(small, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2"});
+const std::vector<std::string> twins = with(small, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2",
+                                                    "run.max_invalid_fraction=0.1"}); // some in other contact forms
 
 class TwinsProgram : public Program {
 protected:
@@ -57,12 +58,17 @@ TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
     const JsonValue& said = json["twins"]["kinds"];
     ASSERT_EQ(said.items.size(), 6U);
     for (std::uint64_t kind = 0; kind < 6; ++kind) {
-        double flips = 0;
-        for (std::uint64_t i = 0; i < originals; ++i)
-            flips += (with_twins.row(i).outcome.state == State::collapsed) !=
-                     (with_twins.row((kind + 1) * originals + i).outcome.state == State::collapsed);
+        double flips = 0, pairs = 0;
+        for (std::uint64_t i = 0; i < originals; ++i) {
+            const State original = with_twins.row(i).outcome.state;
+            const State twin = with_twins.row((kind + 1) * originals + i).outcome.state;
+            if (original == State::invalid || twin == State::invalid)
+                continue;
+            pairs += 1;
+            flips += (original == State::collapsed) != (twin == State::collapsed);
+        }
         EXPECT_EQ(said.items[kind]["flips"].number, flips) << kind;
-        EXPECT_EQ(said.items[kind]["pairs"].number, static_cast<double>(originals));
+        EXPECT_EQ(said.items[kind]["pairs"].number, pairs) << kind;
     }
     EXPECT_EQ(with_twins.twins().size(), 16U * 2 * 2);
 }
@@ -108,7 +114,7 @@ TEST_F(TwinsProgram, BadInputIsRefusedWithItsRange)
     refused({"twins.moves_m=[1e-3, 1e-6]"}, {"twins.moves_m", "ascending", "1e-06"});
     refused({"twins.moves_m=[1e-6, 1e-6]"}, {"twins.moves_m", "ascending"});
     refused({"twins.moves_m=[-1e-6]"}, {"twins.moves_m", "is outside [0, 0.012]"});
-    refused({"twins.moves_m=[1]"}, {"twins.moves_m", "Did you mean 0.001"});
+    refused({"twins.moves_m=[1]"}, {"twins.moves_m", "a quarter of the drum's width"});
     refused({"twins.moves=[1e-6]"}, {"Did you mean moves_m?"});
     refused({"twins.block=0"}, {"twins.block = 0", "is fixed to the base"});
     refused({"twins.block=4"}, {"twins.block = 4 is outside [0, 3]"});
