@@ -102,7 +102,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
 
     ASSERT_EQ(run(words(small, "plain.h5", "2")).status, 0);
     expect_refused(Words{"export", "plain.h5", "--to", "png", "--picture", "twins"}, {"plain.h5", "[twins]"});
-    ASSERT_EQ(run(words(with(small, {"twins.followed=0"}), "none.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(with(twins, {"twins.followed=0"}), "none.h5", "2")).status, 0);
     expect_refused(Words{"export", "none.h5", "--to", "png", "--picture", "predictability"}, {"twins.followed"});
 }
 
