@@ -59,6 +59,36 @@ std::string joined(const std::vector<std::string>& says)
     return all;
 }
 
+/// One stripe that is reached in part, and none below: the steeper the likelier, for ever.
+TEST(BinomialRegression, OneStripeInPartIsNoCurve)
+{
+    Eigen::MatrixXd predictors(5, 2);
+    BinomialCounts counts{Eigen::VectorXd::Constant(5, 108), Eigen::VectorXd::Zero(5)};
+    for (Eigen::Index i = 0; i < 5; ++i)
+        predictors.row(i) << 1, 0.75 * static_cast<double>(i);
+    counts.reached[4] = 44;
+    for (const Link link : {Link::probit, Link::logit})
+        EXPECT_EQ(fit_binomial(link, predictors, counts).maximum, Maximum::separated);
+    counts.reached[3] = 1;
+    EXPECT_EQ(fit_binomial(Link::probit, predictors, counts).maximum, Maximum::inside);
+}
+
+/// A start where the curve is so steep that hardly a point says anything leads to the same maximum.
+TEST(BinomialRegression, AStartFarAwayChangesNothing)
+{
+    Eigen::MatrixXd predictors(6, 2);
+    BinomialCounts counts{Eigen::VectorXd::Constant(6, 40), Eigen::VectorXd(6)};
+    for (Eigen::Index i = 0; i < 6; ++i)
+        predictors.row(i) << 1, 0.3 * static_cast<double>(i);
+    counts.reached << 0, 2, 11, 25, 38, 40;
+    const BinomialFit cold = fit_binomial(Link::probit, predictors, counts);
+    const ParameterVector steep = (ParameterVector(2) << -4e4, 5e4).finished();
+    const BinomialFit warm = fit_binomial(Link::probit, predictors, counts, {}, steep);
+    ASSERT_EQ(warm.maximum, Maximum::inside);
+    EXPECT_NEAR(warm.coefficients[0], cold.coefficients[0], 1e-8);
+    EXPECT_NEAR(warm.coefficients[1], cold.coefficients[1], 1e-8);
+}
+
 } // namespace
 
 TEST(FragilityCurve, PublishedFitsOfTheBeetles)

@@ -63,6 +63,15 @@ bool parts(const Eigen::VectorXd& eta, const BinomialCounts& counts)
     return any;
 }
 
+/// Points that still tell something of the coefficients: all others are as good as certain.
+Eigen::Index telling_points(Link link, const Eigen::VectorXd& eta, const BinomialCounts& counts)
+{
+    Eigen::VectorXd weight(eta.size());
+    for (Eigen::Index i = 0; i < eta.size(); ++i)
+        weight[i] = std::abs(term_at(link, eta[i], counts.trials[i], counts.reached[i]).weight);
+    return (weight.array() > 1e-10 * weight.maxCoeff()).count();
+}
+
 } // namespace
 
 BinomialCounts counts_of(const FragilityData& data, const Eigen::VectorXd& weight)
@@ -112,6 +121,13 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
         return fit;
     }
     fit.log_likelihood = -std::numeric_limits<double>::infinity();
+    // where fewer points than coefficients say anything, the others are certain to rounding: it grows for ever
+    const auto found = [&] {
+        if (offset.size() == 0 &&
+            telling_points(link, predictor(predictors, fit.coefficients, offset), counts) < parameters)
+            fit.maximum = Maximum::separated;
+        return fit;
+    };
     ParameterVector step = ParameterVector::Zero(parameters);
     for (int iteration = 0; iteration < 200; ++iteration) {
         // halve the step until the likelihood grows: it is concave, so that this ends at its maximum
@@ -142,8 +158,8 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
             } else
                 step /= 2;
         }
-        if (!grown)
-            return fit;
+        if (!grown) // a start far away may lead nowhere
+            return start.size() > 0 ? fit_binomial(link, predictors, counts, offset) : found();
         if (offset.size() == 0 && eta.cwiseAbs().maxCoeff() > 12 && parts(eta, counts)) {
             fit.maximum = Maximum::separated;
             // what lies on the plane itself keeps its share; the rest costs nothing in the limit
@@ -158,13 +174,16 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
         }
         const Eigen::LDLT<ParameterMatrix> solver(fit.information);
         step = solver.solve(slope);
-        if (iteration == 0 && !(solver.rcond() > 1e-14))
+        if (iteration == 0 && !(solver.rcond() > 1e-14)) {
+            if (start.size() > 0) // so steep there that hardly a point says anything: from the beginning, then
+                return fit_binomial(link, predictors, counts, offset);
             throw InputError("fragility: the predictors of a regression are not independent.\n  Give at least as many "
                              "different intensities as coefficients, and no measure that follows from others.");
+        }
         if (slope.dot(step) < 1e-16 * (1 + std::abs(fit.log_likelihood)))
-            return fit;
+            return found();
     }
-    return fit;
+    return start.size() > 0 ? fit_binomial(link, predictors, counts, offset) : found();
 }
 
 Eigen::MatrixXd record_influence(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,

@@ -236,6 +236,17 @@ private:
     {
         StateFragility s;
         s.state = damage;
+        try {
+            estimate(reached, s);
+        } catch (const InputError& error) { // what these data do not bear is said, and the other states are told
+            s.curve.maximum = Maximum::none;
+            s.curve.says.emplace_back(error.what());
+        }
+        return s;
+    }
+
+    void estimate(const std::vector<std::uint8_t>& reached, StateFragility& s) const
+    {
         const FragilityData one = data({out_.measure}, reached);
         CurveOptions options;
         for (const double at : out_.grid)
@@ -248,7 +259,6 @@ private:
         }
         if (s.curve.reached > 0 && s.curve.reached < s.curve.trials)
             s.shares = shares(reached);
-        return s;
     }
 
     void count_resurrected(const std::vector<std::uint8_t>& reached, StateFragility& s) const
@@ -303,7 +313,11 @@ private:
                 if (seen[motion])
                     values.back().push_back(measured(motion, name));
         }
-        out_.measures = ranked_measures(data(scaling, reached), scaling, features, values);
+        try {
+            out_.measures = ranked_measures(data(scaling, reached), scaling, features, values);
+        } catch (const InputError& error) {
+            out_.says.push_back(std::string("Measures are not ranked: ") + error.what());
+        }
     }
 
     const ResultHeader& header_;
