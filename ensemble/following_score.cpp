@@ -1,8 +1,5 @@
 #include "ensemble/following_score.hpp"
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,16 +21,6 @@ double log_student(double t, double degrees)
 {
     return std::lgamma((degrees + 1) / 2) - std::lgamma(degrees / 2) - 0.5 * std::log(degrees * std::numbers::pi) -
            (degrees + 1) / 2 * std::log1p(t * t / degrees);
-}
-
-double student_quantile(double probability, double degrees)
-{
-    return boost::math::quantile(boost::math::students_t(degrees), probability);
-}
-
-double normal_quantile(double probability)
-{
-    return boost::math::quantile(boost::math::normal(), probability);
 }
 
 double student_scale(const std::vector<double>& z, double degrees)

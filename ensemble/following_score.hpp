@@ -18,11 +18,6 @@ inline constexpr double student_degrees = 4;
 /// Log density of Student's t with these degrees of freedom at `t`.
 double log_student(double t, double degrees);
 
-/// The t below which Student's t stays with this probability.
-double student_quantile(double probability, double degrees);
-/// The same of the standard normal distribution.
-double normal_quantile(double probability);
-
 /// The k that makes the t density of z / k likeliest: the root of k2 = (degrees + 1) / n sum z2 / (degrees + z2 / k2).
 /// NaN without any z.
 double student_scale(const std::vector<double>& z, double degrees);

@@ -1,6 +1,6 @@
 #include "studies/run_adaptive.hpp"
 
-#include "studies/round_observer.hpp"
+#include "studies/round.hpp"
 #include "studies/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -79,27 +79,7 @@ AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, C
                 round.push_back(cell * study.realizations + k);
         if (round.empty())
             break;
-        RunPlan plan;
-        plan.total = round.size();
-        plan.indices = round;
-        plan.done = [&](std::uint64_t index) { return outcomes.has(index); };
-        plan.sink = [&](const Realization& realization, const Outcome& outcome) {
-            const ResultRow row = result_row(study, realization, outcome);
-            outcomes.add(row);
-            sink(row);
-        };
-        for (const std::uint64_t index : round)
-            if (outcomes.has(index)) {
-                ++plan.before.done;
-                plan.before.collapsed += outcomes.state(index) == State::collapsed;
-                plan.before.invalid += outcomes.state(index) == State::invalid;
-            }
-        RoundObserver observed(observer, run.progress);
-        const Progress progress = plan.before.done == plan.total
-                                      ? plan.before
-                                      : run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observed);
-        run.progress = observed.joined(progress);
-        if (progress.done < plan.total)
+        if (!run_round(loaded, options, round, outcomes, sink, observer, run.progress))
             return run;
         before = asked;
     }

@@ -1,7 +1,7 @@
 #include "studies/run_rare.hpp"
 
 #include "ensemble/estimators/subset_simulation.hpp"
-#include "studies/round_observer.hpp"
+#include "studies/round.hpp"
 #include "studies/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -109,37 +109,17 @@ RareRun run_rare(const LoadedStudy& loaded, const RunOptions& options, RareOutco
         std::vector<std::uint64_t> batch(n);
         std::iota(batch.begin(), batch.end(), begin);
 
-        RunPlan plan;
-        plan.total = n;
-        plan.indices = batch;
-        plan.done = [&](std::uint64_t index) { return outcomes.has(index); };
-        plan.realize = [&](std::uint64_t index) {
-            const auto at = static_cast<std::size_t>(index - begin) * dimension;
-            return loaded.sampler().realization(index, std::span(numbers).subspan(at, dimension));
-        };
-        plan.sink = [&](const Realization& realization, const Outcome& outcome) {
-            const ResultRow row = result_row(study, realization, outcome);
-            outcomes.add(row);
-            sink(row);
-        };
-        for (const std::uint64_t index : batch)
-            if (outcomes.has(index)) {
-                ++plan.before.done;
-                plan.before.collapsed += outcomes.at(index).state == State::collapsed;
-                plan.before.invalid += outcomes.at(index).state == State::invalid;
-            }
         // as many more as the repeats so far say
         const std::uint64_t finished =
             std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
                             [](auto sum, const SubsetRun& r) { return sum + r.evaluations; });
         run.progress.total = std::max(run.progress.done + n, runs.empty() ? spec.repeats * spec.samples * 4
                                                                           : finished * spec.repeats / runs.size());
-        RoundObserver observed(observer, run.progress);
-        const Progress progress = plan.before.done == plan.total
-                                      ? plan.before
-                                      : run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observed);
-        run.progress = observed.joined(progress);
-        if (progress.done < plan.total)
+        const auto realize = [&](std::uint64_t index) {
+            const auto at = static_cast<std::size_t>(index - begin) * dimension;
+            return loaded.sampler().realization(index, std::span(numbers).subspan(at, dimension));
+        };
+        if (!run_round(loaded, options, batch, outcomes, sink, observer, run.progress, realize))
             throw Stopped{};
         std::vector<double> responses;
         for (const std::uint64_t index : batch)

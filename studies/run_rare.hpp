@@ -24,6 +24,7 @@ class RareOutcomes {
 public:
     void add(const ResultRow& row);
     bool has(std::uint64_t index) const { return outcome_.contains(index); }
+    State state(std::uint64_t index) const { return at(index).state; }
     const Outcome& at(std::uint64_t index) const { return outcome_.at(index); }
 
 private:

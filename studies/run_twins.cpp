@@ -1,7 +1,7 @@
 #include "studies/run_twins.hpp"
 
 #include "ensemble/twins.hpp"
-#include "studies/round_observer.hpp"
+#include "studies/round.hpp"
 #include "studies/trajectory.hpp"
 
 namespace stylobate {

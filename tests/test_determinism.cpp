@@ -1,14 +1,13 @@
 /// A realization is a function of the study and its index: the same bits for every instruction set, number of threads,
 /// lane and neighbour, alone or in the ensemble, in one go or stopped and continued.
 
-#include "ensemble/executor.hpp"
 #include "ensemble/lanes.hpp"
 #include "ensemble/random.hpp"
 #include "io/result_store.hpp"
 #include "io/study_file.hpp"
 #include "studies/block_names.hpp"
 #include "studies/trajectory.hpp"
-#include "tests/outcome_bits.hpp"
+#include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,37 +45,13 @@ Study quiet()
                "{ from = 0.5, to = 1.4, count = 2, spacing = \"linear\" }", {"contact.damping_per=\"chord\""});
 }
 
-using Bits = std::vector<std::uint64_t>;
-
-struct Result {
-    std::map<std::uint64_t, Bits> outcomes;
-    Progress progress;
-    std::map<State, int> states;
-};
-
-Result run(const Study& study, Isa isa, int threads)
-{
-    const Sampler sampler(study, nullptr);
-    Result result;
-    RunPlan plan;
-    plan.total = study.total();
-    plan.sink = [&](const Realization& realization, const Outcome& outcome) {
-        const bool fresh = result.outcomes.emplace(realization.index, outcome_bits(outcome)).second;
-        EXPECT_TRUE(fresh) << "realization " << realization.index << " came twice";
-        ++result.states[outcome.state];
-    };
-    Observer observer;
-    result.progress = run_ensemble(study, sampler, nullptr, {isa, threads}, plan, observer);
-    return result;
-}
-
 void same_everywhere(const Study& study)
 {
-    const Result want = run(study, Isa::scalar, 1);
+    const EnsembleRun want = run_all(study, {Isa::scalar, 1});
     ASSERT_EQ(want.outcomes.size(), study.total());
     for (const Isa isa : usable_isas())
         for (const int threads : {1, 2, 3}) {
-            const Result got = run(study, isa, threads);
+            const EnsembleRun got = run_all(study, {isa, threads});
             EXPECT_EQ(got.outcomes, want.outcomes) << to_string(isa) << ", " << threads << " threads";
             EXPECT_EQ(got.progress.done, study.total());
         }
@@ -87,7 +62,7 @@ void same_everywhere(const Study& study)
 TEST(Determinism, CollapseHeavyMixHasTheSameBitsForEveryWidthAndThreadCount)
 {
     const Study study = collapse_heavy();
-    const Result result = run(study, best_isa(), 2);
+    const EnsembleRun result = run_all(study, {best_isa(), 2});
     EXPECT_GT(result.states.at(State::collapsed), static_cast<int>(study.total()) / 2)
         << "the mix is not what it should be";
     same_everywhere(study);
@@ -100,7 +75,7 @@ TEST(Determinism, ACollapsingColonnadeHasTheSameBitsForEveryWidthAndThreadCount)
         std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/small_scale_colonnade_drums.toml",
         {"study.realizations=6", "excitation.cycles=6", "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
          "surface.pga_m_s2={ from = 10.0, to = 16.0, count = 2 }"});
-    const Result result = run(study, best_isa(), 2);
+    const EnsembleRun result = run_all(study, {best_isa(), 2});
     EXPECT_GT(result.states.at(State::collapsed), static_cast<int>(study.total()) / 2)
         << "the mix is not what it should be";
     EXPECT_EQ(result.states.count(State::invalid), 0U);
@@ -110,7 +85,7 @@ TEST(Determinism, ACollapsingColonnadeHasTheSameBitsForEveryWidthAndThreadCount)
 TEST(Determinism, QuietMixHasTheSameBitsForEveryWidthAndThreadCount)
 {
     const Study study = quiet();
-    const Result result = run(study, best_isa(), 2);
+    const EnsembleRun result = run_all(study, {best_isa(), 2});
     EXPECT_EQ(result.states.count(State::collapsed), 0U) << "the mix is not what it should be";
     same_everywhere(study);
 }
@@ -119,7 +94,7 @@ TEST(Determinism, LaneAndNeighboursDoNotMatter)
 {
     const Study study = collapse_heavy();
     const Sampler sampler(study, nullptr);
-    const Result want = run(study, Isa::scalar, 1);
+    const EnsembleRun want = run_all(study, {Isa::scalar, 1});
     for (const Isa isa : usable_isas()) {
         const KernelTable& table = kernels(isa);
         for (int lane = 0; lane < table.lanes; ++lane) {
@@ -150,7 +125,7 @@ TEST(Determinism, OneRealizationFollowedStepByStepHasTheBitsOfTheEnsemble)
     const LoadedStudy loaded = LoadedStudy::from_file(
         input, {"study.realizations=10", "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
                 "surface.pga_m_s2={ from = 2.0, to = 5.0, count = 2 }", "output.trajectory_rate_hz=333"});
-    const Result want = run(loaded.study(), best_isa(), 2);
+    const EnsembleRun want = run_all(loaded.study(), {best_isa(), 2});
     for (const std::uint64_t index : {0U, 13U, 27U, 39U})
         for (const Isa isa : usable_isas()) {
             const FollowedRealization f = follow(loaded, index, isa);
@@ -167,7 +142,7 @@ TEST(Determinism, ABrokenLaneIsSetAsideAndItsNeighboursKeepTheirBits)
 {
     const Study study = collapse_heavy();
     const Sampler sampler(study, nullptr);
-    const Result want = run(study, Isa::scalar, 1);
+    const EnsembleRun want = run_all(study, {Isa::scalar, 1});
     for (const Isa isa : usable_isas()) {
         const KernelTable& table = kernels(isa);
         LaneSet lanes(study, nullptr, table, sampler.realization(0));
@@ -214,7 +189,7 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
     const Study study = mix("{ from = 1.0, to = 8.0, count = 8, spacing = \"log\" }",
                             "{ from = 3.0, to = 11.0, count = 8, spacing = \"linear\" }");
     const Sampler sampler(study, nullptr);
-    const Result want = run(study, best_isa(), 2);
+    const EnsembleRun want = run_all(study, {best_isa(), 2});
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("stylobate-continue-" + std::to_string(getpid()) + ".h5");
     std::filesystem::remove(file);
@@ -263,7 +238,7 @@ TEST(Ensemble, LanesStayFullWhenMostRealizationsFall)
 {
     const Study study = mix("{ from = 1.0, to = 6.0, count = 8, spacing = \"log\" }",
                             "{ from = 1.0, to = 11.0, count = 8, spacing = \"linear\" }");
-    const Result result = run(study, best_isa(), 2);
+    const EnsembleRun result = run_all(study, {best_isa(), 2});
     EXPECT_GT(result.states.at(State::collapsed), static_cast<int>(study.total()) / 2);
     EXPECT_GT(result.progress.occupancy, 0.95);
 }

@@ -1,11 +1,10 @@
 /// The slots of a device, on the device that is the processor: outcomes have the bits of the processor's own lanes,
 /// with any number of slots, however they are refilled, and whatever the realizations are.
 
-#include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
 #include "ensemble/slots.hpp"
 #include "io/study_file.hpp"
-#include "tests/outcome_bits.hpp"
+#include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,30 +24,6 @@ namespace {
 
 const std::string inputs = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/";
 
-using Bits = std::vector<std::uint64_t>;
-
-struct Result {
-    std::map<std::uint64_t, Bits> outcomes;
-    std::map<State, int> states;
-    Progress progress;
-};
-
-Result run(const Study& study, const RunOptions& options, const Motion* record = nullptr)
-{
-    const Sampler sampler(study, record);
-    Result result;
-    RunPlan plan;
-    plan.total = study.total();
-    plan.sink = [&](const Realization& realization, const Outcome& outcome) {
-        const bool fresh = result.outcomes.emplace(realization.index, outcome_bits(outcome)).second;
-        EXPECT_TRUE(fresh) << "realization " << realization.index << " came twice";
-        ++result.states[outcome.state];
-    };
-    Observer observer;
-    result.progress = run_ensemble(study, sampler, record, options, plan, observer);
-    return result;
-}
-
 RunOptions on_devices(int devices, int slots)
 {
     RunOptions options{Isa::scalar, 2};
@@ -59,12 +34,12 @@ RunOptions on_devices(int devices, int slots)
 }
 
 /// Compares lanes and slots; what the lanes gave.
-Result same_in_slots(const Study& study, const Motion* record = nullptr)
+EnsembleRun same_in_slots(const Study& study, const Motion* record = nullptr)
 {
-    const Result want = run(study, {best_isa(), 2}, record);
+    const EnsembleRun want = run_all(study, {best_isa(), 2}, record);
     EXPECT_EQ(want.outcomes.size(), study.total());
     for (const auto& [devices, slots] : {std::pair{1, 5}, std::pair{2, 0}}) {
-        const Result got = run(study, on_devices(devices, slots), record);
+        const EnsembleRun got = run_all(study, on_devices(devices, slots), record);
         EXPECT_EQ(got.outcomes, want.outcomes) << devices << " devices, " << slots << " slots";
         EXPECT_EQ(got.progress.done, study.total());
         EXPECT_EQ(got.progress.collapsed, want.progress.collapsed);
@@ -95,7 +70,7 @@ Study colonnade(const std::vector<std::string>& more)
 
 TEST(Slots, ASurfaceOfAColumnHasTheBitsOfTheLanes)
 {
-    const Result result = same_in_slots(column({}));
+    const EnsembleRun result = same_in_slots(column({}));
     EXPECT_GE(result.states.size(), 3U) << "the mix is not what it should be";
     EXPECT_GT(result.states.at(State::collapsed), 0);
 }
@@ -103,7 +78,7 @@ TEST(Slots, ASurfaceOfAColumnHasTheBitsOfTheLanes)
 /// With watched pairs; collapses are followed until everything lies still, and epistyles lose their seats.
 TEST(Slots, AColonnadeThatFallsHasTheBitsOfTheLanes)
 {
-    const Result result = same_in_slots(colonnade({}));
+    const EnsembleRun result = same_in_slots(colonnade({}));
     EXPECT_GT(result.states.at(State::collapsed), 3) << "the mix is not what it should be";
     EXPECT_GT(static_cast<int>(result.outcomes.size()), result.states.at(State::collapsed));
 }
@@ -155,7 +130,7 @@ TEST(Slots, ABrokenRealizationIsSetAside)
 {
     const Study study = column({});
     const Sampler sampler(study, nullptr);
-    const Result want = run(study, {Isa::scalar, 1});
+    const EnsembleRun want = run_all(study, {Isa::scalar, 1});
     const auto device = host_device();
     SlotSet set(study, nullptr, sampler.realization(0), *device, 5, 5);
     Realization broken = sampler.realization(3), nothing = sampler.realization(4);
@@ -192,7 +167,7 @@ TEST(Slots, GapsAreClosed)
 {
     const Study study = column({"study.realizations=6"});
     const Sampler sampler(study, nullptr);
-    const Result want = run(study, {best_isa(), 2});
+    const EnsembleRun want = run_all(study, {best_isa(), 2});
     const auto device = host_device();
     const int slots = static_cast<int>(study.total());
     SlotSet set(study, nullptr, sampler.realization(0), *device, slots, slots);
@@ -269,7 +244,7 @@ TEST(Slots, AFailureOfADeviceEndsTheRun)
     RunOptions options = on_devices(1, 0);
     options.devices.push_back(std::make_shared<Failing>());
     try {
-        run(study, options);
+        run_all(study, options);
         FAIL() << "the failure was swallowed";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("fell off the bus"), std::string::npos);
@@ -287,8 +262,8 @@ TEST(Cuda, OutcomesHaveTheBitsOfTheProcessor)
     for (const Study& study :
          {column({}), colonnade({}), column({"contact.form=\"points\""}), column({"contact.form=\"two_corner\""}),
           column({"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }"})}) {
-        const Result want = run(study, {best_isa(), 2});
-        EXPECT_EQ(run(study, options).outcomes, want.outcomes);
+        const EnsembleRun want = run_all(study, {best_isa(), 2});
+        EXPECT_EQ(run_all(study, options).outcomes, want.outcomes);
     }
 }
 

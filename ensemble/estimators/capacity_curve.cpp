@@ -2,8 +2,8 @@
 
 #include "ensemble/estimators/fragility_curve.hpp"
 #include "ensemble/input_error.hpp"
+#include "ensemble/quantiles.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -139,7 +139,7 @@ CapacityCurve capacity_curve(std::span<const RecordCapacity> capacities, double 
         return curve;
     }
     const double n = static_cast<double>(curve.records);
-    const double t = quantile(complement(boost::math::students_t_distribution<double>(n - 1), (1 - level) / 2));
+    const double t = student_quantile((1 + level) / 2, n - 1);
     const auto limits = [&](double value, auto part) {
         double mean = 0, square = 0;
         for (const auto& each : without)

@@ -1,8 +1,9 @@
 #include "ensemble/estimators/curve_target.hpp"
 
+#include "ensemble/quantiles.hpp"
+
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -80,9 +81,10 @@ private:
     const CurveTarget& target_;
 };
 
-double student_quantile(double freedom, double level)
+/// Of both tails.
+double student_reach(double freedom, double level)
 {
-    return quantile(complement(boost::math::students_t_distribution<double>(freedom), (1 - level) / 2));
+    return student_quantile((1 + level) / 2, freedom);
 }
 
 } // namespace
@@ -177,7 +179,7 @@ Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double
     if (curve.fit.maximum != Maximum::inside)
         return {};
     const RecordSpread spread = record_spread(curve, target);
-    const double threshold = spread.inflation * std::pow(student_quantile(spread.freedom, level), 2);
+    const double threshold = spread.inflation * std::pow(student_reach(spread.freedom, level), 2);
     return limits_at(curve, target, threshold);
 }
 
@@ -215,8 +217,7 @@ Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, cons
     for (const ParameterVector& coefficients : without.coefficients)
         square += std::pow(target.value(coefficients) - mean, 2);
     const double value = target.value(curve.fit.coefficients), unbiased = n * value - (n - 1) * mean;
-    const double reach =
-        student_quantile(record_spread(curve, target).freedom, level) * std::sqrt((n - 1) / n * square);
+    const double reach = student_reach(record_spread(curve, target).freedom, level) * std::sqrt((n - 1) / n * square);
     // an estimate is never outside its own interval
     return {std::min(value, unbiased - reach), std::max(value, unbiased + reach)};
 }
@@ -227,7 +228,7 @@ Limits wald_limits(const FittedCurve& curve, const CurveTarget& target, double l
         return {};
     const RecordSpread spread = record_spread(curve, target);
     const double value = target.value(curve.fit.coefficients);
-    const double reach = student_quantile(spread.freedom, level) * std::sqrt(spread.variance);
+    const double reach = student_reach(spread.freedom, level) * std::sqrt(spread.variance);
     return {value - reach, value + reach};
 }
 

@@ -2,8 +2,8 @@
 
 #include "ensemble/estimators/fragility_curve.hpp"
 #include "ensemble/input_error.hpp"
+#include "ensemble/quantiles.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -222,7 +222,7 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
             sum += (value[a] - mean_a) * (value[b] - mean_b);
         return sum / (n * (n - 1));
     };
-    const double t = quantile(complement(boost::math::students_t_distribution<double>(n - 1), (1 - level) / 2));
+    const double t = student_quantile((1 + level) / 2, n - 1);
     const double total_variance = each ? covariance(dispersion_levels, dispersion_levels) : 0;
     if (each)
         shares.total_limits = {shares.total - t * std::sqrt(total_variance),

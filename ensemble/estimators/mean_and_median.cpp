@@ -1,7 +1,8 @@
 #include "ensemble/estimators/mean_and_median.hpp"
 
+#include "ensemble/quantiles.hpp"
+
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +37,7 @@ Estimated mean_of(const std::vector<double>& values)
     for (const double v : values)
         if (!std::isnan(v))
             squares += (v - mean.value) * (v - mean.value);
-    const double half =
-        boost::math::quantile(boost::math::students_t(n - 1), 1 - tail) * std::sqrt(squares / (n - 1) / n);
+    const double half = student_quantile(1 - tail, n - 1) * std::sqrt(squares / (n - 1) / n);
     mean.lower = mean.value - half;
     mean.upper = mean.value + half;
     return mean;

@@ -1,8 +1,8 @@
 #include "studies/fragility/fragility.hpp"
 
-#include "ensemble/following_score.hpp"
 #include "ensemble/input_error.hpp"
 #include "ensemble/motion_set.hpp"
+#include "ensemble/quantiles.hpp"
 #include "io/study_file.hpp"
 
 #include <fmt/format.h>
