@@ -133,10 +133,11 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     f.twins = static_cast<int>(keys.whole_or(
         "twins", 1, structures, 1, "Structures that differ by fragility.twin_m alone: what chaos makes of it."));
     const auto group = static_cast<std::uint64_t>(f.contacts) * static_cast<std::uint64_t>(f.twins);
-    if (structures % group != 0)
+    if (structures % group != 0) {
+        const std::uint64_t below = structures / group * group;
         study.refuse("realizations", fmt::format("is no multiple of fragility.contacts x twins = {}", group),
-                     fmt::format("Give {} or {}.", structures / group * group + group,
-                                 std::max(group, structures / group * group)));
+                     below > 0 ? fmt::format("Give {} or {}.", below, below + group) : fmt::format("Give {}.", group));
+    }
     f.twin_m = keys.number_or("twin_m", {0, 1e-3, true, "What twins differ by, in metres.", 0}, f.twin_m);
     const Range part{0, 100, true, "A part of the width.", 0.01};
     f.peak_limits = ascending(keys, "peak_limits", part, f.peak_limits);

@@ -78,7 +78,8 @@ TEST(FragilityStudy, RefusesWhatCannotGiveACurve)
     expect_refused({"fragility.motions=4"}, {"fragility.motions = 4", "8"});
     expect_refused({"fragility.peak_limits=[0.35, 0.15, 1]"}, {"peak_limits", "0.35 comes before 0.15"});
     expect_refused({"fragility.residual_limits=[0.01, 0.01]"}, {"residual_limits", "0.01 comes before 0.01"});
-    expect_refused({"fragility.contacts=5"}, {"study.realizations = 12", "contacts x twins = 10", "10", "20"});
+    expect_refused({"fragility.contacts=5"}, {"study.realizations = 12", "contacts x twins = 10", "Give 10 or 20."});
+    expect_refused({"study.realizations=3"}, {"study.realizations = 3", "contacts x twins = 6", "Give 6."});
     expect_refused({"fragility.method=cloud"}, {"fragility.method", "synthetic"});
     expect_refused({"fragility.intensity.measure=pgx"}, {"fragility.intensity.measure", "pgv"});
     expect_refused({"fragility.intensity.period_s=1"}, {"period_s", "\"sa\""});
