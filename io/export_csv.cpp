@@ -284,7 +284,8 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
 {
     const std::size_t blocks = trajectory.blocks();
     const std::size_t samples = trajectory.time_s.size();
-    if (trajectory.half_height_m.size() != blocks || trajectory.base_x_m.size() != samples ||
+    if (trajectory.half_height_m.size() != blocks || trajectory.rest_x_m.size() != blocks ||
+        trajectory.rest_y_m.size() != blocks || trajectory.base_x_m.size() != samples ||
         trajectory.x_m.size() != samples * blocks || trajectory.y_m.size() != samples * blocks ||
         trajectory.theta_rad.size() != samples * blocks)
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
@@ -298,7 +299,8 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
         for (std::size_t i = 0; i < blocks; ++i)
             line << fmt::format("x_m[{}]", i) << fmt::format("y_m[{}]", i) << fmt::format("theta_rad[{}]", i);
         for (std::size_t i = 0; i < blocks; ++i)
-            line << fmt::format("half_width_m[{}]", i) << fmt::format("half_height_m[{}]", i);
+            line << fmt::format("rest_x_m[{}]", i) << fmt::format("rest_y_m[{}]", i)
+                 << fmt::format("half_width_m[{}]", i) << fmt::format("half_height_m[{}]", i);
     }
     for (std::size_t t = 0; t < samples; ++t) {
         Line line(text);
@@ -306,7 +308,8 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
         for (std::size_t i = t * blocks; i < (t + 1) * blocks; ++i)
             line << trajectory.x_m[i] << trajectory.y_m[i] << trajectory.theta_rad[i];
         for (std::size_t i = 0; i < blocks; ++i)
-            line << trajectory.half_width_m[i] << trajectory.half_height_m[i];
+            line << trajectory.rest_x_m[i] << trajectory.rest_y_m[i] << trajectory.half_width_m[i]
+                 << trajectory.half_height_m[i];
     }
     AtomicFile out(file);
     out.write(text);

@@ -48,9 +48,9 @@ std::size_t finite_samples(const Trajectory& t)
 {
     const std::size_t blocks = t.blocks();
     const std::size_t samples = t.time_s.size();
-    if (t.half_height_m.size() != blocks || t.role.size() != blocks || t.name.size() != blocks ||
-        t.base_x_m.size() != samples || t.x_m.size() != samples * blocks || t.y_m.size() != samples * blocks ||
-        t.theta_rad.size() != samples * blocks)
+    if (t.half_height_m.size() != blocks || t.rest_x_m.size() != blocks || t.role.size() != blocks ||
+        t.name.size() != blocks || t.base_x_m.size() != samples || t.x_m.size() != samples * blocks ||
+        t.y_m.size() != samples * blocks || t.theta_rad.size() != samples * blocks)
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
                                      "  Replay the realization into a new file.",
                                      t.index));
@@ -81,7 +81,7 @@ std::size_t finite_samples(const Trajectory& t)
 struct Drawn {
     std::vector<std::size_t> blocks; ///< indices
     std::vector<bool> fixed;         ///< for each of them: it moves with the base
-    std::size_t top = 0;             ///< the highest at the start, the last of several
+    std::size_t top = 0;             ///< the last one that moves: the one whose displacement an outcome has
     std::size_t epistyles = 0;
 };
 
@@ -89,7 +89,6 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
 {
     const std::size_t blocks = t.blocks();
     Drawn drawn;
-    double highest = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
         const double top = t.y_m[i] + t.half_height_m[i];
         if (t.role[i] == BlockRole::ground || top <= 1e-6 * t.half_height_m[i])
@@ -101,18 +100,18 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
         drawn.blocks.push_back(i);
         drawn.fixed.push_back(!moves);
         drawn.epistyles += t.role[i] == BlockRole::epistyle;
-        if (top >= highest - 1e-3 * t.half_height_m[i]) {
-            highest = std::max(highest, top);
+        if (moves)
             drawn.top = i;
-        }
     }
     if (drawn.blocks.empty())
         throw InputError(fmt::format("the trajectory of realization {} has no block above its base (y = 0).\n"
                                      "  Heights are to be counted from the top of the base, in metres.",
                                      t.index));
     // In a structure where nothing moves nothing can be told.
-    if (std::all_of(drawn.fixed.begin(), drawn.fixed.end(), [](bool f) { return f; }))
+    if (std::all_of(drawn.fixed.begin(), drawn.fixed.end(), [](bool f) { return f; })) {
         drawn.fixed.assign(drawn.fixed.size(), false);
+        drawn.top = drawn.blocks.back();
+    }
     return drawn;
 }
 
@@ -514,8 +513,8 @@ std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t sample
     if (fixed > 0)
         text += fmt::format(", {} fixed (darker)", fixed);
     text += " · drawn to scale in the frame of the base";
-    if (drawn.epistyles > 0)
-        text += " · top: " + t.name[drawn.top];
+    text += drawn.blocks.size() > 1 ? " · top: centre of " + t.name[drawn.top] + ", from upright"
+                                    : " · top: the drum's centre, from upright";
     if (falls)
         text += " · red outlines: fallen";
     if (samples < t.time_s.size())
@@ -555,7 +554,7 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
 
     std::vector<double> top_m(samples);
     for (std::size_t s = 0; s < samples; ++s)
-        top_m[s] = trajectory.x_m[s * blocks + drawn.top] - trajectory.x_m[drawn.top];
+        top_m[s] = trajectory.x_m[s * blocks + drawn.top] - trajectory.rest_x_m[drawn.top];
     const std::vector<double> base_m(trajectory.base_x_m.begin(),
                                      trajectory.base_x_m.begin() + static_cast<std::ptrdiff_t>(samples));
 

@@ -13,8 +13,9 @@ namespace stylobate {
 /// Draws a strip of snapshots (1800 pixels wide, 1350 high or more), blocks to scale in the frame of the base, the base
 /// beneath them and the time under each: a column in one row, what is wide in several rows. Fixed blocks are darker,
 /// epistyles blue, those that have fallen by then outlined in red. Below, over time: the number of fallen blocks if any
-/// falls; the displacement of the highest block against the base; that of the base, with marks at the snapshots.
-/// Lengths are in mm, or in m where they are large.
+/// falls; the displacement of the top, against the base; that of the base, with marks at the snapshots. The top is the
+/// centre of the last block that is free, and its displacement is counted from its place in the reference stack, as in
+/// `Outcome::peak_top_displacement_m`. Lengths are in mm, or in m where they are large.
 ///
 /// Only samples before the first one that is not finite are drawn. A recorded block whose role is ground, or whose top
 /// lies at or below y = 0, is drawn as the base.

@@ -13,7 +13,7 @@
 
 namespace stylobate {
 
-inline constexpr std::uint64_t result_format_version = 3;
+inline constexpr std::uint64_t result_format_version = 4;
 inline constexpr std::uint8_t state_not_run = 255; ///< state of a row that is not written yet
 
 /// Names in the file. Those of the columns follow from `visit_fields` below.

@@ -230,6 +230,8 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
         trajectory.y_m = hdf5::read_doubles(file, group + "y_m", both);
         trajectory.theta_rad = hdf5::read_doubles(file, group + "theta_rad", both);
         trajectory.base_x_m = hdf5::read_doubles(file, group + "base_x_m", {both[0]});
+        trajectory.rest_x_m = hdf5::read_doubles(file, group + "rest_x_m", {both[1]});
+        trajectory.rest_y_m = hdf5::read_doubles(file, group + "rest_y_m", {both[1]});
         trajectory.half_width_m = hdf5::read_doubles(file, group + "half_width_m", {both[1]});
         trajectory.half_height_m = hdf5::read_doubles(file, group + "half_height_m", {both[1]});
         for (const std::uint8_t role : hdf5::read_bytes(file, group + "role", role_type().id(), {both[1]})) {

@@ -86,6 +86,8 @@ struct Trajectory {
     std::vector<double> y_m;           ///< (nt x n_block)
     std::vector<double> theta_rad;     ///< (nt x n_block)
     std::vector<double> base_x_m;      ///< (nt) displacement of the base
+    std::vector<double> rest_x_m;      ///< (n_block) centre in the reference stack: upright, before it settles or leans
+    std::vector<double> rest_y_m;      ///< (n_block)
     std::vector<double> half_width_m;  ///< (n_block)
     std::vector<double> half_height_m; ///< (n_block)
     std::vector<BlockRole> role;       ///< (n_block)

@@ -53,6 +53,8 @@ void write_trajectory(hid_t file, const Trajectory& trajectory)
     hdf5::write_array(file, group + "/y_m", trajectory.y_m, both, "m");
     hdf5::write_array(file, group + "/theta_rad", trajectory.theta_rad, both, "rad");
     hdf5::write_array(file, group + "/base_x_m", trajectory.base_x_m, time, "m");
+    hdf5::write_array(file, group + "/rest_x_m", trajectory.rest_x_m, block, "m");
+    hdf5::write_array(file, group + "/rest_y_m", trajectory.rest_y_m, block, "m");
     hdf5::write_array(file, group + "/half_width_m", trajectory.half_width_m, block, "m");
     hdf5::write_array(file, group + "/half_height_m", trajectory.half_height_m, block, "m");
     std::vector<std::uint8_t> roles;
@@ -292,6 +294,7 @@ void ResultWriter::add(const Trajectory& trajectory)
     const std::size_t values = times * blocks;
     if (trajectory.x_m.size() != values || trajectory.y_m.size() != values || trajectory.theta_rad.size() != values ||
         trajectory.base_x_m.size() != times || trajectory.half_height_m.size() != blocks ||
+        trajectory.rest_x_m.size() != blocks || trajectory.rest_y_m.size() != blocks ||
         trajectory.role.size() != blocks || trajectory.column.size() != blocks || trajectory.name.size() != blocks)
         throw std::invalid_argument("the arrays of a trajectory do not fit together");
     joined_names(trajectory.name); // for its refusals

@@ -3,6 +3,7 @@
 
 #include "ensemble/executor.hpp"
 #include "kernels/isa.hpp"
+#include "studies/choose_realization.hpp"
 
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ struct CalibrateOptions {
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
-int replay_command(const CommonOptions& options, const std::string& results, long long realization,
+int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory);
 /// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none
 int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,

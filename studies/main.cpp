@@ -85,13 +85,20 @@ int main(int argc, char** argv)
     run->callback([&] { status = run_command(options, study, results); });
 
     std::string trajectory;
-    long long realization = -1;
+    RealizationChoice choice;
     auto* replay = app.add_subcommand("replay", "run one realization of a result again, with its trajectory");
     replay->add_option("RESULTS", results, "results file (HDF5)")->required();
-    replay->add_option("--realization", realization, "its index")->required();
+    replay->add_option("--realization", choice.index, "its index");
+    replay->add_option("--frequency", choice.frequency_hz, "instead, of a surface: the cell nearest to it [Hz]");
+    replay->add_option("--pga", choice.pga_m_s2, "of a surface: the cell nearest to it [m/s2]");
+    replay->add_option("--motion", choice.motion, "of a fragility study: name or number (from 0) of its motion");
+    replay->add_option("--intensity", choice.intensity, "of a fragility study: the level nearest to it");
+    replay->add_flag("--fallen", choice.fallen, "one that fell");
+    replay->add_flag("--stood", choice.stood, "one that did not fall");
+    replay->add_option("--nth", choice.nth, "which of those, in the order of their indices, from 1 (default: 1)");
     replay->add_option("-o,--output", trajectory, "results file for the trajectory (default: none is kept)");
     add_common(*replay, options);
-    replay->callback([&] { status = replay_command(options, results, realization, trajectory); });
+    replay->callback([&] { status = replay_command(options, results, choice, trajectory); });
 
     std::vector<std::string> files;
     std::string unit, component, block;

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace stylobate {
 
@@ -39,21 +41,28 @@ Json falls_json(const std::vector<std::size_t>& sequence, const std::vector<std:
     return list;
 }
 
+/// When all had collapsed, -1 if never. NaN where that is not known: of a run that ended at its first fall, unless
+/// nothing else was there to fall.
+double total_collapse_s(const Study& study, const FollowedRealization& f)
+{
+    const auto free = std::count_if(f.realization.blocks.begin(), f.realization.blocks.end(),
+                                    [](const Block& block) { return !block.fixed && block.role != BlockRole::ground; });
+    const bool known =
+        study.outcome.follow == Follow::rest || f.outcome.fallen_blocks == 0 || f.outcome.fallen_blocks == free;
+    return known ? f.outcome.total_collapse_time_s : std::numeric_limits<double>::quiet_NaN();
+}
+
 } // namespace
 
-int replay_command(const CommonOptions& options, const std::string& results, long long realization,
+int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory)
 {
     const ResultReader reader(results);
     const ResultHeader& header = reader.header();
     check_replayable(header, results);
     const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
-    const std::uint64_t end = realizations_end(header, loaded.study());
-    if (realization < 0 || static_cast<std::uint64_t>(realization) >= end ||
-        static_cast<std::uint64_t>(realization) < header.first)
-        throw InputError(
-            fmt::format("--realization {}: {} has realizations {} to {}", realization, results, header.first, end - 1));
-    const auto index = static_cast<std::uint64_t>(realization);
+    const ChosenRealization chosen = choose_realization(reader, loaded.study(), results, choice);
+    const std::uint64_t index = chosen.index;
 
     ResultHeader one = header;
     one.first = index;
@@ -78,6 +87,7 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
     const bool known = reader.has(index);
     const bool same = known && same_bits(reader.row(index), row);
     const Outcome& o = f.outcome;
+    const double total_s = total_collapse_s(loaded.study(), f);
     if (options.json) {
         Json json = Json::object();
         json.member("realization", index)
@@ -89,7 +99,7 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
             .member("fallen_blocks", o.fallen_blocks)
             .member("unseated_block", o.unseated_block)
             .member("unseating_time_s", o.unseating_time_s)
-            .member("total_collapse_time_s", o.total_collapse_time_s)
+            .member("total_collapse_time_s", total_s)
             .member("falls", falls_json(falls, names, row.outcome.fall_time_s))
             .member("peak_top_displacement_m", o.peak_top_displacement_m)
             .member("residual_top_displacement_m", o.residual_top_displacement_m)
@@ -100,6 +110,8 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
             .member("step_s", o.step_s)
             .member("in_results", known)
             .member("same_bits", same);
+        if (!chosen.words.empty())
+            json.member("chosen", chosen.words);
         if (!trajectory.empty())
             json.member("trajectory", trajectory);
         fmt::print("{}\n", json.text());
@@ -113,7 +125,10 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
             fmt::print("; {} unseated at {:.4f} s", name(o.unseated_block), o.unseating_time_s);
         if (o.state == State::invalid)
             fmt::print(" ({})", to_string(o.invalid_reason));
-        fmt::print("\n  peak top displacement {:.4g} m, residual {:.4g} m, sliding {:.4g} m, rocking {:.4g} rad\n",
+        if (!chosen.words.empty())
+            fmt::print("\n  {}", chosen.words);
+        fmt::print("\n  centre of the top block: peak displacement {:.4g} m, residual {:.4g} m; sliding {:.4g} m, "
+                   "rocking {:.4g} rad\n",
                    o.peak_top_displacement_m, o.residual_top_displacement_m, o.total_sliding_m, o.total_rocking_rad);
         if (falls.size() > 1) {
             std::string list;
@@ -122,8 +137,10 @@ int replay_command(const CommonOptions& options, const std::string& results, lon
                                     row.outcome.fall_time_s[block]);
             fmt::print("  {} of {} blocks fell: {}\n", falls.size(), names.size(), list);
         }
-        if (o.total_collapse_time_s >= 0)
-            fmt::print("  total collapse at {:.4f} s\n", o.total_collapse_time_s);
+        if (total_s >= 0)
+            fmt::print("  total collapse at {:.4f} s: every column and every epistyle has fallen\n", total_s);
+        else if (std::isnan(total_s))
+            fmt::print("  followed until the first fall only (outcome.follow = \"collapse\")\n");
         fmt::print("  {}\n", !header.has_rows() ? "the results keep no rows: there is nothing to compare it with"
                              : !known           ? (reader.complete() ? "not in the results: the run did not need it"
                                                                      : "not in the results yet")

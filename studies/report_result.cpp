@@ -196,7 +196,8 @@ private:
     void studied()
     {
         page_.section("What was run");
-        page_.facts(study_facts(study_));
+        const auto facts = study_facts(study_);
+        page_.facts({facts.begin(), facts.end()});
         page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
     }
 
@@ -377,13 +378,14 @@ private:
         if (upright.empty())
             return;
         page_.section("How far it moved");
-        page_.table(quantiles(
-            upright, {{"largest displacement of the top", "m", &Outcome::peak_top_displacement_m},
-                      {"residual displacement of the top, with its sign", "m", &Outcome::residual_top_displacement_m},
-                      {"sliding of all joints", "m", &Outcome::total_sliding_m},
-                      {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
-                      {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
-                      {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
+        page_.table(quantiles(upright, {{"largest displacement of the centre of the top block, from upright", "m",
+                                         &Outcome::peak_top_displacement_m},
+                                        {"residual displacement of the centre of the top block, with its sign", "m",
+                                         &Outcome::residual_top_displacement_m},
+                                        {"sliding of all joints", "m", &Outcome::total_sliding_m},
+                                        {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
+                                        {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
+                                        {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
         if (rows_.size() > 1)
             page_.note(fmt::format("Over the {} valid realization{} without a fall{}.", upright.size(),
                                    upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : ""));

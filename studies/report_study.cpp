@@ -1,5 +1,6 @@
 #include "studies/report_study.hpp"
 
+#include "ensemble/collapse_criterion.hpp"
 #include "ensemble/mechanism_spec.hpp"
 #include "ensemble/motion_set.hpp"
 #include "ensemble/structure.hpp"
@@ -126,17 +127,22 @@ std::string excitation_text(const Study& study)
     if (study.surface && study.surface->adaptive)
         text += fmt::format("; adaptive, ± {} with at most {} realizations", study.surface->adaptive->half_width,
                             study.surface->adaptive->budget);
-    else if (e.kind != ExcitationKind::none) {
-        if (e.frequency_hz > 0)
-            text += fmt::format(", {:.4g} Hz", e.frequency_hz);
-        text += e.pga_m_s2 > 0 ? fmt::format(", PGA {:.4g} m/s²", e.pga_m_s2) : ", PGA as recorded";
-    }
+    if (study.surface || e.kind == ExcitationKind::none)
+        return text; // its axes have been named, or there is nothing to name
+    if (e.frequency_hz > 0)
+        text += fmt::format(", {:.4g} Hz", e.frequency_hz);
+    if (e.pga_m_s2 > 0)
+        text += fmt::format(", PGA {:.4g} m/s²", e.pga_m_s2);
+    else if (e.kind == ExcitationKind::record)
+        text += ", PGA as recorded";
+    else if (e.kind == ExcitationKind::table)
+        text += ", PGA as in the table";
     return text;
 }
 
 } // namespace
 
-std::vector<std::pair<std::string, Html>> study_facts(const Study& study)
+std::vector<std::pair<std::string, std::string>> study_facts(const Study& study)
 {
     const Layout layout = lay_out(study.structure);
     std::string perturbed;
@@ -152,10 +158,8 @@ std::vector<std::pair<std::string, Html>> study_facts(const Study& study)
             {"Excitation", excitation_text(study)},
             {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
             {"Drawn anew in each realization", perturbed.empty() ? "nothing" : perturbed},
-            {"Collapse", fmt::format("a block's centre below {:.3g} of its height at rest",
-                                     study.outcome.collapse_height_fraction)},
-            {"Followed", study.outcome.follow == Follow::rest ? "until what has fallen lies still"
-                                                              : "until the first block has fallen"}};
+            {"Collapse", collapse_criterion(study.outcome)},
+            {"Followed", followed_until(study.outcome)}};
 }
 
 Html structure_svg(const Study& study)

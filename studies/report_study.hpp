@@ -11,7 +11,7 @@
 namespace stylobate {
 
 /// What the study says in short: structure, contact, excitation, what is perturbed.
-std::vector<std::pair<std::string, Html>> study_facts(const Study& study);
+std::vector<std::pair<std::string, std::string>> study_facts(const Study& study);
 
 /// The structure at rest, to scale (SVG); fixed blocks are darker.
 Html structure_svg(const Study& study);

@@ -57,6 +57,8 @@ FollowedRealization follow(const LoadedStudy& loaded, std::uint64_t index, Isa i
     t.index = index;
     t.name = block_names(loaded.study());
     for (std::size_t i = 0; i < t.name.size(); ++i) { // the ground is not recorded
+        t.rest_x_m.push_back(r.blocks[i].x_m);
+        t.rest_y_m.push_back(r.blocks[i].y_m);
         t.half_width_m.push_back(r.blocks[i].half_width_m);
         t.half_height_m.push_back(r.blocks[i].half_height_m);
         t.role.push_back(r.blocks[i].role);

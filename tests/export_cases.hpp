@@ -90,6 +90,9 @@ inline Trajectory some_trajectory(std::size_t blocks, double width, double heigh
     t.column.assign(blocks, 0);
     for (std::size_t i = 0; i < blocks; ++i)
         t.name.push_back("drum " + std::to_string(i));
+    t.rest_x_m.assign(blocks, 0);
+    for (std::size_t i = 0; i < blocks; ++i)
+        t.rest_y_m.push_back((static_cast<double>(i) + 0.5) * height);
     for (std::size_t s = 0; s < samples; ++s) {
         const double time = 0.01 * static_cast<double>(s);
         t.time_s.push_back(time);
@@ -148,6 +151,10 @@ inline FallingColonnade falling_colonnade(std::size_t samples = 801)
         t.half_width_m.push_back(1.5);
         t.half_height_m.push_back(0.4);
         t.name.push_back("epistyle " + std::to_string(span));
+    }
+    for (const Path& path : paths) {
+        t.rest_x_m.push_back(path.from.x);
+        t.rest_y_m.push_back(path.from.y);
     }
     for (const Path& path : paths)
         c.fall_time_s.push_back(path.start_s < 0 ? -1 : path.start_s + 0.2);

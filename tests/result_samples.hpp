@@ -161,6 +161,8 @@ inline Trajectory sample_trajectory(std::uint64_t index, std::size_t times)
     t.y_m = list(3 * times);
     t.theta_rad = list(3 * times);
     t.base_x_m = list(times);
+    t.rest_x_m = list(3);
+    t.rest_y_m = list(3);
     t.half_width_m = list(3);
     t.half_height_m = list(3);
     t.role = {BlockRole::drum, BlockRole::epistyle, BlockRole::ground};
@@ -239,8 +241,8 @@ inline std::string everything(const ResultReader& reader)
     for (const std::uint64_t i : reader.trajectory_indices()) {
         const Trajectory t = reader.trajectory(i);
         put_bits({i, t.index});
-        for (const auto* list :
-             {&t.time_s, &t.x_m, &t.y_m, &t.theta_rad, &t.base_x_m, &t.half_width_m, &t.half_height_m})
+        for (const auto* list : {&t.time_s, &t.x_m, &t.y_m, &t.theta_rad, &t.base_x_m, &t.rest_x_m, &t.rest_y_m,
+                                 &t.half_width_m, &t.half_height_m})
             put_bits(bits(*list));
         for (std::size_t k = 0; k < t.blocks(); ++k) {
             text += t.name[k] + '|';

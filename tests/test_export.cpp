@@ -203,6 +203,8 @@ TEST_F(Export, TrajectoryReadsBackBitByBit)
             expect_bits(table.at("x_m" + n)[s], t.x_m[3 * s + i]);
             expect_bits(table.at("y_m" + n)[s], t.y_m[3 * s + i]);
             expect_bits(table.at("theta_rad" + n)[s], t.theta_rad[3 * s + i]);
+            expect_bits(table.at("rest_x_m" + n)[s], t.rest_x_m[i]);
+            expect_bits(table.at("rest_y_m" + n)[s], t.rest_y_m[i]);
             expect_bits(table.at("half_width_m" + n)[s], t.half_width_m[i]);
             expect_bits(table.at("half_height_m" + n)[s], t.half_height_m[i]);
         }

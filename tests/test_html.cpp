@@ -1,13 +1,18 @@
 /// Pages and figures: what comes from elsewhere is text and never markup; figures hold what they are given.
 
+#include "ensemble/collapse_criterion.hpp"
+#include "io/study_file.hpp"
 #include "studies/html.hpp"
 #include "studies/html_figure.hpp"
 #include "studies/report.hpp"
+#include "studies/report_study.hpp"
 #include "tests/diagnosis_sample.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 namespace stylobate {
 namespace {
@@ -168,6 +173,52 @@ TEST(DiagnosisPage, OfAnEmptyDiagnosisIsAPageToo)
     expect_balanced(page);
     EXPECT_NE(page.find("No cause is found beyond what chance explains"), std::string::npos);
     EXPECT_EQ(page.find("not known"), std::string::npos);
+}
+
+std::string fact_of(const Study& study, const std::string& name)
+{
+    for (const auto& [what, text] : study_facts(study))
+        if (what == name)
+            return text;
+    return "";
+}
+
+TEST(StudyFacts, SayHowStrongTheShakingIsByItsKind)
+{
+    const auto excitation = [](const std::string& file, const std::vector<std::string>& settings) {
+        return fact_of(read_study(STYLOBATE_SOURCE_DIR "/studies/inputs/" + file, settings), "Excitation");
+    };
+    // along an axis there is no other PGA, whatever shakes
+    const std::string surface = excitation("small_scale_column.toml", {});
+    EXPECT_NE(surface.find("PGA: 16 from"), std::string::npos) << surface;
+    EXPECT_EQ(surface.find("as recorded"), std::string::npos) << surface;
+    const std::string harmonic = excitation("mechanisms.toml", {});
+    EXPECT_EQ(harmonic.find("as recorded"), std::string::npos) << harmonic;
+
+    Study study = read_study(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml");
+    EXPECT_EQ(fact_of(study, "Excitation"), "none: the base is at rest");
+    study.excitation.kind = ExcitationKind::record;
+    study.excitation.file = "a.at2";
+    EXPECT_EQ(fact_of(study, "Excitation"), "record a.at2, PGA as recorded");
+    study.excitation.pga_m_s2 = 3;
+    EXPECT_EQ(fact_of(study, "Excitation"), "record a.at2, PGA 3 m/s²");
+    study.excitation.kind = ExcitationKind::table;
+    study.excitation.pga_m_s2 = 0;
+    EXPECT_EQ(fact_of(study, "Excitation"), "table of samples a.at2, PGA as in the table");
+}
+
+TEST(StudyFacts, StateTheWholeCollapseCriterion)
+{
+    Study study = read_study(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml");
+    study.outcome.collapse_height_fraction = 0.75;
+    const std::string text = fact_of(study, "Collapse");
+    EXPECT_NE(text.find("below 0.75 of its height"), std::string::npos) << text;
+    EXPECT_NE(text.find("slenderness angle"), std::string::npos) << text;
+
+    // the reference of the study file states the same, of the defaults
+    std::ifstream in(STYLOBATE_SOURCE_DIR "/studies/inputs/README.md");
+    const std::string reference{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    EXPECT_NE(reference.find(collapse_criterion(OutcomeSpec{})), std::string::npos);
 }
 
 } // namespace

@@ -229,6 +229,34 @@ TEST_F(Pictures, StripDrawsDrumsToScale)
     }
 }
 
+TEST_F(Pictures, StripCountsTheTopFromUpright)
+{
+    // A block that starts leaned by 0.1 rad about its corner: drawn is where its centre is against upright,
+    // h sin(theta) + b (1 - cos(theta)) to the left, and not how far it has gone from its lean.
+    Trajectory t = some_trajectory(1, 0.5, 2, 2);
+    const double theta[] = {0.1, -0.05};
+    for (std::size_t s = 0; s < 2; ++s) {
+        const double lean = std::abs(theta[s]);
+        t.theta_rad[s] = theta[s];
+        t.x_m[s] = (theta[s] > 0 ? -1 : 1) * (std::sin(lean) + 0.25 * (1 - std::cos(lean)));
+        t.y_m[s] = std::cos(lean) + 0.25 * std::sin(lean);
+    }
+    const fs::path fake = folder / "gnuplot";
+    std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
+    fs::permissions(fake, fs::perms::owner_all);
+    const Environment named("STYLOBATE_GNUPLOT", fake.string());
+    EXPECT_THROW(plot_strip(t, {}, "", folder / "strip.png"), InputError);
+    std::ifstream told(folder / "told.gp");
+    std::string line;
+    while (std::getline(told, line) && line != "$top << EOD") {
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
+        double time = 0, drawn_mm = 0;
+        told >> time >> drawn_mm;
+        EXPECT_NEAR(drawn_mm, 1000 * t.x_m[s], 1e-3) << s;
+    }
+}
+
 TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
 {
     NEEDS_GNUPLOT();
@@ -266,6 +294,8 @@ TEST_F(Pictures, StripOfAnyColumn)
         return share(decode(folder / "c.png"), 0xead9b5, 3);
     }();
     Trajectory with = ground;
+    with.rest_x_m = {0, 0};
+    with.rest_y_m = {0.15, -0.5};
     with.half_width_m = {0.05, 50};
     with.half_height_m = {0.15, 0.5};
     with.role.push_back(BlockRole::drum); // to be told by its place

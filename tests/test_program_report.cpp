@@ -41,6 +41,10 @@ TEST_F(Report, OfASurface)
     expect_has(html, {"Results: surface", "valid realizations over 2 × 2 cells", "What was run", "7 drums (1 fixed)",
                       "Outcomes", "of 8</td>", "Probability of collapse", "Order of falls", "Energy audit",
                       "stylobate run STUDY.toml", "[perturbation"});
+    // its axes say how strong the shaking is, and a fall is what the engine takes for one
+    EXPECT_EQ(html.find("as recorded"), std::string::npos);
+    expect_has(html,
+               {"below 0.6 of its height at rest above the base, or when it has rotated beyond its own slenderness"});
     // the surface, its slice and the order of falls
     EXPECT_EQ(count_of(html, "src=\"data:image/png;base64,iVBORw0KGgo"), 3U);
     EXPECT_EQ(count_of(html, "<img"), 3U);

@@ -198,7 +198,7 @@ std::string as_version_1(std::string bytes)
         return value;
     };
     const auto set = [&](std::size_t at, std::uint32_t value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
-    EXPECT_EQ(number(16), 3U);
+    EXPECT_EQ(number(16), 4U);
     set(16, 1);
     const std::size_t end = number(20) - 4;
     set(end, crc32_of(std::as_bytes(std::span(bytes)).first(end)));
@@ -254,7 +254,7 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     both(cut, "is truncated");
     both(longer, "is damaged");
     both(old,
-         "is of format version 1; this program reads version 3. Read it with the version that wrote it, or run its "
+         "is of format version 1; this program reads version 4. Read it with the version that wrote it, or run its "
          "study again into another file.");
 
     std::string message =

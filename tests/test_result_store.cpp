@@ -252,7 +252,7 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     const Plain plain(file);
     ASSERT_GE(plain.id, 0);
     EXPECT_EQ(plain.attribute("/", "format"), "stylobate");
-    EXPECT_EQ(plain.attribute("/", "format_version"), "3");
+    EXPECT_EQ(plain.attribute("/", "format_version"), "4");
     EXPECT_EQ(plain.attribute("/", "kind"), "surface");
     EXPECT_EQ(plain.attribute("/", "study_toml"), sample_header(1).study_toml);
     EXPECT_EQ(plain.attribute("/", "seed"), "18364758544493064720");
@@ -317,6 +317,8 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     EXPECT_EQ(plain.describe("/trajectories/3/y_m"), "float64 (4 x 3) m");
     EXPECT_EQ(plain.describe("/trajectories/3/theta_rad"), "float64 (4 x 3) rad");
     EXPECT_EQ(plain.describe("/trajectories/3/base_x_m"), "float64 (4) m");
+    EXPECT_EQ(plain.describe("/trajectories/3/rest_x_m"), "float64 (3) m");
+    EXPECT_EQ(plain.describe("/trajectories/3/rest_y_m"), "float64 (3) m");
     EXPECT_EQ(plain.describe("/trajectories/3/half_width_m"), "float64 (3) m");
     EXPECT_EQ(plain.describe("/trajectories/3/half_height_m"), "float64 (3) m");
     EXPECT_EQ(plain.describe("/trajectories/3/role"), "enum8 (3)");
@@ -500,6 +502,8 @@ TEST_F(ResultStore, RefusesTrajectoriesWhoseBlocksDoNotFit)
     };
     bad([](Trajectory& t) { t.role.pop_back(); });
     bad([](Trajectory& t) { t.column.push_back(0); });
+    bad([](Trajectory& t) { t.rest_x_m.pop_back(); });
+    bad([](Trajectory& t) { t.rest_y_m.clear(); });
     bad([](Trajectory& t) { t.name.pop_back(); });
     bad([](Trajectory& t) { t.name[0] = ""; });
     bad([](Trajectory& t) { t.name[0] = "a\nb"; });
