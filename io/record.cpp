@@ -381,4 +381,17 @@ Record read_record(const std::filesystem::path& file, const std::string& compone
     return record;
 }
 
+std::string record_format(const std::filesystem::path& file)
+{
+    try {
+        const std::string content = content_of(file, "a ground-motion record");
+        const RecordText text = lines_of(file.string(), content);
+        for (const RecordParser* parser : parsers)
+            if (parser->recognise(text))
+                return std::string(parser->format);
+    } catch (const InputError&) { // no text, or too much of it: no record
+    }
+    return "";
+}
+
 } // namespace stylobate

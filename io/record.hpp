@@ -51,4 +51,7 @@ std::vector<Record> read_records(std::string_view content, const std::string& fi
 ///         among several
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit);
 
+/// The format that a file is recognised as, by its content alone; empty: none of them, or no text.
+std::string record_format(const std::filesystem::path& file);
+
 } // namespace stylobate

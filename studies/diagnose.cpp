@@ -13,6 +13,7 @@
 #include "studies/diagnosis/diagnosis_text.hpp"
 #include "studies/diagnosis/pipeline.hpp"
 #include "studies/diagnosis/track.hpp"
+#include "studies/file_kind.hpp"
 #include "studies/output_path.hpp"
 
 #include <fmt/format.h>
@@ -68,6 +69,7 @@ std::string shell_word(const std::string& word)
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study_file,
                      std::string output, long long nulls, long long seed, bool windows)
 {
+    check_kind(measured, "diagnose");
     const Campaign campaign = read_campaign(measured);
     const Study study = study_file.empty()
                             ? parse_study(default_study(campaign).text,

@@ -3,11 +3,13 @@
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/export_csv.hpp"
+#include "io/plot_rare.hpp"
 #include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/file_kind.hpp"
 #include "studies/fragility/exchange.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/json.hpp"
@@ -38,6 +40,7 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
     if (picture.empty())
         picture = wanted.cell >= 0                                                  ? "order"
                   : wanted.realization < 0 && reader.header().kind == "sensitivity" ? "sensitivity"
+                  : wanted.realization < 0 && reader.header().kind == "rare"        ? "rare"
                   : reader.header().frequency_hz.empty() || wanted.realization >= 0 ? "strip"
                                                                                     : "surface";
     const bool of_surface = picture == "surface" || picture == "slice" || picture == "fragility";
@@ -65,6 +68,8 @@ fs::path export_png(const CommonOptions& options, const std::string& results, co
         order_picture(reader, results, wanted.cell, png);
     } else if (picture == "sensitivity") {
         plot_sensitivity(finished_sensitivity(reader, results), "What it depends on: " + name, png);
+    } else if (picture == "rare") {
+        plot_rare(finished_rare(reader, results), "Probability of collapse: " + name, png);
     } else if (picture == "twins") {
         plot_flips(twins_of(reader, results), "How sure the verdict is: " + name, png);
     } else if (picture == "predictability") {
@@ -125,6 +130,7 @@ fs::path export_models(const std::string& results, const ExportOptions& wanted)
 
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted)
 {
+    check_kind(results, "export");
     check_output(results, wanted.output);
     const bool csv = wanted.format == "csv", png = wanted.format == "png";
     if (!png && !(wanted.limit.empty() && wanted.picture.empty() && wanted.cell < 0))

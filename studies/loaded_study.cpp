@@ -107,15 +107,8 @@ ResultHeader LoadedStudy::result_header() const
     header.study_toml = text_;
     header.seed = study_->seed;
     header.code_version = code_version();
-    header.total = study_->total();
-    if (study_->surface && study_->surface->adaptive) {
-        header.selected = true;
-        header.total = std::min(header.total, study_->surface->adaptive->budget);
-    }
-    if (study_->rare) {
-        header.selected = true;
-        header.total = study_->rare->most();
-    }
+    header.total = most_realizations(*study_);
+    header.selected = (study_->surface && study_->surface->adaptive) || study_->rare;
     if (study_->kept == KeptRealizations::none)
         header.limit_states = limit_state_names();
     header.input_names = sampler_->input_names();
@@ -131,6 +124,14 @@ ResultHeader LoadedStudy::result_header() const
         header.pga_m_s2 = values(study_->surface->pga_m_s2);
     }
     return header;
+}
+
+std::uint64_t most_realizations(const Study& study)
+{
+    if (study.rare)
+        return study.rare->most();
+    return study.surface && study.surface->adaptive ? std::min(study.total(), study.surface->adaptive->budget)
+                                                    : study.total();
 }
 
 std::uint64_t realizations_end(const ResultHeader& header, const Study& study)

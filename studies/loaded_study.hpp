@@ -42,6 +42,9 @@ private:
     std::string text_;
 };
 
+/// How many realizations a study has; of an adaptive surface or a rare event at most.
+std::uint64_t most_realizations(const Study& study);
+
 /// One more than the last realization that a result may be asked for: of an adaptive surface any of its study, run or
 /// not.
 std::uint64_t realizations_end(const ResultHeader& header, const Study& study);

@@ -175,11 +175,12 @@ int main(int argc, char** argv)
         ->required()
         ->check(CLI::IsMember({"csv", "png", "nrml", "json"}));
     exporting
-        ->add_option("--picture", wanted.picture,
-                     "png: surface, slice, twins, predictability, fragility, sensitivity, strip or order (default: by "
-                     "the kind of the study)")
+        ->add_option(
+            "--picture", wanted.picture,
+            "png: surface, slice, twins, predictability, fragility, sensitivity, rare, strip or order (default: by "
+            "the kind of the study)")
         ->check(CLI::IsMember(
-            {"surface", "slice", "twins", "predictability", "fragility", "sensitivity", "strip", "order"}));
+            {"surface", "slice", "twins", "predictability", "fragility", "sensitivity", "rare", "strip", "order"}));
     exporting->add_option(
         "--limit", wanted.limit,
         "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
@@ -195,16 +196,18 @@ int main(int argc, char** argv)
     exporting->callback([&] { status = export_command(options, results, wanted); });
 
     std::string page;
-    auto* report = app.add_subcommand("report", "one self-contained page of a result or a diagnosis");
-    report->add_option("FILE", results, "results file or diagnosis (HDF5)")->required();
+    auto* report = app.add_subcommand("report", "one self-contained page of a result, a diagnosis or a calibration");
+    report->add_option("FILE", results, "results file, diagnosis or calibration (HDF5)")->required();
     report->add_option("-o,--output", page, "the page (default: the file's name with .html)");
     add_common(*report, options);
     report->callback([&] { status = report_command(options, results, page); });
 
     std::string held;
     auto* info = app.add_subcommand("info", "version, instruction sets, threads; or what a file holds");
-    info->add_option("FILE", held,
-                     "measured data (HDF5, folder), measured outcomes (CSV), results, a calibration or a diagnosis");
+    info->add_option(
+        "FILE", held,
+        "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, measured data (HDF5, "
+        "folder), measured outcomes (CSV), a record");
     add_common(*info, options);
     info->callback([&] { status = info_command(options, held); });
 

@@ -4,6 +4,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/ground_motion.hpp"
 #include "studies/command.hpp"
+#include "studies/file_kind.hpp"
 #include "studies/json.hpp"
 
 #include <fmt/format.h>
@@ -162,6 +163,8 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                    const std::string& component, const std::string& block)
 {
     const std::optional<BlockSize> size = block_size(block);
+    for (const std::string& file : files)
+        check_kind(file, "record");
     // all are read before any is printed: one bad file, one message and nothing else
     std::vector<Record> records;
     for (const std::string& file : files) {

@@ -3,6 +3,7 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/file_kind.hpp"
 #include "studies/json.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/result_picture.hpp"
@@ -57,6 +58,7 @@ double total_collapse_s(const Study& study, const FollowedRealization& f)
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory)
 {
+    check_kind(results, "replay");
     const ResultReader reader(results);
     const ResultHeader& header = reader.header();
     check_replayable(header, results);

@@ -1,10 +1,12 @@
-/// `stylobate report`: a result or a diagnosis as one page.
+/// `stylobate report`: a result, a diagnosis or a calibration as one page.
 
 #include "studies/report.hpp"
 
 #include "io/atomic_file.hpp"
 #include "studies/console.hpp"
+#include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/file_kind.hpp"
 #include "studies/json.hpp"
 #include "studies/output_path.hpp"
 #include "studies/result_picture.hpp"
@@ -15,13 +17,17 @@ namespace stylobate {
 
 int report_command(const CommonOptions& options, const std::string& file, std::string output)
 {
+    check_kind(file, "report");
     check_output(file, output);
     if (output.empty())
         output = beside(file, ".html").string();
     std::string page;
     std::vector<std::string> warnings;
-    if (is_diagnosis(file)) {
+    const FileKind kind = recognise(file).kind;
+    if (kind == FileKind::diagnosis) {
         page = diagnosis_page(read_diagnosis(file), file).text();
+    } else if (kind == FileKind::calibration) {
+        page = calibration_page(read_calibration(file), file).text();
     } else {
         const ResultReader reader(file);
         check_complete(reader, file);

@@ -3,6 +3,7 @@
 
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis.hpp"
 #include "studies/html.hpp"
 
@@ -22,5 +23,9 @@ HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, c
 /// The verdict first, then what it rests on.
 /// @param file for names
 HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file);
+
+/// The parameters with their intervals, what is not determined and why, the contact forms, what it gains.
+/// @param file for names
+HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file);
 
 } // namespace stylobate

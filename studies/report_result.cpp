@@ -1,6 +1,7 @@
 /// The page of a result.
 
 #include "ensemble/input_error.hpp"
+#include "io/plot_rare.hpp"
 #include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
@@ -161,7 +162,11 @@ private:
         const Share collapsed = counts_.share(LimitState::collapse);
         page_.section("Summary");
         if (study_.rare) { // the share of its realizations that collapsed says nothing
-            add_rare(page_, reader_.rare());
+            const RareTable table = reader_.rare();
+            add_rare(page_, table);
+            if (!table.empty())
+                picture("The probability to exceed a displacement, level by level for each repeat, and of collapse.",
+                        [&](const fs::path& png) { plot_rare(table, "Probability of collapse", png); });
             return;
         }
         std::string text;

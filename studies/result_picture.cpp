@@ -128,6 +128,16 @@ SensitivityTable finished_sensitivity(const ResultReader& reader, const std::str
     return reader.sensitivity();
 }
 
+RareTable finished_rare(const ResultReader& reader, const std::string& results)
+{
+    if (reader.header().kind != "rare")
+        throw InputError(
+            fmt::format("{}: a result of kind '{}' has no rare event; a study of study.kind = \"rare\" has", results,
+                        reader.header().kind));
+    check_complete(reader, results);
+    return reader.rare();
+}
+
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
                    std::uint64_t index, const fs::path& png)
 {

@@ -34,6 +34,9 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
 /// @throws InputError if there are none, or if the run is not complete
 SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results);
 
+/// @throws InputError as above
+RareTable finished_rare(const ResultReader& reader, const std::string& results);
+
 /// One realization over time: from the file's trajectory, or else run again.
 /// @throws InputError if there is no such realization, and as `plot_strip` does
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,

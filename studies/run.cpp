@@ -7,6 +7,7 @@
 #include "studies/block_names.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
+#include "studies/file_kind.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/json.hpp"
 #include "studies/limit_state.hpp"
@@ -301,6 +302,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
 {
     if (results.empty())
         results = default_results(study);
+    check_kind(study, "run");
     const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
     if (options.backend == "cuda")
         demand_of_device(loaded.study(), study);

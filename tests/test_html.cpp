@@ -2,10 +2,13 @@
 
 #include "ensemble/collapse_criterion.hpp"
 #include "io/study_file.hpp"
+#include "io/temporary_folder.hpp"
+#include "studies/diagnosis/calibration_file.hpp"
 #include "studies/html.hpp"
 #include "studies/html_figure.hpp"
 #include "studies/report.hpp"
 #include "studies/report_study.hpp"
+#include "tests/calibration_sample.hpp"
 #include "tests/diagnosis_sample.hpp"
 
 #include <gtest/gtest.h>
@@ -219,6 +222,98 @@ TEST(StudyFacts, StateTheWholeCollapseCriterion)
     std::ifstream in(STYLOBATE_SOURCE_DIR "/studies/inputs/README.md");
     const std::string reference{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     EXPECT_NE(reference.find(collapse_criterion(OutcomeSpec{})), std::string::npos);
+}
+
+/// The sample, written and read again.
+StoredCalibration stored_sample(const Calibration& calibration)
+{
+    const TemporaryFolder folder;
+    write_calibration(calibration, calibration.forms[0].study, "1.2.3", folder / "c.h5");
+    return read_calibration(folder / "c.h5");
+}
+
+TEST(CalibrationFile, ReadsBackWhatWasWritten)
+{
+    const Calibration c = sample_calibration();
+    const StoredCalibration stored = stored_sample(c);
+    EXPECT_EQ(stored.measured, c.measured);
+    EXPECT_EQ(stored.evidence, "histories");
+    EXPECT_EQ(stored.best_form, "area");
+    EXPECT_EQ(stored.code_version, "1.2.3");
+    EXPECT_EQ(stored.start_toml, c.forms[0].study.text);
+    EXPECT_EQ(stored.notes, c.notes);
+    EXPECT_EQ(stored.block_steps, c.block_steps);
+    EXPECT_EQ(stored.seconds, c.seconds);
+    ASSERT_EQ(stored.forms.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const StoredForm& form = stored.forms[k];
+        const FormCalibration& want = c.forms[k];
+        EXPECT_EQ(form.name, k == 0 ? "area" : "points");
+        EXPECT_EQ(form.score, want.score);
+        EXPECT_EQ(form.nominal_score, want.nominal_score);
+        EXPECT_EQ(form.correlation, want.correlation);
+        EXPECT_EQ(form.held_out.low, want.held_out.low);
+        EXPECT_EQ(form.held_out.groups, want.held_out.groups);
+        ASSERT_EQ(form.parameters.size(), 2U);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const FittedParameter &p = form.parameters[i], &q = want.parameters[i];
+            EXPECT_EQ(p.key, q.key);
+            EXPECT_EQ(p.high, q.high);
+            EXPECT_EQ(p.to, q.to);
+            EXPECT_EQ(p.determined, q.determined);
+            EXPECT_EQ(p.note, q.note);
+            ASSERT_EQ(p.profile.size(), q.profile.size());
+            EXPECT_EQ(p.profile.back().score, q.profile.back().score);
+        }
+        ASSERT_EQ(form.runs.size(), 50U);
+        EXPECT_EQ(form.runs[7].motion_id, 3);
+        EXPECT_EQ(form.runs[7].calibrated, want.runs[7].calibrated);
+    }
+    EXPECT_EQ(stored.best().name, "area");
+}
+
+TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
+{
+    const std::string page = calibration_page(stored_sample(sample_calibration()), "some/c.h5").text();
+    expect_balanced(page);
+    expect_self_contained(page);
+    for (const char* part : {"Calibration: campaign &quot;7&quot; &lt;b&gt;.h5",
+                             "These data determine 1 of 2 fitted parameters.",
+                             "it predicts them better than the study that the calibration began from",
+                             "+75.0 (+20.5 to +129.5)",
+                             "nothing slides &lt;here&gt; &amp; there",
+                             "1.2e+07",
+                             "9.6e+06 to 1.5e+07",
+                             "2.4e+06 to 6e+07",
+                             "(-0.70)",
+                             ">best</span>",
+                             "points",
+                             "without an interval: too few motions",
+                             "+40.2",
+                             "run 39",
+                             "The first 40 of 50 runs",
+                             "run 003 has no table motion &amp; was left out",
+                             "&lt;i&gt;",
+                             "1 min 23 s",
+                             "--form area,points",
+                             "The calibrated study",
+                             "drum_height_m"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_EQ(page.find("run 40<"), std::string::npos);
+    EXPECT_EQ(count_of(page, "<svg"), 2U); // a profile of each parameter
+
+    // nothing left out, one form, all determined
+    Calibration c = sample_calibration();
+    c.forms.pop_back();
+    c.forms[0].parameters.pop_back();
+    c.forms[0].correlation = {1};
+    c.forms[0].held_out = {};
+    c.notes.clear();
+    const std::string plain = calibration_page(stored_sample(c), "c.h5").text();
+    expect_balanced(plain);
+    for (const char* part : {"These data determine the fitted parameter.", "was not tried on motions",
+                             "--form all compares them", "All of the measured data could be used."})
+        EXPECT_NE(plain.find(part), std::string::npos) << part;
 }
 
 } // namespace

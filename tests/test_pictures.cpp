@@ -3,6 +3,7 @@
 #include "export_cases.hpp"
 #include "io/gnuplot.hpp"
 #include "io/plot_axis.hpp"
+#include "io/plot_rare.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_strip.hpp"
 #include "io/plot_surface.hpp"
@@ -227,6 +228,55 @@ TEST_F(Pictures, StripDrawsDrumsToScale)
         EXPECT_GT(share(pixels, 0x0072b2, 3), 0.0003) << "displacement of the top";
         EXPECT_GT(share(pixels, 0xd55e00, 3), 0.0003) << "displacement of the base";
     }
+}
+
+/// Two repeats of three and two levels; the second came to no collapse.
+RareTable some_rare_event()
+{
+    RareTable table;
+    table.probability = 1e-3;
+    table.lower = 4e-4;
+    table.upper = 2e-3;
+    table.realizations = 560;
+    table.repeats = {0.002, 0};
+    table.levels = 3;
+    table.threshold_m = {nan_value, 0.011, 0.015, nan_value, 0.012, nan_value};
+    table.share = {0.1, 0.1, 0.2, 0.1, 0, nan_value};
+    table.acceptance = table.stuck = {nan_value, 0.4, 0.4, nan_value, 0.4, nan_value};
+    return table;
+}
+
+TEST_F(Pictures, RareEventDrawsTheProductOfTheShares)
+{
+    const fs::path fake = folder / "gnuplot";
+    std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
+    fs::permissions(fake, fs::perms::owner_all);
+    const Environment named("STYLOBATE_GNUPLOT", fake.string());
+    EXPECT_THROW(plot_rare(some_rare_event(), "", folder / "rare.png"), InputError);
+    std::ifstream in(folder / "told.gp");
+    const std::string told{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    // by hand: above 11 mm is a tenth, above 15 mm a tenth of it; of the second repeat a tenth is above 12 mm
+    EXPECT_NE(told.find("$chain0 << EOD\n11 0.1\n15 0.010000000000000002\nEOD"), std::string::npos) << told;
+    EXPECT_NE(told.find("$chain1 << EOD\n12 0.1\nEOD"), std::string::npos) << told;
+    EXPECT_NE(told.find("0.3 0.001 0.0004 0.002"), std::string::npos) << told;
+    EXPECT_NE(told.find("set yrange [0.0001:1]"), std::string::npos) << told;
+    EXPECT_NE(told.find("1 of 2 repeats without a collapse, counted as 0"), std::string::npos) << told;
+}
+
+TEST_F(Pictures, RareEvent)
+{
+    NEEDS_GNUPLOT();
+    plot_rare(some_rare_event(), "it's rare", folder / "rare.png");
+    const Pixels pixels = decode(folder / "rare.png");
+    EXPECT_GE(pixels.width, 1600U);
+    EXPECT_GT(share(pixels, 0x56b4e9, 2), 0.00005) << "the repeats";
+    EXPECT_GT(share(pixels, 0xd55e00, 2), 0.0002) << "their mean";
+    RareTable none = some_rare_event(); // no repeat came to a collapse
+    none.probability = none.lower = none.upper = nan_value;
+    none.repeats = {0, 0};
+    plot_rare(none, "", folder / "none.png");
+    EXPECT_LT(share(decode(folder / "none.png"), 0xd55e00, 2), 1e-5);
+    EXPECT_THROW(plot_rare(RareTable{}, "", folder / "empty.png"), InputError);
 }
 
 TEST_F(Pictures, StripCountsTheTopFromUpright)

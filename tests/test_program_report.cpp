@@ -107,7 +107,7 @@ TEST_F(Report, RefusesBadInputAndWritesNothing)
         expect_refused({"report", name + "_damaged.h5"}, {name + "_damaged.h5", "damaged"});
     }
     expect_refused({"report", "none.h5"}, {"none.h5", "no such file"});
-    expect_refused({"report", "study.h5"}, {"study.h5", "not a results file"});
+    expect_refused({"report", "study.h5"}, {"study.h5", "is a study file"});
     expect_refused({"report", "empty.h5"}, {"empty.h5", "empty"});
     fs::create_directory(folder / "page.html");
     for (const char* file : {"one.h5", "diagnosis.h5"}) {

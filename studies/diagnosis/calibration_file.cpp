@@ -5,12 +5,16 @@
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace stylobate {
 
 namespace {
 
 constexpr char format_name[] = "stylobate-calibration";
-constexpr std::uint64_t format_version = 1;
+constexpr std::uint64_t format_version = 2;
 
 void write_form(hid_t parent, const FormCalibration& form)
 {
@@ -22,6 +26,7 @@ void write_form(hid_t parent, const FormCalibration& form)
     hdf5::write_real(group.id(), "nominal_score", form.nominal_score);
     hdf5::write_real(group.id(), "roughness", form.roughness);
     hdf5::write_real(group.id(), "held_out_gain", form.held_out.total);
+    hdf5::write_number(group.id(), "held_out_groups", H5T_STD_U64LE, form.held_out.groups);
     hdf5::write_real(group.id(), "held_out_low", form.held_out.low);
     hdf5::write_real(group.id(), "held_out_high", form.held_out.high);
 
@@ -83,32 +88,125 @@ void write_form(hid_t parent, const FormCalibration& form)
     hdf5::write_array(group.id(), "runs/calibrated_score", calibrated, {runs}, "nat");
 }
 
+/// A list of the file that says how long it is.
+std::vector<double> doubles(hid_t group, const std::string& path)
+{
+    return hdf5::read_doubles(group, path, hdf5::dims_of(group, path));
+}
+
+std::vector<FittedParameter> read_parameters(hid_t group)
+{
+    const hdf5::Dims n = hdf5::dims_of(group, "parameters/key");
+    if (n.size() != 1)
+        throw hdf5::Error("its parameters are no list");
+    std::vector<FittedParameter> parameters(n[0]);
+    const auto take = [&](const char* name, double FittedParameter::*member) {
+        const std::vector<double> values = hdf5::read_doubles(group, std::string("parameters/") + name, n);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            parameters[i].*member = values[i];
+    };
+    take("start", &FittedParameter::start);
+    take("value", &FittedParameter::value);
+    take("low", &FittedParameter::low);
+    take("high", &FittedParameter::high);
+    take("range_low", &FittedParameter::from);
+    take("range_high", &FittedParameter::to);
+    const std::vector<std::string> keys = hdf5::read_texts(group, "parameters/key", n);
+    const std::vector<std::string> notes = hdf5::read_texts(group, "parameters/note", n);
+    const std::vector<std::int32_t> determined = hdf5::read_integers(group, "parameters/determined", n);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        parameters[i].key = keys[i];
+        parameters[i].note = notes[i];
+        parameters[i].determined = determined[i] != 0;
+    }
+    if (hdf5::exists(group, "profile")) {
+        const hdf5::Dims m = hdf5::dims_of(group, "profile/parameter");
+        const std::vector<std::int32_t> of = hdf5::read_integers(group, "profile/parameter", m);
+        const std::vector<double> value = hdf5::read_doubles(group, "profile/value", m);
+        const std::vector<double> score = hdf5::read_doubles(group, "profile/score", m);
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            if (of[i] < 0 || static_cast<std::size_t>(of[i]) >= parameters.size())
+                throw hdf5::Error("a profile is of no parameter");
+            parameters[static_cast<std::size_t>(of[i])].profile.push_back({value[i], score[i]});
+        }
+    }
+    return parameters;
+}
+
+std::vector<RunScore> read_runs(hid_t group)
+{
+    const hdf5::Dims n = hdf5::dims_of(group, "runs/name");
+    const std::vector<std::string> names = hdf5::read_texts(group, "runs/name", n);
+    const std::vector<std::int32_t> motions = hdf5::read_integers(group, "runs/motion_id", n);
+    const std::vector<std::uint64_t> units = hdf5::read_counts(group, "runs/units", n);
+    const std::vector<double> nominal = hdf5::read_doubles(group, "runs/nominal_score", n);
+    const std::vector<double> calibrated = hdf5::read_doubles(group, "runs/calibrated_score", n);
+    std::vector<RunScore> runs;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        runs.push_back({names[i], motions[i], units[i], nominal[i], calibrated[i]});
+    return runs;
+}
+
+StoredForm read_form(hid_t forms, const std::string& name)
+{
+    const hdf5::Handle group = hdf5::open_group(forms, name);
+    StoredForm form;
+    form.name = name;
+    form.study_toml = hdf5::read_text(group.id(), "study_toml");
+    form.score = hdf5::read_any_number(group.id(), "score");
+    form.nominal_score = hdf5::read_any_number(group.id(), "nominal_score");
+    form.roughness = hdf5::read_any_number(group.id(), "roughness");
+    form.held_out.total = hdf5::read_any_number(group.id(), "held_out_gain");
+    form.held_out.groups = hdf5::read_number(group.id(), "held_out_groups");
+    form.held_out.low = hdf5::read_any_number(group.id(), "held_out_low");
+    form.held_out.high = hdf5::read_any_number(group.id(), "held_out_high");
+    form.parameters = read_parameters(group.id());
+    form.correlation = doubles(group.id(), "parameters/correlation");
+    if (form.correlation.size() != form.parameters.size() * form.parameters.size())
+        throw hdf5::Error("its correlations are not a square of its parameters");
+    form.runs = read_runs(group.id());
+    return form;
+}
+
 } // namespace
 
-std::optional<CalibrationSummary> read_calibration_summary(const std::filesystem::path& file)
+const StoredForm& StoredCalibration::best() const
 {
-    hdf5::Handle open;
+    return *std::find_if(forms.begin(), forms.end(), [&](const StoredForm& form) { return form.name == best_form; });
+}
+
+StoredCalibration read_calibration(const std::filesystem::path& file)
+{
     try {
-        open = hdf5::open_file(file, false);
-        if (!hdf5::has_attribute(open.id(), "format") || hdf5::read_any_text(open.id(), "format") != format_name)
-            return std::nullopt;
-    } catch (const hdf5::Error&) {
-        return std::nullopt; // no HDF5 at all: somebody else's to say what it is
-    }
-    try {
-        CalibrationSummary summary;
-        summary.measured = hdf5::read_text(open.id(), "measured");
-        summary.evidence = hdf5::read_text(open.id(), "evidence");
-        summary.best_form = hdf5::read_text(open.id(), "best_form");
-        summary.code_version = hdf5::read_text(open.id(), "code_version");
-        summary.parameter_sets = hdf5::read_number(open.id(), "parameter_sets");
-        const std::string place = "forms/" + summary.best_form + "/parameters/";
-        const hdf5::Dims dims = hdf5::dims_of(open.id(), place + "key");
-        summary.keys = hdf5::read_texts(open.id(), place + "key", dims);
-        summary.value = hdf5::read_doubles(open.id(), place + "value", dims);
-        summary.low = hdf5::read_doubles(open.id(), place + "low", dims);
-        summary.high = hdf5::read_doubles(open.id(), place + "high", dims);
-        return summary;
+        const hdf5::Handle open = hdf5::open_file(file, false);
+        const hid_t root = open.id();
+        if (!hdf5::has_attribute(root, "format") || hdf5::read_any_text(root, "format") != format_name)
+            throw InputError(file.string(), 0, "holds no calibration");
+        if (const std::uint64_t version = hdf5::read_number(root, "format_version"); version != format_version)
+            throw InputError(
+                file.string(), 0,
+                fmt::format("is a calibration of format version {}; this program reads version {}. Read it "
+                            "with the version that wrote it, or calibrate again.",
+                            version, format_version));
+        StoredCalibration stored;
+        stored.measured = hdf5::read_text(root, "measured");
+        stored.evidence = hdf5::read_text(root, "evidence");
+        stored.best_form = hdf5::read_text(root, "best_form");
+        stored.code_version = hdf5::read_text(root, "code_version");
+        stored.start_toml = hdf5::read_text(root, "start_toml");
+        stored.notes = hdf5::read_texts(root, "notes", hdf5::dims_of(root, "notes"));
+        stored.parameter_sets = hdf5::read_number(root, "parameter_sets");
+        stored.simulations = hdf5::read_number(root, "simulations");
+        stored.window_simulations = hdf5::read_number(root, "window_simulations");
+        stored.block_steps = hdf5::read_number(root, "block_steps");
+        stored.seconds = hdf5::read_any_number(root, "seconds");
+        const hdf5::Handle forms = hdf5::open_group(root, "forms");
+        for (const std::string& name : hdf5::names_in(forms.id()))
+            stored.forms.push_back(read_form(forms.id(), name));
+        if (std::none_of(stored.forms.begin(), stored.forms.end(),
+                         [&](const StoredForm& form) { return form.name == stored.best_form; }))
+            throw hdf5::Error("its best form '" + stored.best_form + "' is not there");
+        return stored;
     } catch (const hdf5::Error& error) {
         throw InputError(file.string(), 0, std::string("is a damaged calibration: ") + error.what());
     }
@@ -131,6 +229,8 @@ void write_calibration(const Calibration& calibration, const Study& start, const
         hdf5::write_number(made.id(), "simulations", H5T_STD_U64LE, calibration.simulations);
         hdf5::write_number(made.id(), "window_simulations", H5T_STD_U64LE, calibration.window_simulations);
         hdf5::write_number(made.id(), "block_steps", H5T_STD_U64LE, calibration.block_steps);
+        hdf5::write_real(made.id(), "seconds", calibration.seconds);
+        hdf5::write_texts(made.id(), "notes", calibration.notes);
         const hdf5::Handle forms = hdf5::create_group(made.id(), "forms");
         for (const FormCalibration& form : calibration.forms)
             write_form(forms.id(), form);

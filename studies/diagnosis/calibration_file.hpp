@@ -5,25 +5,41 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
 
-/// What `stylobate info` tells of one.
-struct CalibrationSummary {
-    std::string measured;  ///< the file that it began from
-    std::string evidence;  ///< "histories" or "outcomes"
-    std::string best_form; ///< contact form
-    std::string code_version;
-    std::uint64_t parameter_sets = 0;
-    std::vector<std::string> keys; ///< what was fitted, of the best form
-    std::vector<double> value, low, high;
+/// One contact form of a calibration, as it lies in the file.
+struct StoredForm {
+    std::string name;       ///< "area"
+    std::string study_toml; ///< with the calibrated values
+    double score = 0;       ///< of the calibrated model, all runs [nats]
+    double nominal_score = 0;
+    double roughness = 0;
+    PairedGain held_out; ///< of no groups where no motion was left out
+    std::vector<FittedParameter> parameters;
+    std::vector<double> correlation; ///< (parameters x parameters)
+    std::vector<RunScore> runs;
 };
 
-/// Nothing if the file is none.   @throws InputError if it is one, but damaged
-std::optional<CalibrationSummary> read_calibration_summary(const std::filesystem::path& file);
+/// A calibration, as it lies in the file.
+struct StoredCalibration {
+    std::string measured;  ///< the file that it began from
+    std::string evidence;  ///< "histories" or "outcomes"
+    std::string best_form; ///< name of one of the forms
+    std::string code_version;
+    std::string start_toml;         ///< the study that it began from
+    std::vector<std::string> notes; ///< what could not be used or judged
+    std::uint64_t parameter_sets = 0, simulations = 0, window_simulations = 0, block_steps = 0;
+    double seconds = 0;            ///< that it took
+    std::vector<StoredForm> forms; ///< by name; never empty
+
+    const StoredForm& best() const;
+};
+
+/// @throws InputError if the file is none, of another format version, or damaged
+StoredCalibration read_calibration(const std::filesystem::path& file);
 
 /// Writes a calibration over a file.
 /// @param start the study that it began from   @throws InputError if it cannot be written

@@ -1,0 +1,49 @@
+#pragma once
+/// What a file is, by its content, and which verbs take it: the one place where files are told apart.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stylobate {
+
+enum class FileKind {
+    unknown,     ///< none of the others: the verb that reads it says what is wrong
+    study,       ///< TOML
+    results,     ///< of a study, or one realization that was run again
+    diagnosis,   ///< by `diagnose`
+    calibration, ///< by `calibrate`
+    campaign,    ///< measured histories: HDF5, a folder with campaign.toml, or that file
+    outcomes,    ///< measured outcomes: CSV
+    record,      ///< a ground motion
+    table,       ///< a table by `export --to csv`, or their folder
+    functions,   ///< fragility functions by `export --to nrml` or `json`
+    picture,     ///< PNG, SVG or PDF
+    page         ///< HTML
+};
+
+struct RecognisedFile {
+    FileKind kind = FileKind::unknown;
+    std::string detail; ///< of results the kind of the study, of a record its format, of a picture its format
+};
+
+/// @throws InputError if it is a file of stylobate that is damaged, truncated or of another format version
+RecognisedFile recognise(const std::filesystem::path& file);
+
+/// "a diagnosis", "the results of a study of kind 'surface'".
+std::string describe(const RecognisedFile& file);
+
+/// What can be done with a file: a command line, and what it does.
+struct FileUse {
+    std::string verb;    ///< that takes the file as its own
+    std::string command; ///< "stylobate report FILE"
+    std::string purpose; ///< "makes a page of it"
+};
+std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name);
+
+/// Says what a file is, and which verb takes it, before a verb that takes others reads it.
+/// @throws InputError if it was recognised and is none that the verb takes, and as `recognise`
+void check_kind(const std::string& file, std::string_view verb);
+
+} // namespace stylobate

@@ -1,0 +1,264 @@
+/// `stylobate info FILE`, kind by kind.
+
+#include "studies/info_file.hpp"
+
+#include "ensemble/input_error.hpp"
+#include "io/measured_file.hpp"
+#include "io/measured_outcomes.hpp"
+#include "io/record.hpp"
+#include "io/result_store.hpp"
+#include "io/study_file.hpp"
+#include "io/study_names.hpp"
+#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/file_kind.hpp"
+#include "studies/json.hpp"
+#include "studies/loaded_study.hpp"
+#include "studies/report_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace stylobate {
+namespace {
+
+/// What is told of a file: one text for people, members for programs.
+struct Told {
+    std::string text; ///< follows "FILE: "
+    Json json = Json::object();
+};
+
+Json json_of(const std::vector<Finding>& findings)
+{
+    Json list = Json::list();
+    for (const Finding& finding : findings)
+        list.item(Json::object()
+                      .member("severity", finding.severity == Severity::warning ? "warning" : "note")
+                      .member("place", finding.place)
+                      .member("text", finding.text));
+    return list;
+}
+
+std::string text_of(const std::vector<Finding>& findings)
+{
+    std::string text;
+    for (const Severity severity : {Severity::warning, Severity::note})
+        for (const Finding& finding : findings)
+            if (finding.severity == severity)
+                text += fmt::format("{}: {}: {}\n", severity == Severity::warning ? "warning" : "note", finding.place,
+                                    finding.text);
+    return text;
+}
+
+void tell_campaign(const std::string& file, Told& told)
+{
+    const Campaign campaign = read_campaign(file);
+    std::set<int> motions;
+    std::size_t collapsed = 0;
+    double seconds = 0;
+    for (const MeasuredRun& run : campaign.runs) {
+        motions.insert(run.motion_id);
+        collapsed += run.collapsed.value_or(false);
+        seconds += run.time_s.empty() ? 0 : run.time_s.back() - run.time_s.front();
+    }
+    told.json.member("holds", "measured campaign")
+        .member("specimen", campaign.specimen.name)
+        .member("blocks", campaign.specimen.blocks())
+        .member("joints", campaign.specimen.joints.size())
+        .member("runs", campaign.runs.size())
+        .member("motions", motions.size())
+        .member("collapsed", collapsed)
+        .member("duration_s", seconds)
+        .member("findings", json_of(campaign.findings));
+    told.text = fmt::format("a measured campaign\nspecimen \"{}\": {} blocks, {} joints\n{} runs of {} motions, {:.4g} "
+                            "s in all; {} collapsed\n{}",
+                            campaign.specimen.name, campaign.specimen.blocks(), campaign.specimen.joints.size(),
+                            campaign.runs.size(), motions.size(), seconds, collapsed, text_of(campaign.findings));
+}
+
+void tell_outcomes(const std::string& file, Told& told)
+{
+    const OutcomeTable table = read_outcomes(file);
+    std::set<int> motions;
+    std::size_t fell = 0;
+    for (const MeasuredOutcome& row : table.rows) {
+        motions.insert(row.motion_id);
+        fell += row.fell;
+    }
+    told.json.member("holds", "measured outcomes")
+        .member("tests", table.rows.size())
+        .member("motions", motions.size())
+        .member("fell", fell)
+        .member("findings", json_of(table.findings));
+    told.text = fmt::format("measured outcomes\n{} tests of {} motions: {} fell, {} stood\n{}", table.rows.size(),
+                            motions.size(), fell, table.rows.size() - fell, text_of(table.findings));
+}
+
+void tell_result(const std::string& file, Told& told)
+{
+    const ResultReader reader(file);
+    const ResultHeader& header = reader.header();
+    const std::uint64_t done = reader.done();
+    told.json.member("holds", "results")
+        .member("kind", header.kind)
+        .member("seed", header.seed)
+        .member("code_version", header.code_version)
+        .member("realizations", header.total)
+        .member("done", done)
+        .member("complete", reader.complete());
+    const std::string what = header.kind == "replay" ? fmt::format("realization {} of a study, run again with its "
+                                                                   "trajectory",
+                                                                   header.first)
+                                                     : "results of a study of kind " + header.kind;
+    told.text = fmt::format("{}, seed {}, by stylobate {}\n{} of {} realizations, {}\n", what, header.seed,
+                            header.code_version, done, header.total, reader.complete() ? "complete" : "unfinished");
+}
+
+void tell_diagnosis(const std::string& file, Told& told)
+{
+    const Diagnosis d = read_diagnosis(file);
+    Json causes = Json::list();
+    for (const Candidate* cause : named_causes(d))
+        causes.item(Json::object().member("name", cause->mechanism).member("place", cause->place));
+    told.json.member("holds", "diagnosis")
+        .member("measured", d.measured_file)
+        .member("specimen", d.specimen)
+        .member("runs", d.runs)
+        .member("code_version", d.code_version)
+        .member("verdict", to_string(d.verdict))
+        .member("causes", causes);
+    told.text = fmt::format("a diagnosis of {} ({}), by stylobate {}\n{}. {}\n", d.measured_file,
+                            count_words(d.runs, "run", "runs"), d.code_version, verdict_heading(d), verdict_words(d));
+}
+
+void tell_calibration(const std::string& file, Told& told)
+{
+    const StoredCalibration c = read_calibration(file);
+    Json parameters = Json::list();
+    told.text = fmt::format("a calibration with the {} of {}, by stylobate {}\nbest contact form: {}\n", c.evidence,
+                            c.measured, c.code_version, c.best_form);
+    for (const FittedParameter& p : c.best().parameters) {
+        parameters.item(Json::object()
+                            .member("key", p.key)
+                            .member("value", p.value)
+                            .member("low", p.low)
+                            .member("high", p.high)
+                            .member("determined", p.determined)
+                            .member("note", p.note));
+        told.text += fmt::format("  {:<36} {:>11.4g}   95 % from {:.4g} to {:.4g}{}{}\n", p.key, p.value, p.low, p.high,
+                                 p.note.empty() ? "" : "   ", p.note);
+    }
+    told.json.member("holds", "calibration")
+        .member("measured", c.measured)
+        .member("evidence", c.evidence)
+        .member("best_form", c.best_form)
+        .member("code_version", c.code_version)
+        .member("parameter_sets", c.parameter_sets)
+        .member("parameters", parameters);
+}
+
+void tell_study(const CommonOptions& options, const std::string& file, Told& told)
+{
+    const Study study = read_study(file, options.set);
+    told.json.member("holds", "study")
+        .member("kind", word_for(study_kind_names, study.kind))
+        .member("seed", study.seed)
+        .member("realizations", most_realizations(study));
+    const bool at_most = study.rare || (study.surface && study.surface->adaptive);
+    told.text = fmt::format("a study of kind {}, {}{} realization{}, seed {}\n", word_for(study_kind_names, study.kind),
+                            at_most ? "at most " : "", most_realizations(study),
+                            most_realizations(study) == 1 ? "" : "s", study.seed);
+    for (const auto& [what, is] : study_facts(study)) {
+        std::string key = what;
+        std::transform(key.begin(), key.end(), key.begin(), [](char c) {
+            return c == ' ' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c;
+        });
+        told.json.member(key, is);
+        told.text += fmt::format("  {}: {}\n", what, is);
+    }
+}
+
+void tell_record(const std::string& file, const RecognisedFile& known, Told& told)
+{
+    told.json.member("holds", "record").member("format", known.detail);
+    told.text = fmt::format("a record of ground motion, format {}\n", known.detail);
+    Json components = Json::list();
+    for (const Record& record : read_records(file, "")) {
+        double pga = 0;
+        for (const double a : record.acceleration_m_s2)
+            pga = std::max(pga, std::abs(a));
+        components.item(Json::object()
+                            .member("component", record.component)
+                            .member("samples", record.acceleration_m_s2.size())
+                            .member("dt_s", record.dt_s)
+                            .member("pga_m_s2", pga));
+        told.text += fmt::format("  {}: {} samples at {} s, PGA {:.4g} m/s2\n", record.component,
+                                 record.acceleration_m_s2.size(), record.dt_s, pga);
+    }
+    told.json.member("components", components);
+    told.text += "A study is shaken by it with excitation.kind = \"record\" and excitation.file.\n";
+}
+
+} // namespace
+
+void print_file(const CommonOptions& options, const std::string& file)
+{
+    const RecognisedFile known = recognise(file);
+    Told told;
+    switch (known.kind) {
+    case FileKind::study:
+        tell_study(options, file, told);
+        break;
+    case FileKind::results:
+        tell_result(file, told);
+        break;
+    case FileKind::diagnosis:
+        tell_diagnosis(file, told);
+        break;
+    case FileKind::calibration:
+        tell_calibration(file, told);
+        break;
+    case FileKind::outcomes:
+        tell_outcomes(file, told);
+        break;
+    case FileKind::record:
+        tell_record(file, known, told);
+        break;
+    case FileKind::table:
+    case FileKind::functions:
+    case FileKind::picture:
+    case FileKind::page:
+        told.json.member("holds", describe(known));
+        told.text = describe(known) + "\nstylobate writes such files and does not read them.\n";
+        break;
+    case FileKind::campaign:
+        tell_campaign(file, told);
+        break;
+    case FileKind::unknown:
+        if (!std::filesystem::exists(file))
+            throw InputError(file, 0, "there is no such file");
+        throw InputError(file, 0,
+                         "is none of the files that stylobate reads: a study (TOML), results, a diagnosis or a "
+                         "calibration (HDF5), a measured campaign (HDF5 or a folder with campaign.toml), measured "
+                         "outcomes (CSV with a column 'fell'), or a record of ground motion.\n  io/FORMAT.md has the "
+                         "layouts.");
+    }
+    const std::vector<FileUse> uses = uses_of(known, file);
+    if (options.json) {
+        Json verbs = Json::list();
+        for (const FileUse& use : uses)
+            verbs.item(use.verb);
+        fmt::print("{}\n", told.json.member("file", file).member("verbs", verbs).text());
+        return;
+    }
+    fmt::print("{}: {}", file, told.text);
+    for (const FileUse& use : uses)
+        fmt::print("{}: {}\n", use.command, use.purpose);
+}
+
+} // namespace stylobate
