@@ -8,6 +8,7 @@
 #include "ensemble/estimators/dispersion_shares.hpp"
 #include "ensemble/estimators/lack_of_fit.hpp"
 #include "ensemble/estimators/record_bootstrap.hpp"
+#include "ensemble/estimators/record_share.hpp"
 #include "ensemble/estimators/stripe_shares.hpp"
 #include "tests/fragility_truth.hpp"
 #include "tests/nested_truth.hpp"
@@ -168,6 +169,42 @@ void stripe_coverage(std::uint64_t repeats)
     }
 }
 
+/// Few motions that are damaged, or none: one stripe, where the probability is small.
+void few_coverage(std::uint64_t repeats)
+{
+    fmt::print(
+        "\n### Few or no damaged records\n\nOne stripe, 30 runs of each record. Percent of {} repeats in which the "
+        "interval at 95 % holds the probability (one standard error: {:.1f}); in brackets its mean upper limit. "
+        "Weak: the records have 10 % of the variance of ln capacity; strong: 80 %; complete: 99.9 %, so that "
+        "all runs of a record do the same.\n\n| records | clustering | p = 0.005 | 0.01 | 0.02 | 0.05 | 0.2 | 0.5 "
+        "|\n|---|---|---|---|---|---|---|---|\n",
+        repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
+    constexpr std::pair<const char*, double> clusterings[] = {{"weak", 0.1}, {"strong", 0.8}, {"complete", 0.999}};
+    for (const std::size_t records : {10, 30, 100})
+        for (const auto& [name, part] : clusterings) {
+            fmt::print("| {} | {} |", records, name);
+            for (const double p : {0.005, 0.01, 0.02, 0.05, 0.2, 0.5}) {
+                FragilityTruth truth{.between = 0.4 * std::sqrt(part), .within = 0.4 * std::sqrt(1 - part)};
+                truth.records = records;
+                truth.runs = 30;
+                truth.stripes = {std::exp(truth.dispersion() * link_quantile(Link::probit, p))};
+                double held = 0, upper = 0;
+                for (std::uint64_t r = 0; r < repeats; ++r) {
+                    std::vector<RecordCount> counts;
+                    for (const FragilityRun& run : truth.draw(36, r))
+                        counts.push_back({run.trials, run.reached});
+                    const Limits limits = record_share_limits(counts, 0.95);
+                    held += covers(limits, p) ? 1 : 0;
+                    upper += limits.upper;
+                }
+                fmt::print(" {:.1f} ({:.3f}) |", 100 * held / static_cast<double>(repeats),
+                           upper / static_cast<double>(repeats));
+            }
+            fmt::print("\n");
+            std::fflush(stdout);
+        }
+}
+
 void share_coverage(std::uint64_t repeats)
 {
     fmt::print("### Shares of the dispersion\n\nStandard deviations .5 between records, .4 imperfections, .3 contact "
@@ -226,6 +263,7 @@ int main(int argc, char** argv)
     stylobate::share_coverage(repeats);
     stylobate::fit_sizes(repeats);
     stylobate::stripe_coverage(std::max<std::uint64_t>(10, repeats / 5));
+    stylobate::few_coverage(std::max<std::uint64_t>(10, repeats / 5));
     stylobate::curve_coverage(repeats, resamples);
     return 0;
 }

@@ -154,6 +154,8 @@ std::string describe_interval(const std::string& interval)
     if (*end != '\0' || !(level > 0 && level < 1))
         return interval;
     std::string name = interval.substr(0, blank);
+    if (name == "motions")
+        return fmt::format("{:.6g} % interval by the motions", 100 * level);
     if (name != "adaptive" && name != "bootstrap") // the others are people
         name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     return fmt::format("{:.6g} % {} interval", 100 * level, name);

@@ -93,7 +93,7 @@ RareSpec read_rare(const KeyReader& keys, const Study& study)
     spec.samples = keys.whole_or("samples", 100, 1'000'000, spec.samples,
                                  "Realizations of each level; a tenth of them is the number of chains.");
     spec.repeats =
-        keys.whole_or("repeats", 4, 1000, spec.repeats, "Independent repeats: their spread gives the interval.");
+        keys.whole_or("repeats", 5, 1000, spec.repeats, "Independent repeats: their spread gives the interval.");
     return spec;
 }
 

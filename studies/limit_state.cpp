@@ -1,5 +1,6 @@
 #include "studies/limit_state.hpp"
 
+#include "ensemble/estimators/record_share.hpp"
 #include "ensemble/interval.hpp"
 
 #include <fmt/format.h>
@@ -94,19 +95,31 @@ void LimitCounts::add(const ResultRow& row)
     if (o.state == State::invalid)
         return;
     ++trials_;
-    for (std::size_t limit = 0; limit < reached_.size(); ++limit)
-        reached_[limit] += reached(static_cast<LimitState>(limit), o);
-    if (reached(LimitState::collapse, o)) {
+    const bool fell = reached(LimitState::collapse, o);
+    if (fell)
         collapse_time_s_.add(o.collapse_time_s);
-        if (o.first_collapse_block >= 0 && static_cast<std::size_t>(o.first_collapse_block) < first_.size())
-            ++first_[static_cast<std::size_t>(o.first_collapse_block)];
-    }
+    OfMotion none;
+    OfMotion& m = cells_of_motion_ > 0 ? of_motion(row.cell / cells_of_motion_) : none;
+    ++m.trials;
+    const auto count = [](std::vector<std::uint64_t>& all, std::vector<std::uint64_t>& of_motion, std::size_t i) {
+        ++all[i];
+        if (!of_motion.empty())
+            ++of_motion[i];
+    };
+    for (std::size_t limit = 0; limit < reached_.size(); ++limit)
+        if (reached(static_cast<LimitState>(limit), o))
+            count(reached_, m.reached, limit);
+    if (fell && o.first_collapse_block >= 0 && static_cast<std::size_t>(o.first_collapse_block) < first_.size())
+        count(first_, m.first, static_cast<std::size_t>(o.first_collapse_block));
+    for (std::size_t i = 0; i < std::min(fallen_.size(), o.fall_time_s.size()); ++i)
+        if (o.fall_time_s[i] >= 0)
+            count(fallen_, m.fallen, i);
     if (reached(LimitState::total, o))
         total_collapse_time_s_.add(o.total_collapse_time_s);
 }
 
 LimitCounts::LimitCounts(const Tally& tally)
-    : trials_(tally.all_trials()), first_(tally.blocks), collapse_time_s_(tally.collapse_time_s),
+    : trials_(tally.all_trials()), first_(tally.blocks), fallen_(tally.blocks), collapse_time_s_(tally.collapse_time_s),
       total_collapse_time_s_(tally.total_collapse_time_s)
 {
     for (std::size_t limit = 0; limit < reached_.size(); ++limit)
@@ -115,9 +128,52 @@ LimitCounts::LimitCounts(const Tally& tally)
         first_[i % tally.blocks] += tally.first[i];
 }
 
+Share LimitCounts::share(std::uint64_t count, const std::function<std::uint64_t(const OfMotion&)>& of_motion) const
+{
+    Share share = share_of(trials_, count);
+    if (cells_of_motion_ == 0)
+        return share;
+    std::vector<RecordCount> counts;
+    for (const OfMotion& m : motions_)
+        counts.push_back({static_cast<double>(m.trials), static_cast<double>(of_motion(m))});
+    const Limits limits = record_share_limits(counts, interval_level);
+    share.lower = limits.lower;
+    share.upper = limits.upper;
+    return share;
+}
+
 Share LimitCounts::share(LimitState limit) const
 {
-    return share_of(trials_, reached_[static_cast<std::size_t>(limit)]);
+    const auto i = static_cast<std::size_t>(limit);
+    return share(reached_[i], [i](const OfMotion& m) { return m.reached[i]; });
+}
+
+Share LimitCounts::share_first(std::size_t block) const
+{
+    return share(first_[block], [block](const OfMotion& m) { return m.first[block]; });
+}
+
+Share LimitCounts::share_fallen(std::size_t block) const
+{
+    return share(fallen_[block], [block](const OfMotion& m) { return m.fallen[block]; });
+}
+
+LimitCounts::OfMotion& LimitCounts::of_motion(std::size_t motion)
+{
+    while (motions_.size() <= motion)
+        motions_.push_back({0, std::vector<std::uint64_t>(reached_.size()), std::vector<std::uint64_t>(first_.size()),
+                            std::vector<std::uint64_t>(fallen_.size())});
+    return motions_[motion];
+}
+
+std::size_t cells_of_motion(const Study& study)
+{
+    return study.fragility ? static_cast<std::size_t>(study.fragility->stripes()) : 0;
+}
+
+std::string LimitCounts::interval() const
+{
+    return cells_of_motion_ > 0 ? fmt::format("motions {}", interval_level) : interval_name();
 }
 
 double LimitCounts::median_collapse_time_s() const
@@ -130,13 +186,14 @@ double LimitCounts::median_total_collapse_time_s() const
     return total_collapse_time_s_.median();
 }
 
-FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows)
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
+                     std::size_t cells_of_motion)
 {
     FallOrder order;
-    order.interval = interval_name();
     for (const std::string& name : names)
         order.blocks.push_back({name, 0, {}, 0, 1});
-    LimitCounts counts(names.size());
+    LimitCounts counts(names.size(), cells_of_motion);
+    order.interval = counts.interval();
     for (const ResultRow& row : rows) {
         counts.add(row);
         if (row.outcome.state == State::invalid)
@@ -151,7 +208,7 @@ FallOrder fall_order(const std::vector<std::string>& names, const std::vector<Re
         FallOrder::Block& block = order.blocks[i];
         std::sort(block.fall_time_s.begin(), block.fall_time_s.end());
         block.first = counts.first()[i];
-        const Share share = share_of(order.trials, block.fall_time_s.size());
+        const Share share = counts.share_fallen(i);
         block.lower = share.lower;
         block.upper = share.upper;
     }

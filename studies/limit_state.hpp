@@ -1,10 +1,12 @@
 #pragma once
 /// Limit states of a structure: which a realization has reached, and how often that happened.
 
+#include "ensemble/study.hpp"
 #include "ensemble/time_counts.hpp"
 #include "io/plot_order.hpp"
 #include "io/result_store.hpp"
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +44,7 @@ struct Share {
     std::uint64_t trials = 0;
     std::uint64_t count = 0;
     double probability = 0; ///< NaN without trials
-    double lower = 0;       ///< Jeffreys' interval
+    double lower = 0;       ///< Jeffreys' interval, or that of the motions
     double upper = 1;
 };
 Share share_of(std::uint64_t trials, std::uint64_t count);
@@ -50,12 +52,22 @@ Share share_of(std::uint64_t trials, std::uint64_t count);
 /// Counts what became of the realizations of a study; those that are invalid are no trials.
 class LimitCounts {
 public:
-    explicit LimitCounts(std::size_t blocks) : first_(blocks) {}
+    /// @param cells_of_motion of a fragility study, whose runs under one motion are not independent; 0: all are
+    explicit LimitCounts(std::size_t blocks, std::size_t cells_of_motion = 0)
+        : cells_of_motion_(cells_of_motion), first_(blocks), fallen_(blocks)
+    {
+    }
     /// Over all cells.
     explicit LimitCounts(const Tally& tally);
     void add(const ResultRow& row);
 
     Share share(LimitState limit) const;
+    /// That a block was the first to fall.
+    Share share_first(std::size_t block) const;
+    /// That a block fell at all, of rows.
+    Share share_fallen(std::size_t block) const;
+    /// Name of the intervals of these shares: "jeffreys 0.95", or "motions 0.95".
+    std::string interval() const;
     /// How often each block fell before all others. (blocks)
     const std::vector<std::uint64_t>& first() const { return first_; }
     std::uint64_t trials() const { return trials_; }
@@ -65,14 +77,28 @@ public:
     double median_total_collapse_time_s() const;
 
 private:
+    /// What became of the runs under one motion.
+    struct OfMotion {
+        std::uint64_t trials = 0;
+        std::vector<std::uint64_t> reached, first, fallen;
+    };
+    OfMotion& of_motion(std::size_t motion);
+    Share share(std::uint64_t count, const std::function<std::uint64_t(const OfMotion&)>& of_motion) const;
+
+    std::size_t cells_of_motion_ = 0;
+    std::vector<OfMotion> motions_;
     std::uint64_t trials_ = 0;
     std::vector<std::uint64_t> reached_ = std::vector<std::uint64_t>(limit_state_names().size());
-    std::vector<std::uint64_t> first_;
+    std::vector<std::uint64_t> first_, fallen_;
     TimeCounts collapse_time_s_, total_collapse_time_s_;
 };
 
+/// What `LimitCounts` asks of a study.
+std::size_t cells_of_motion(const Study& study);
+
 /// Which blocks fell, in which order and when, for its picture.
 /// @param names of the blocks, as many as each row has fall times
-FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows);
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
+                     std::size_t cells_of_motion = 0);
 
 } // namespace stylobate

@@ -89,7 +89,8 @@ public:
                std::vector<std::string>& warnings)
         : options_(options), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
           study_(parse_study(header_.study_toml, file + " (its study)")), rows_(original_rows(reader, file)),
-          counts_(header_.block_names.size()), page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
+          counts_(header_.block_names.size(), cells_of_motion(study_)),
+          page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
           surface_(!header_.frequency_hz.empty())
     {
         if (const Tally* tally = reader.tally()) {
@@ -178,7 +179,7 @@ private:
                 surface_ ? fmt::format(" over {} × {} cells of frequency and PGA", header_.frequency_hz.size(),
                                        header_.pga_m_s2.size())
                          : "",
-                percent(collapsed.probability), describe_interval(interval_name()), interval_text(collapsed));
+                percent(collapsed.probability), describe_interval(counts_.interval()), interval_text(collapsed));
         if (surface_)
             text += " The cells differ in their shaking, so that this share describes the choice of cells too; the "
                     "probability of each is below.";
@@ -212,7 +213,7 @@ private:
             return;
         page_.section("Outcomes");
         const bool to_rest = study_.outcome.follow == Follow::rest;
-        HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(interval_name())}, {}, ""};
+        HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(counts_.interval())}, {}, ""};
         for (std::size_t i = 0; i < limit_state_names().size(); ++i) {
             const auto limit = static_cast<LimitState>(i);
             if ((limit == LimitState::total && !to_rest) ||
@@ -334,7 +335,7 @@ private:
     {
         if (!header_.has_rows())
             return first_falls();
-        const FallOrder falls = fall_order(header_.block_names, rows_);
+        const FallOrder falls = fall_order(header_.block_names, rows_, cells_of_motion(study_));
         const std::vector<std::size_t> blocks = order_of_falls(falls);
         if (blocks.empty())
             return;
@@ -348,7 +349,9 @@ private:
                         ""};
         for (const std::size_t i : blocks) {
             const FallOrder::Block& block = falls.blocks[i];
-            const Share share = share_of(falls.trials, block.fall_time_s.size());
+            Share share = share_of(falls.trials, block.fall_time_s.size());
+            share.lower = block.lower;
+            share.upper = block.upper;
             table.rows.push_back({block.name, fmt::format("{} of {}", share.count, share.trials),
                                   percent(share.probability), interval_text(share),
                                   number(quantile(block.fall_time_s, 0.5)), fmt::format("{}", block.first)});
@@ -361,10 +364,10 @@ private:
     /// What the order of falls comes to without rows.
     void first_falls()
     {
-        HtmlTable table{"lrrr", {"block", "fell first", "share", describe_interval(interval_name())}, {}, ""};
+        HtmlTable table{"lrrr", {"block", "fell first", "share", describe_interval(counts_.interval())}, {}, ""};
         for (std::size_t i = 0; i < counts_.first().size(); ++i)
             if (const std::uint64_t first = counts_.first()[i]; first > 0) {
-                const Share share = share_of(counts_.trials(), first);
+                const Share share = counts_.share_first(i);
                 table.rows.push_back({header_.block_names[i], fmt::format("{} of {}", share.count, share.trials),
                                       percent(share.probability), interval_text(share)});
             }

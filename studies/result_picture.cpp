@@ -174,7 +174,8 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
     }
     const std::string note =
         followed_to_rest(reader, results) ? "" : "each realization was followed until its first fall only";
-    plot_order(fall_order(header.block_names, rows), title, note, png);
+    const Study study = parse_study(header.study_toml, results + " (its study)");
+    plot_order(fall_order(header.block_names, rows, cells_of_motion(study)), title, note, png);
 }
 
 } // namespace stylobate

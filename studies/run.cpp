@@ -2,6 +2,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/input_error.hpp"
+#include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
 #include "io/study_names.hpp"
 #include "studies/block_names.hpp"
@@ -158,9 +159,9 @@ Json limits_json(const LimitCounts& counts, const std::vector<std::string>& name
         first.item(Json::object()
                        .member("block", block)
                        .member("name", names[block])
-                       .member("share", share_json(share_of(counts.trials(), counts.first()[block]))));
+                       .member("share", share_json(counts.share_first(block))));
     Json json = Json::object();
-    json.member("trials", counts.trials()).member("interval", interval_name());
+    json.member("trials", counts.trials()).member("interval", counts.interval());
     for (std::size_t i = 0; i < limit_state_names().size(); ++i)
         if (const auto limit = static_cast<LimitState>(i); limit != LimitState::total || to_rest)
             json.member(limit_state_names()[i], share_json(counts.share(limit)));
@@ -184,13 +185,12 @@ void print_limits(const LimitCounts& counts, const std::vector<std::string>& nam
         if (total.count > 0)
             fmt::print(", median time {:.3g} s", counts.median_total_collapse_time_s());
     }
-    fmt::print("; in brackets: share and its {:.0f} % interval\n", 100 * interval_level);
+    fmt::print("; in brackets: share and its {}\n", describe_interval(counts.interval()));
     const std::vector<std::size_t> first = first_fallen(counts);
     constexpr std::size_t most = 5;
     std::string list;
     for (std::size_t k = 0; k < std::min(most, first.size()); ++k)
-        list += fmt::format("{}{}: {}", k > 0 ? ", " : "", names[first[k]],
-                            share_text(share_of(counts.trials(), counts.first()[first[k]])));
+        list += fmt::format("{}{}: {}", k > 0 ? ", " : "", names[first[k]], share_text(counts.share_first(first[k])));
     if (first.size() > most)
         list += fmt::format(" and {} others", first.size() - most);
     if (!list.empty())
@@ -311,8 +311,8 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (!found) // else it has been done before the file was made
         check_realizations(loaded);
     const ResultHeader header = loaded.result_header();
-    Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2), LimitCounts(header.block_names.size()),
-                  loaded.study().originals()};
+    Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2),
+                  LimitCounts(header.block_names.size(), cells_of_motion(loaded.study())), loaded.study().originals()};
     const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);

@@ -153,19 +153,21 @@ std::vector<std::string> rare_sentences(const RareTable& table)
                                         "{} levels, or the peak displacement does not lead to it.",
                                         table.repeats.size(), table.levels));
     } else {
-        sentences.push_back(fmt::format("Probability of collapse {:.3g} ({:.3g} to {:.3g}, {:.0f} % interval of {} "
-                                        "repeats), with {} realizations.",
-                                        table.probability, table.lower, table.upper, 100 * level, table.repeats.size(),
-                                        table.realizations));
+        const std::string interval = std::isnan(table.lower)
+                                         ? std::string("without an interval")
+                                         : fmt::format("{:.3g} to {:.3g}, {:.0f} % interval of {} repeats", table.lower,
+                                                       table.upper, 100 * level, table.repeats.size());
+        sentences.push_back(fmt::format("Probability of collapse {:.3g} ({}), with {} realizations.", table.probability,
+                                        interval, table.realizations));
         sentences.push_back(fmt::format("Plain sampling would take about {:.3g} for the same error, {:.3g} times as "
                                         "many.",
                                         table.plain_realizations,
                                         table.plain_realizations / static_cast<double>(table.realizations)));
         if (const auto none = std::count(table.repeats.begin(), table.repeats.end(), 0.0); none > 0)
             sentences.push_back(
-                fmt::format("{} repeats came to no collapse and count as 0: the interval is rough; give "
+                fmt::format("{} of {} repeats came to no collapse and count as 0: so few levels bear no interval. Give "
                             "more rare.samples.",
-                            none));
+                            none, table.repeats.size()));
     }
     for (std::size_t l = 1; l < table.levels; ++l)
         if (const double stuck = mean_of_level(table, table.stuck, l); stuck > many_stuck)

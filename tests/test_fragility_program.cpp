@@ -3,6 +3,7 @@
 
 #include "program.hpp"
 
+#include "ensemble/estimators/record_share.hpp"
 #include "io/result_store.hpp"
 #include "kernels/isa.hpp"
 
@@ -82,6 +83,19 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     EXPECT_EQ(seen, 3);
     EXPECT_GE(f["measures"].items.size(), 8U);
 
+    // the whole share is by the motions too, each of which is one observation: with 20 of them no narrower than this
+    const JsonValue& limits = json["limit_states"];
+    EXPECT_EQ(limits["interval"].text, "motions 0.95");
+    std::array<RecordCount, 20> by_motion{};
+    for (const ResultRow& row : reader.rows()) {
+        by_motion[row.cell / 5].trials += 1;
+        by_motion[row.cell / 5].reached += row.outcome.state == State::collapsed;
+    }
+    const Limits want = record_share_limits(by_motion, 0.95);
+    EXPECT_EQ(limits["collapse"]["lower"].number, want.lower);
+    EXPECT_EQ(limits["collapse"]["upper"].number, want.upper);
+    EXPECT_GT(want.upper - want.lower, 0.1);
+
     EXPECT_EQ(run(std::vector<std::string>{"export", "f.h5", "--to", "png"}).status, 0);
     EXPECT_TRUE(fs::exists(folder / "f_fragility.png"));
     EXPECT_EQ(run(std::vector<std::string>{"export", "f.h5", "--to", "png", "--limit", "residual_0.01", "-o", "r.png"})
@@ -92,6 +106,9 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     EXPECT_NE(no_state.err.find("peak_0.15"), std::string::npos) << no_state.err;
     EXPECT_EQ(run(std::vector<std::string>{"report", "f.h5", "-o", "f.html"}).status, 0);
     const std::string page = bytes("f.html");
+    const std::string summary = page.substr(page.find(">1&ensp;Summary"), 1000);
+    EXPECT_NE(summary.find("95 % interval by the motions"), std::string::npos) << summary;
+    EXPECT_EQ(page.find("Jeffreys"), std::string::npos) << "an interval as if runs of one motion were independent";
     for (const char* words : {"Where the scatter comes from", "Which measure tells most", "by the motions"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
 }

@@ -90,6 +90,29 @@ TEST(LimitState, IntervalsAreJeffreys)
     EXPECT_EQ(interval_name(), "jeffreys 0.95");
 }
 
+/// Of a fragility study each motion counts once: thirty runs under one of two motions are not thirty observations.
+TEST(LimitState, RunsUnderOneMotionAreNotIndependent)
+{
+    LimitCounts counts(5, 2), alone(5);
+    for (std::uint64_t cell = 0; cell < 20; ++cell) // ten motions of two cells
+        for (int run = 0; run < 15; ++run) {
+            ResultRow row = cell < 6 ? row_of(State::collapsed, {-1, 2, -1, -1, 3}) : row_of(State::stood, {});
+            row.cell = cell;
+            counts.add(row);
+            alone.add(row);
+        }
+    EXPECT_EQ(counts.interval(), "motions 0.95");
+    for (const Share& share : {counts.share(LimitState::collapse), counts.share_first(1), counts.share_fallen(4)}) {
+        EXPECT_EQ(share.count, 90U);
+        EXPECT_EQ(share.trials, 300U);
+        EXPECT_NEAR(share.lower, 0.0667, 1e-4); // Clopper and Pearson, 3 of 10
+        EXPECT_NEAR(share.upper, 0.6525, 1e-4);
+    }
+    EXPECT_EQ(counts.share_fallen(0).count, 0U);
+    EXPECT_EQ(alone.interval(), interval_name());
+    EXPECT_GT(alone.share(LimitState::collapse).lower, 0.24);
+}
+
 TEST(LimitState, SurfaceOfEach)
 {
     const std::vector<std::uint64_t> left = {2, 0, 1, 0, 0}; // rows 0, 1, 7, 8 of the list above
@@ -169,7 +192,7 @@ TEST_F(Falls, RunTellsLimitStates)
     EXPECT_EQ(limits["median_collapse_time_s"].number, (times[(times.size() - 1) / 2] + times[times.size() / 2]) / 2);
 
     EXPECT_NE(plain.out.find("  collapsed " + std::to_string(collapsed) + " ("), std::string::npos) << plain.out;
-    EXPECT_NE(plain.out.find("95 % interval"), std::string::npos) << plain.out;
+    EXPECT_NE(plain.out.find("95 % Jeffreys interval"), std::string::npos) << plain.out;
     EXPECT_NE(plain.out.find("  first to fall: drum "), std::string::npos) << plain.out;
 }
 

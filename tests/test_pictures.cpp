@@ -67,6 +67,7 @@ TEST(Texts, Words)
 {
     EXPECT_EQ(describe_interval("wilson 0.95"), "95 % Wilson interval");
     EXPECT_EQ(describe_interval("jeffreys 0.999"), "99.9 % Jeffreys interval");
+    EXPECT_EQ(describe_interval("motions 0.95"), "95 % interval by the motions");
     EXPECT_EQ(describe_interval("something else"), "something else");
     EXPECT_EQ(describe_interval(""), "");
     SurfaceTable surface = some_surface(3, 2);

@@ -1,9 +1,9 @@
 #include "ensemble/estimators/stripe_shares.hpp"
 
+#include "ensemble/estimators/record_share.hpp"
 #include "ensemble/input_error.hpp"
 #include "ensemble/random.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,16 +11,6 @@
 
 namespace stylobate {
 namespace {
-
-/// Wilson's interval with Student's quantile, for trials that need not be a whole number.
-Limits wilson_student(double share, double trials, double freedom, double level)
-{
-    const double t = quantile(complement(boost::math::students_t_distribution<double>(freedom), (1 - level) / 2));
-    const double scale = 1 + t * t / trials, centre = share + t * t / (2 * trials);
-    const double reach = t * std::sqrt(share * (1 - share) / trials + t * t / (4 * trials * trials));
-    return {share == 0 ? 0 : std::max(0.0, (centre - reach) / scale),
-            share == 1 ? 1 : std::min(1.0, (centre + reach) / scale)};
-}
 
 /// Pooled adjacent violators: neighbours that fall are given their common share.
 void make_monotone(std::vector<StripeShare>& stripes)
@@ -57,8 +47,10 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
     StripeShares found;
     found.level = level;
     found.stripes.resize(stripes);
+    std::vector<std::vector<RecordCount>> counts(stripes);
     for (const FragilityRow& row : data.rows) {
         StripeShare& stripe = found.stripes[row.point];
+        counts[row.point].push_back({row.trials, row.reached});
         stripe.records += 1;
         stripe.trials += row.trials;
         stripe.reached += row.reached;
@@ -75,17 +67,8 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
             (row.reached - found.stripes[row.point].share * row.trials) / found.stripes[row.point].trials;
     for (std::size_t j = 0; j < stripes; ++j) {
         StripeShare& stripe = found.stripes[j];
-        const double n = static_cast<double>(stripe.records);
-        if (stripe.records < 2) {
-            stripe.limits = stripe.band = {0, 1};
-            continue;
-        }
-        const double variance = n / (n - 1) * pull.col(static_cast<Eigen::Index>(j)).squaredNorm();
-        const double scatter = stripe.share * (1 - stripe.share);
-        // where records agree entirely, each says no more than one run would
-        const double trials = scatter > 0 && variance > 0 ? std::min(stripe.trials, scatter / variance) : n;
-        stripe.limits = wilson_student(stripe.share, trials, n - 1, level);
-        stripe.band = wilson_student(stripe.share, trials, n - 1, 1 - (1 - level) / static_cast<double>(stripes));
+        stripe.limits = record_share_limits(counts[j], level);
+        stripe.band = record_share_limits(counts[j], 1 - (1 - level) / static_cast<double>(stripes));
     }
     for (std::size_t j = 1; j < stripes; ++j)
         found.stripes[j].band.lower = std::max(found.stripes[j].band.lower, found.stripes[j - 1].band.lower);

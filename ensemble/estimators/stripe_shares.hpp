@@ -13,7 +13,7 @@ struct StripeShare {
     std::size_t records = 0;
     double trials = 0, reached = 0;
     double share = 0;
-    Limits limits;       ///< of this stripe alone: Wilson's, with the trials that would scatter as the records do
+    Limits limits;       ///< of this stripe alone, by its records (`record_share_limits`)
     double monotone = 0; ///< share of the best curve that does not fall (pooled adjacent violators)
     Limits band;         ///< holds all stripes of a truth that does not fall at once, with the level
 };

@@ -1,9 +1,8 @@
 #include "ensemble/estimators/subset_simulation.hpp"
 
 #include "ensemble/elementary.hpp"
+#include "ensemble/quantiles.hpp"
 #include "ensemble/random.hpp"
-
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,21 +53,25 @@ public:
         samples.response = respond(samples.points);
         SubsetLevel level;
         level.threshold = -std::numeric_limits<double>::infinity();
-        double product = 1;
+        double product = 1, before = 1; ///< of the shares, with and without that of the level
         while (true) {
             std::vector<double> sorted = samples.response;
             std::sort(sorted.begin(), sorted.end(), std::greater<>());
-            const double next = sorted[chains_ - 1];
+            // The level is the greatest response that does not go on: so the product has no bias, whatever the chains
+            // do (Brehier et al., Annals of Applied Probability 26 (2016) 3559). The least of those that go on, which
+            // is often taken, makes each factor greater by one over the number of chains.
+            const double next = sorted[chains_];
             const bool last = next >= options_.limit;
-            level.probability = share_above(samples.response, last ? options_.limit : next);
+            level.probability = last ? share(samples.response, options_.limit, true) : share(samples.response, next);
             run_.levels.push_back(level);
             product *= level.probability;
-            if (last || run_.levels.size() > options_.most_levels || !(next > level.threshold)) {
+            if (last || run_.levels.size() > options_.most_levels || !(next > level.threshold) ||
+                level.probability == 0) {
                 // not there yet, and no level that is higher than this: what fails among these is all that is known
-                run_.probability =
-                    last ? product : product / level.probability * share_above(samples.response, options_.limit);
+                run_.probability = last ? product : before * share(samples.response, options_.limit, true);
                 return run_;
             }
+            before = product;
             level.threshold = next;
             samples = walk(samples, level);
         }
@@ -77,11 +80,12 @@ public:
 private:
     std::uint64_t number(std::uint64_t evaluation) const { return (repeat_ << 32) | evaluation; }
 
-    static double share_above(const std::vector<double>& response, double threshold)
+    /// Of the responses above a value, or not below it.
+    static double share(const std::vector<double>& response, double value, bool or_equal = false)
     {
-        const auto above =
-            std::count_if(response.begin(), response.end(), [threshold](double g) { return g >= threshold; });
-        return static_cast<double>(above) / static_cast<double>(response.size());
+        const auto count = std::count_if(response.begin(), response.end(),
+                                         [=](double g) { return g > value || (or_equal && g == value); });
+        return static_cast<double>(count) / static_cast<double>(response.size());
     }
 
     /// NaN becomes less than anything.
@@ -100,23 +104,27 @@ private:
     /// Chains from samples above the threshold of the level, all a step at a time.
     Samples walk(const Samples& from, SubsetLevel& level)
     {
+        std::vector<std::size_t> above;
+        for (std::size_t i = 0; i < from.response.size(); ++i)
+            if (from.response[i] > level.threshold)
+                above.push_back(i);
         Samples all, at; // everything, and where the chains are
-        for (std::size_t i = 0; i < from.response.size() && at.response.size() < chains_; ++i)
-            if (from.response[i] >= level.threshold) {
-                at.response.push_back(from.response[i]);
-                const auto begin = from.points.begin() + static_cast<std::ptrdiff_t>(i * dimension_);
-                at.points.insert(at.points.end(), begin, begin + static_cast<std::ptrdiff_t>(dimension_));
-            }
+        for (std::size_t c = 0; c < chains_;
+             ++c) { // evenly over all that go on: where responses are equal, fewer than chains
+            const std::size_t i = above[c * above.size() / chains_];
+            at.response.push_back(from.response[i]);
+            const auto begin = from.points.begin() + static_cast<std::ptrdiff_t>(i * dimension_);
+            at.points.insert(at.points.end(), begin, begin + static_cast<std::ptrdiff_t>(dimension_));
+        }
         all = at;
-        const std::vector<double> spread = spreads(at.points);
         std::vector<bool> moved(chains_, false);
         std::size_t taken = 0;
         for (std::size_t step = 1; step < length_; ++step) {
             const std::size_t before = taken;
-            const std::vector<double> candidates = propose(at.points, spread);
+            const std::vector<double> candidates = propose(at.points);
             const std::vector<double> response = respond(candidates);
             for (std::size_t c = 0; c < chains_; ++c)
-                if (response[c] >= level.threshold) {
+                if (response[c] > level.threshold) {
                     std::copy_n(&candidates[c * dimension_], dimension_, &at.points[c * dimension_]);
                     at.response[c] = response[c];
                     moved[c] = true;
@@ -134,31 +142,16 @@ private:
         return all;
     }
 
-    /// Deviation of each number over the chains.
-    std::vector<double> spreads(const std::vector<double>& points) const
+    std::vector<double> propose(const std::vector<double>& points) const
     {
-        std::vector<double> sum(dimension_, 0), squares(dimension_, 0);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            sum[i % dimension_] += points[i];
-            squares[i % dimension_] += points[i] * points[i];
-        }
-        const auto n = static_cast<double>(chains_);
-        for (std::size_t d = 0; d < dimension_; ++d)
-            squares[d] = std::sqrt(std::max(0.0, (squares[d] - sum[d] * sum[d] / n) / (n - 1)));
-        return squares;
-    }
-
-    std::vector<double> propose(const std::vector<double>& points, const std::vector<double>& spread) const
-    {
+        const double s = std::min(1.0, step_), r = std::sqrt(1 - s * s);
         std::vector<double> candidates(points.size());
         for (std::size_t c = 0; c < chains_; ++c) {
             double* v = &candidates[c * dimension_];
             const double* u = &points[c * dimension_];
             draw_normal(options_.seed, number(run_.evaluations + c), v, dimension_);
-            for (std::size_t i = 0; i < dimension_; ++i) {
-                const double s = std::min(1.0, step_ * spread[i]);
-                v[i] = std::sqrt(1 - s * s) * u[i] + s * v[i];
-            }
+            for (std::size_t i = 0; i < dimension_; ++i)
+                v[i] = r * u[i] + s * v[i];
         }
         return candidates;
     }
@@ -174,20 +167,19 @@ private:
     SubsetRun run_;
 };
 
-/// Mean, and the deviation of the mean over it.
-struct Spread {
-    double mean = 0;
-    double relative = 0;
-};
-
-Spread spread_of(const std::vector<double>& repeats)
+double mean_of(const std::vector<double>& values)
 {
-    const auto n = static_cast<double>(repeats.size());
-    const double mean = std::accumulate(repeats.begin(), repeats.end(), 0.0) / n;
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// With n - 1.
+double variance_of(const std::vector<double>& values)
+{
+    const double mean = mean_of(values);
     double squares = 0;
-    for (const double p : repeats)
-        squares += (p - mean) * (p - mean);
-    return {mean, std::sqrt(squares / (n - 1) / n) / mean};
+    for (const double value : values)
+        squares += (value - mean) * (value - mean);
+    return squares / static_cast<double>(values.size() - 1);
 }
 
 } // namespace
@@ -200,20 +192,29 @@ SubsetRun subset_simulation(std::size_t dimension, const Response& response, con
 
 Estimate mean_of_repeats(const std::vector<double>& repeats, double level)
 {
-    if (repeats.size() < 2)
-        return Estimate::undetermined();
-    const Spread spread = spread_of(repeats);
-    if (!(spread.mean > 0))
-        return Estimate::undetermined();
-    const boost::math::students_t student(static_cast<double>(repeats.size() - 1));
-    const double factor = std::exp(boost::math::quantile(student, (1 + level) / 2) * spread.relative);
-    return {spread.mean, spread.mean / factor, std::min(1.0, spread.mean * factor)};
+    Estimate estimate = Estimate::undetermined();
+    if (repeats.size() < least_repeats || !(mean_of(repeats) > 0))
+        return estimate;
+    estimate.value = mean_of(repeats);
+    if (std::find(repeats.begin(), repeats.end(), 0.0) != repeats.end())
+        return estimate;
+    std::vector<double> logs;
+    for (const double p : repeats)
+        logs.push_back(std::log(p));
+    const auto n = static_cast<double>(repeats.size());
+    const double variance = variance_of(logs);
+    const double centre = mean_of(logs) + variance / 2;
+    const double reach =
+        student_quantile((1 + level) / 2, n - 1) * std::sqrt(variance / n + variance * variance / (2 * (n - 1)));
+    estimate.lower = std::exp(centre - reach);
+    estimate.upper = std::min(1.0, std::exp(centre + reach));
+    return estimate;
 }
 
 double plain_sampling_cost(const std::vector<double>& repeats)
 {
-    const Spread spread = spread_of(repeats);
-    return (1 - spread.mean) / (spread.mean * spread.relative * spread.relative);
+    const double mean = mean_of(repeats);
+    return mean * (1 - mean) * static_cast<double>(repeats.size()) / variance_of(repeats);
 }
 
 } // namespace stylobate

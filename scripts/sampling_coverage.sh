@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Measures how often the intervals of rare events and of Sobol's indices hold the truth, and writes the tables into
+# docs/sensitivity.md.
+#
+#   scripts/sampling_coverage.sh [REPEATS]    estimates of each kind (default 2000: some twenty minutes on one core)
+set -euo pipefail
+
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+build=${STYLOBATE_BUILD:-build/release}
+if [[ -z ${STYLOBATE_BUILD:-} ]]; then
+    scripts/install_packages.sh
+    cmake --preset release >/dev/null
+    cmake --build "$build" --target stylobate_sampling_coverage --parallel "$(nproc)"
+fi
+
+"$build/bench/stylobate_sampling_coverage" --repeats "${1:-2000}" |
+    scripts/into_page.sh sampling_coverage.sh docs/sensitivity.md
