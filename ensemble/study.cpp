@@ -1,6 +1,8 @@
 #include "ensemble/study.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace stylobate {
 
@@ -47,6 +49,29 @@ double Axis::value(int i) const
     const long double a = from;
     const long double b = to;
     return static_cast<double>(spacing == Spacing::log ? a * std::pow(b / a, t) : a + (b - a) * t);
+}
+
+double usual_trajectory_rate_hz(const Study& study)
+{
+    double shortest = 0; // half a diagonal [m]
+    const auto meet = [&](double width, double height) {
+        const double half = std::hypot(width, height) / 2;
+        shortest = shortest == 0 ? half : std::min(shortest, half);
+    };
+    for (const ColumnSpec& column : study.structure.columns)
+        for (std::size_t i = static_cast<std::size_t>(column.fixed_blocks); i < column.drums.size(); ++i)
+            meet(column.drums[i].width_m, column.drums[i].height_m);
+    for (const EpistyleSpec& epistyle : study.structure.epistyles)
+        meet(epistyle.length_m, epistyle.height_m);
+
+    double rate = 100;
+    if (shortest > 0)
+        rate = std::max(rate, 100 * std::sqrt(0.75 * study.structure.gravity_m_s2 / shortest) / (2 * std::numbers::pi));
+    const ExcitationSpec& e = study.excitation;
+    rate = std::max(rate, 20 * std::max({e.frequency_hz, e.from_hz, e.to_hz}));
+    if (study.surface)
+        rate = std::max(rate, 20 * std::max(study.surface->frequency_hz.from, study.surface->frequency_hz.to));
+    return 10 * std::ceil(rate / 10 - 1e-9);
 }
 
 } // namespace stylobate

@@ -339,7 +339,12 @@ struct InitialSpec {
 };
 
 struct OutputSpec {
-    double trajectory_rate_hz = 1000;
+    double trajectory_rate_hz = 1000; ///< in a study file the default is `usual_trajectory_rate_hz`
+    /// Of a single study the trajectories of the first so many realizations are kept; none: as many as `most_mb` holds.
+    std::optional<std::uint64_t> trajectories = {};
+    double most_mb = 100; ///< of trajectories in a results file, in 1e6 bytes
+
+    static constexpr std::uint64_t all = ~std::uint64_t{0}; ///< trajectories
 };
 
 /// How long a realization is followed.
@@ -389,6 +394,7 @@ struct Study {
     std::uint64_t realizations = 1;
     Sampling sampling = Sampling::independent;
     KeptRealizations kept = KeptRealizations::all;
+    std::vector<std::string> allow; ///< checks that this study is meant to fail (plausible.hpp), in their order
 
     StructureSpec structure;
     ContactSpec contact;
@@ -463,5 +469,10 @@ struct Study {
         return place.row * sensitivity->inner + place.draw;
     }
 };
+
+/// How often a trajectory is sampled unless the study says: 100 times in 2 pi / p, p = sqrt(3 g / (4 R)) of the free
+/// block that rocks fastest, R half its diagonal; 20 times in a period of the fastest shaking whose frequency the study
+/// says; and 100 times a second, since records have little above 25 Hz. Rounded up to whole tens.
+double usual_trajectory_rate_hz(const Study& study);
 
 } // namespace stylobate
