@@ -209,6 +209,7 @@ void print_text(const Calibration& c, const std::string& results, const std::str
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted)
 {
     check_kind(measured, "calibrate");
+    check_option_kind(wanted.study, FileKind::study, "--study");
     const std::filesystem::path given = std::filesystem::path(measured);
     const std::string stem = (given.has_stem() ? given : given.parent_path()).stem().string(); // of a folder too
     const std::string results = wanted.output.empty() ? stem + "_calibration.h5" : wanted.output;

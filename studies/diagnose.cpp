@@ -70,6 +70,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
                      std::string output, long long nulls, long long seed, bool windows)
 {
     check_kind(measured, "diagnose");
+    check_option_kind(study_file, FileKind::study, "--study");
     const Campaign campaign = read_campaign(measured);
     const Study study = study_file.empty()
                             ? parse_study(default_study(campaign).text,

@@ -33,7 +33,7 @@ constexpr KindWords kind_words[] = {
     {FileKind::diagnosis, "a diagnosis", "a diagnosis"},
     {FileKind::calibration, "a calibration", "a calibration"},
     {FileKind::campaign, "a measured campaign", "a measured campaign (HDF5, or a folder of CSV files)"},
-    {FileKind::outcomes, "a table of measured outcomes", "a table of measured outcomes (CSV)"},
+    {FileKind::outcomes, "a table of measured outcomes", "a table of measured outcomes (CSV with a column 'fell')"},
     {FileKind::record, "a record of ground motion", "records of ground motion"},
     {FileKind::table, "a table that 'stylobate export' wrote", ""},
     {FileKind::functions, "fragility functions for other tools", ""},
@@ -200,6 +200,8 @@ std::string describe(const RecognisedFile& file)
     if (file.kind == FileKind::results)
         return file.detail == "replay" ? "one realization that was run again, with its trajectory"
                                        : fmt::format("the results of a study of kind '{}'", file.detail);
+    if (file.kind == FileKind::record && file.detail == "columns")
+        return "a table of numbers, which may be a record of ground motion";
     const char* const name = words_of(file.kind).name;
     return file.detail.empty() ? name : fmt::format("{} ({})", name, file.detail);
 }
@@ -231,6 +233,19 @@ void check_kind(const std::string& file, std::string_view verb)
     throw InputError(file, 0,
                      fmt::format("is {}; stylobate {} takes {}.{}\n  stylobate info {}: what it holds", describe(found),
                                  verb, takes, instead, file));
+}
+
+void check_option_kind(const std::string& file, FileKind wanted, const std::string& option)
+{
+    RecognisedFile found;
+    try {
+        found = recognise(file);
+    } catch (const InputError&) { // who reads or continues it says what is wrong
+        return;
+    }
+    if (found.kind != wanted && found.kind != FileKind::unknown)
+        throw InputError(fmt::format("{} {}: is {}; it takes {}.\n  stylobate info {}: what it holds", option, file,
+                                     describe(found), words_of(wanted).taken, file));
 }
 
 } // namespace stylobate

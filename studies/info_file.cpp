@@ -117,6 +117,9 @@ void tell_result(const std::string& file, Told& told)
                                                      : "results of a study of kind " + header.kind;
     told.text = fmt::format("{}, seed {}, by stylobate {}\n{} of {} realizations, {}\n", what, header.seed,
                             header.code_version, done, header.total, reader.complete() ? "complete" : "unfinished");
+    if (!reader.complete())
+        told.text +=
+            fmt::format("stylobate run STUDY.toml -o {}: continues it, with the study that it was begun with\n", file);
 }
 
 void tell_diagnosis(const std::string& file, Told& told)
@@ -186,9 +189,16 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
 void tell_record(const std::string& file, const RecognisedFile& known, Told& told)
 {
     told.json.member("holds", "record").member("format", known.detail);
-    told.text = fmt::format("a record of ground motion, format {}\n", known.detail);
+    told.text = describe(known) + "\n";
+    std::vector<Record> records;
+    try {
+        records = read_records(file, "");
+    } catch (const InputError& error) { // its unit is not said, for example: it is a record all the same
+        told.json.member("note", error.what());
+        told.text += fmt::format("note: {}\n", error.what());
+    }
     Json components = Json::list();
-    for (const Record& record : read_records(file, "")) {
+    for (const Record& record : records) {
         double pga = 0;
         for (const double a : record.acceleration_m_s2)
             pga = std::max(pga, std::abs(a));
@@ -197,7 +207,7 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
                             .member("samples", record.acceleration_m_s2.size())
                             .member("dt_s", record.dt_s)
                             .member("pga_m_s2", pga));
-        told.text += fmt::format("  {}: {} samples at {} s, PGA {:.4g} m/s2\n", record.component,
+        told.text += fmt::format("  component {}: {} samples at {} s, PGA {:.4g} m/s2\n", record.component,
                                  record.acceleration_m_s2.size(), record.dt_s, pga);
     }
     told.json.member("components", components);

@@ -303,6 +303,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (results.empty())
         results = default_results(study);
     check_kind(study, "run");
+    check_option_kind(results, FileKind::results, "-o");
     const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
     if (options.backend == "cuda")
         demand_of_device(loaded.study(), study);

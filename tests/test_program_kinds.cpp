@@ -110,6 +110,23 @@ TEST_F(Kinds, AVerbSaysWhatAnotherFileIs)
         }
 }
 
+TEST_F(Kinds, AnOptionSaysSoToo)
+{
+    expect_refused(Words{"run", "study.toml", "-o", "diagnosis.h5"}, {"-o diagnosis.h5: is a diagnosis", "results"});
+    for (const char* verb : {"diagnose", "calibrate"})
+        expect_refused(Words{verb, "campaign.h5", "--study", "results.h5"},
+                       {"--study results.h5: is the results of a study", "it takes a study file (TOML)"});
+}
+
+TEST_F(Kinds, ARecordThatDoesNotSayItsUnitIsOneAllTheSame)
+{
+    write_bytes(folder / "columns.txt", Burst{}.columns());
+    const Ended told = run(Words{"info", "columns.txt"});
+    EXPECT_EQ(told.status, 0) << testing::PrintToString(told);
+    for (const char* part : {"may be a record of ground motion", "do not say the unit", "stylobate record columns.txt"})
+        EXPECT_NE(told.out.find(part), std::string::npos) << told.out;
+}
+
 TEST_F(Kinds, WhatIsNoneIsSaid)
 {
     write_bytes(folder / "notes.txt", "some words\nof nobody\n");

@@ -270,16 +270,6 @@ void write_diagnosis(const Diagnosis& diagnosis, const std::filesystem::path& fi
     target.commit();
 }
 
-bool is_diagnosis(const std::filesystem::path& file)
-{
-    const OpenDiagnosis open = open_sealed(file);
-    try {
-        return hdf5::read_text(open.hdf5.id(), "format") == format_name;
-    } catch (const hdf5::Error& error) {
-        refuse_damaged(file, error.what());
-    }
-}
-
 Diagnosis read_diagnosis(const std::filesystem::path& file)
 {
     const OpenDiagnosis open = open_sealed(file);
