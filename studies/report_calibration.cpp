@@ -229,7 +229,7 @@ private:
     void runs()
     {
         page_.section("Runs");
-        HtmlTable table{"lrrrrr", {"run", "motion", unit_, "start [nat]", "calibrated [nat]", "gain"}, {}, ""};
+        HtmlTable table{"lrrrrr", {"run", "motion", unit_, "start [nat]", "calibrated [nat]", "gain [nat]"}, {}, ""};
         for (std::size_t i = 0; i < std::min(best_.runs.size(), most_runs); ++i) {
             const RunScore& run = best_.runs[i];
             table.rows.push_back({run.run, fmt::format("{}", run.motion_id), fmt::format("{}", run.units),
@@ -248,7 +248,7 @@ private:
     {
         page_.section("What could not be used or judged");
         if (c_.notes.empty())
-            page_.paragraph("All of the measured data could be used.");
+            page_.paragraph("The calibration noted nothing that it could not use or judge.");
         else
             page_.list({c_.notes.begin(), c_.notes.end()});
     }
