@@ -41,10 +41,12 @@ double decade_below(double p)
 
 std::string subtitle(const RareTable& table, std::size_t none)
 {
-    std::string text = std::isfinite(table.probability)
-                           ? fmt::format("probability of collapse {:.3g} ({:.2g} to {:.2g}, 95 %)", table.probability,
-                                         table.lower, table.upper)
-                           : std::string("no repeat came to a collapse");
+    std::string text = "no repeat came to a collapse";
+    if (std::isfinite(table.probability))
+        text =
+            fmt::format("probability of collapse {:.3g}{}", table.probability,
+                        std::isfinite(table.lower) ? fmt::format(" ({:.2g} to {:.2g}, 95 %)", table.lower, table.upper)
+                                                   : ", without an interval");
     text += fmt::format(" · {} repeats, {} realizations", table.repeats.size(), table.realizations);
     if (none > 0 && none < table.repeats.size())
         text += fmt::format(" · {} of {} repeats without a collapse, counted as 0", none, table.repeats.size());
@@ -86,7 +88,9 @@ std::string collapse_panel(const RareTable& table, double foot)
     script += "EOD\n$mean << EOD\n";
     const bool known = std::isfinite(table.probability) && table.probability > 0;
     if (known)
-        script += fmt::format("0.3 {} {} {}\n", table.probability, std::max(table.lower, foot), table.upper);
+        script += std::isfinite(table.lower)
+                      ? fmt::format("0.3 {} {} {}\n", table.probability, std::max(table.lower, foot), table.upper)
+                      : fmt::format("0.3 {0} {0} {0}\n", table.probability);
     script += "EOD\nset lmargin at screen 0.795\nset rmargin at screen 0.97\nset border 1 linewidth 0.8\n"
               "set xrange [-0.7:0.7]\nunset ylabel\nset format y ''\nset ytics scale 0\n"
               "set xtics ('repeats' -0.3, 'mean' 0.3) scale 0\nset xlabel 'collapse'\n";

@@ -272,6 +272,10 @@ TEST_F(Pictures, RareEvent)
     EXPECT_GE(pixels.width, 1600U);
     EXPECT_GT(share(pixels, 0x56b4e9, 2), 0.00005) << "the repeats";
     EXPECT_GT(share(pixels, 0xd55e00, 2), 0.0002) << "their mean";
+    RareTable open = some_rare_event(); // too few repeats for an interval
+    open.lower = open.upper = nan_value;
+    plot_rare(open, "", folder / "open.png");
+    EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00005) << "their mean";
     RareTable none = some_rare_event(); // no repeat came to a collapse
     none.probability = none.lower = none.upper = nan_value;
     none.repeats = {0, 0};
