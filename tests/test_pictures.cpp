@@ -275,7 +275,7 @@ TEST_F(Pictures, RareEvent)
     RareTable open = some_rare_event(); // too few repeats for an interval
     open.lower = open.upper = nan_value;
     plot_rare(open, "", folder / "open.png");
-    EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00005) << "their mean";
+    EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00002) << "their mean";
     RareTable none = some_rare_event(); // no repeat came to a collapse
     none.probability = none.lower = none.upper = nan_value;
     none.repeats = {0, 0};
