@@ -156,7 +156,7 @@ std::string describe_interval(const std::string& interval)
     std::string name = interval.substr(0, blank);
     if (name == "motions")
         return fmt::format("{:.6g} % interval by the motions", 100 * level);
-    if (name != "adaptive" && name != "bootstrap") // the others are people
+    if (name != "adaptive" && name != "bootstrap" && name != "resampling") // the others are people
         name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     return fmt::format("{:.6g} % {} interval", 100 * level, name);
 }

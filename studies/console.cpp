@@ -1,5 +1,7 @@
 #include "studies/console.hpp"
 
+#include "ensemble/interval.hpp"
+
 #include <fmt/format.h>
 
 #include <atomic>
@@ -84,8 +86,10 @@ std::string progress_line(const Progress& p)
         line += fmt::format(", {} left", duration_text(static_cast<double>(p.total - p.done) / p.rate));
     const std::uint64_t valid = p.done - p.invalid;
     if (valid > 0) {
-        const double n = static_cast<double>(valid), share = static_cast<double>(p.collapsed) / n;
-        line += fmt::format(", {:.1f} +- {:.1f} % collapsed", 100 * share, 100 * std::sqrt(share * (1 - share) / n));
+        const BinomialInterval interval = jeffreys(valid, p.collapsed, 0.95);
+        line += fmt::format(", {:.1f} % collapsed ({:.1f} to {:.1f})",
+                            100 * static_cast<double>(p.collapsed) / static_cast<double>(valid), 100 * interval.lower,
+                            100 * interval.upper);
     }
     if (p.invalid > 0)
         line += fmt::format(", {} invalid", p.invalid);

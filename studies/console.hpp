@@ -30,7 +30,7 @@ private:
     std::chrono::steady_clock::time_point last_line_{};
 };
 
-/// The line itself: done, rate, time left, the share that collapsed with its standard error, and what is invalid.
+/// The line itself: done, rate, time left, the share that collapsed with its 95 % interval, and what is invalid.
 std::string progress_line(const Progress& progress);
 
 /// "41 s", "3 min 20 s", "2 h 5 min".

@@ -112,7 +112,7 @@ SensitivityTable SensitivityOutcomes::table() const
     const BootstrapOptions options{.seed = seed_};
     SensitivityTable table;
     table.method = word_for(sensitivity_method_names, spec_.method);
-    table.interval = fmt::format("bootstrap {}", options.level);
+    table.interval = fmt::format("{} {}", sobol ? "resampling" : "bootstrap", options.level);
     table.factors = spec_.factors;
     const bool rest = sobol && spec_.inner > 1;
     if (rest)

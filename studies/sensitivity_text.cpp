@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace stylobate {
 
@@ -55,6 +57,68 @@ std::string mean_text(const SensitivityTable& table, std::size_t outcome)
     return text;
 }
 
+/// Characters, of which one may be several bytes.
+std::size_t width_of(const std::string& text)
+{
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// Lines of columns that are as wide as what stands in them.
+std::string in_columns(const std::vector<std::vector<std::string>>& rows, const std::string& indent)
+{
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], width_of(row[i]));
+    std::string text;
+    for (const auto& row : rows) {
+        text += indent;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            text += row[i] + (i + 1 < row.size() ? std::string(widths[i] - width_of(row[i]) + 2, ' ') : "\n");
+    }
+    return text;
+}
+
+/// Wider intervals of Sobol's indices are said to be too wide.
+constexpr double widest = 0.2;
+
+/// Whether the rows were too few, and how many would do: the width falls as one over their root.
+std::string too_few_rows(const SensitivityTable& table)
+{
+    const std::size_t n = table.factors.size();
+    double width = 0;
+    std::string widest_one, impossible;
+    for (const char* name : {"first", "total"})
+        for (std::size_t o = 0; o < table.outcomes.size(); ++o)
+            for (std::size_t k = 0; k < n; ++k) {
+                const SensitivityTable::Index* index = table.find(name);
+                const std::size_t i = o * n + k;
+                if (!index || !std::isfinite(index->of.upper[i]))
+                    continue;
+                const std::string which = fmt::format("the {} of {} ({})", heading(name), spoken(table.factors[k]),
+                                                      spoken(table.outcomes[o]));
+                if (index->of.upper[i] < 0 && impossible.empty())
+                    impossible = which;
+                if (index->of.upper[i] - index->of.lower[i] > width) {
+                    width = index->of.upper[i] - index->of.lower[i];
+                    widest_one = which;
+                }
+            }
+    if (impossible.empty() && width <= widest)
+        return "";
+    // where only the place of an interval is wrong, half its width is asked for
+    const double times = std::max(std::pow(width / widest, 2), impossible.empty() ? 1.0 : 4.0);
+    const double wanted = times * static_cast<double>(table.rows + table.invalid_rows);
+    const double unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+    std::string text = "Too few samples: ";
+    if (!impossible.empty())
+        text += fmt::format("the interval of {} lies below 0, where no index is; ", impossible);
+    text += fmt::format("the widest interval, of {}, is {:.2g} wide. Raise sensitivity.samples to about {:.0f}.",
+                        widest_one, width, std::ceil(wanted / unit) * unit);
+    return text;
+}
+
 std::string explanation(const SensitivityTable& table)
 {
     if (table.method == "morris")
@@ -89,6 +153,8 @@ std::vector<std::string> sensitivity_remarks(const SensitivityTable& table)
                                           spoken(table.outcomes[o]),
                                           table.inner > 1 ? "mean's variance is" : "variance is"));
     }
+    if (const std::string few = too_few_rows(table); !few.empty())
+        remarks.push_back(few);
     if (table.invalid_rows > 0)
         remarks.push_back(fmt::format("{} rows were left out: a realization in them is invalid.", table.invalid_rows));
     return remarks;
@@ -99,16 +165,16 @@ std::string sensitivity_text(const SensitivityTable& table)
     std::string text = fmt::format("  {}; in brackets: {}\n", design_text(table), describe_interval(table.interval));
     const std::size_t n = table.factors.size();
     for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
-        text += fmt::format("  {}: {}\n    {:22}", spoken(table.outcomes[o]), mean_text(table, o), "");
+        text += fmt::format("  {}: {}\n", spoken(table.outcomes[o]), mean_text(table, o));
+        std::vector<std::vector<std::string>> rows = {{""}};
         for (const SensitivityTable::Index& index : table.indices)
-            text += fmt::format("{:<28}", heading(index.name));
-        text += '\n';
+            rows.front().push_back(heading(index.name));
         for (std::size_t k = 0; k < n; ++k) {
-            text += fmt::format("    {:22}", spoken(table.factors[k]));
+            rows.push_back({spoken(table.factors[k])});
             for (const SensitivityTable::Index& index : table.indices)
-                text += fmt::format("{:<28}", interval_text(index.of, o * n + k));
-            text += '\n';
+                rows.back().push_back(interval_text(index.of, o * n + k));
         }
+        text += in_columns(rows, "    ");
     }
     for (const std::string& remark : sensitivity_remarks(table))
         text += "  " + remark + '\n';

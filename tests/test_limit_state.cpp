@@ -1,6 +1,7 @@
 /// Limit states counted by hand, and what the program says and draws of them.
 
 #include "program.hpp"
+#include "studies/console.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/surface.hpp"
 
@@ -111,6 +112,17 @@ TEST(LimitState, RunsUnderOneMotionAreNotIndependent)
     EXPECT_EQ(counts.share_fallen(0).count, 0U);
     EXPECT_EQ(alone.interval(), interval_name());
     EXPECT_GT(alone.share(LimitState::collapse).lower, 0.24);
+}
+
+/// Where nothing has fallen yet the share is not known to be 0.
+TEST(LimitState, ProgressHasAnIntervalAtNone)
+{
+    Progress progress;
+    progress.done = 40;
+    progress.total = 100;
+    EXPECT_NE(progress_line(progress).find("0.0 % collapsed (0.0 to 6.0)"), std::string::npos)
+        << progress_line(progress); // 0.975 of Beta(1/2, 40.5)
+    EXPECT_EQ(progress_line(progress).find("+-"), std::string::npos);
 }
 
 TEST(LimitState, SurfaceOfEach)

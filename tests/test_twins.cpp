@@ -314,10 +314,17 @@ TEST(Flips, SharesByHand)
     EXPECT_DOUBLE_EQ(share.probability, 0.3);
     // 5 originals and 6 twins collapsed: 5 x 4 + 5 x 6 of 100 comparisons differ, 3 of these within a pair
     EXPECT_DOUBLE_EQ(share.independent, 47.0 / 90);
-    EXPECT_FALSE(share.resolved());
-    EXPECT_TRUE(flip_share({.neither = 1000}).resolved());
-    EXPECT_TRUE(flip_share({.neither = 500, .original = 500}).resolved());
-    EXPECT_FALSE(flip_share({}).resolved());
+    EXPECT_FALSE(share.verdict());
+    EXPECT_EQ(flip_share({.neither = 1000}).verdict(), Sureness::certain);
+    EXPECT_EQ(flip_share({.neither = 500, .original = 500}).verdict(), Sureness::coin_flip);
+    EXPECT_FALSE(flip_share({}).verdict());
+    // eight pairs of which none differs: the share may be a quarter
+    EXPECT_FALSE(flip_share({.neither = 8}).verdict());
+    EXPECT_GT(flip_share({.neither = 8}).upper, 0.25);
+    EXPECT_FALSE(flip_share({.neither = fewest_pairs() - 1}).verdict());
+    EXPECT_EQ(flip_share({.neither = fewest_pairs()}).verdict(), Sureness::certain);
+    // the 97.5 % point of Beta(1/2, n + 1/2) is about 5.0239 / 2 / n, half the point of chi-square of one degree
+    EXPECT_NEAR(static_cast<double>(fewest_pairs()), 5.0239 / 2 / 0.05, 2);
     EXPECT_TRUE(std::isnan(flip_share({}).probability));
     EXPECT_EQ(sureness(0.049), Sureness::certain);
     EXPECT_EQ(sureness(0.05), Sureness::probable);

@@ -1,5 +1,6 @@
 #include "ensemble/estimators/row_bootstrap.hpp"
 
+#include "ensemble/quantiles.hpp"
 #include "ensemble/random.hpp"
 
 #include <algorithm>
@@ -80,6 +81,40 @@ std::vector<Estimate> bootstrap_rows(std::span<const double> rows, std::size_t w
         }
         std::sort(drawn[k].begin(), drawn[k].end());
         result.push_back({value[k], quantile(drawn[k], tail), quantile(drawn[k], 1 - tail)});
+    }
+    return result;
+}
+
+std::vector<Estimate> resampled_rows(std::span<const double> rows, std::size_t width, std::size_t estimates,
+                                     const FromMeans& from_means, const BootstrapOptions& options)
+{
+    std::vector<Estimate> result = bootstrap_rows(rows, width, estimates, from_means, options);
+    const std::size_t n = rows.size() / width;
+    if (n < 2)
+        return result;
+    const std::vector<double> means = row_means(rows, width);
+    std::vector<double> without(width), value(estimates), sum(estimates, 0), squares(estimates, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < width; ++k)
+            without[k] = means[k] + (means[k] - rows[i * width + k]) / static_cast<double>(n - 1);
+        from_means(without, value);
+        for (std::size_t k = 0; k < estimates; ++k) {
+            const double change = value[k] - result[k].value;
+            sum[k] += change;
+            squares[k] += change * change;
+        }
+    }
+    const auto count = static_cast<double>(n);
+    const double t = student_quantile((1 + options.level) / 2, count - 1);
+    for (std::size_t k = 0; k < estimates; ++k) {
+        const double variance = (count - 1) / count * (squares[k] - sum[k] * sum[k] / count);
+        if (!std::isfinite(variance)) {
+            result[k] = Estimate::undetermined();
+            continue;
+        }
+        const double reach = t * std::sqrt(std::max(variance, 0.0));
+        result[k].lower = std::min(result[k].lower, result[k].value - reach);
+        result[k].upper = std::max(result[k].upper, result[k].value + reach);
     }
     return result;
 }

@@ -194,7 +194,7 @@ SobolIndices sobol_indices(const DesignValues& values, const BootstrapOptions& o
         }
     };
     const std::vector<Estimate> found =
-        bootstrap_rows(design.numbers(), design.width(), 2 + 2 * d + 2 * with_rest, estimates, options);
+        resampled_rows(design.numbers(), design.width(), 2 + 2 * d + 2 * with_rest, estimates, options);
 
     SobolIndices indices;
     indices.mean = found[0];

@@ -28,7 +28,7 @@
 /// good; the regression is as good as the better of the two everywhere (tests/test_sobol_indices.cpp). m^2 is freed of
 /// its bias Var(m); what remains is the bias of a ratio, of order 1 / rows.
 ///
-/// Intervals: `bootstrap_rows`. Their measured coverage is in the test.
+/// Intervals: `resampled_rows`. Their measured coverage is in docs/sensitivity.md.
 
 #include "ensemble/estimators/row_bootstrap.hpp"
 

@@ -44,6 +44,14 @@ FlipShare flip_share(const PairCounts& counts)
     return share;
 }
 
+std::uint64_t fewest_pairs()
+{
+    std::uint64_t pairs = 1;
+    while (sureness(jeffreys(pairs, 0, level).upper) != Sureness::certain)
+        ++pairs;
+    return pairs;
+}
+
 FlipRatio flip_ratio(const std::vector<PairCounts>& cells)
 {
     PairCounts all;

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -39,10 +40,16 @@ struct FlipShare {
     double probability = 0;      ///< NaN without trials
     double lower = 0, upper = 1; ///< Jeffreys, 95 %
     double independent = 0;      ///< I, without bias (over all pairs of different originals); NaN below two trials
-    /// Whether the interval lies within one class.
-    bool resolved() const { return trials > 0 && sureness(lower) == sureness(upper); }
+    /// The class that the interval lies within; none where it reaches over several: too few pairs to say.
+    std::optional<Sureness> verdict() const
+    {
+        return trials > 0 && sureness(lower) == sureness(upper) ? std::optional(sureness(lower)) : std::nullopt;
+    }
 };
 FlipShare flip_share(const PairCounts& counts);
+inline constexpr const char* too_few_pairs = "too few pairs to say";
+/// With fewer pairs no verdict is certain, even where none differs.
+std::uint64_t fewest_pairs();
 
 /// Over many cells, each with its own probabilities.
 struct FlipRatio {

@@ -50,16 +50,18 @@ void count_flips(const Study& study, const std::vector<ResultRow>& rows, Twins& 
             kind.cells.push_back(share);
             if (share.trials == 0)
                 continue;
-            const auto place = static_cast<std::size_t>(sureness(share.probability));
-            ++kind.classes[place];
-            kind.resolved[place] += share.resolved();
+            if (const std::optional<Sureness> verdict = share.verdict())
+                ++kind.classes[static_cast<std::size_t>(*verdict)];
+            else
+                ++kind.open;
         }
     }
     for (std::size_t cell = 0; cell < cells; ++cell) {
         std::size_t k = 0;
-        while (k < out.moves && !(out.kinds[k].cells[cell].probability >= certain_below))
-            ++k;
-        out.lost_at.push_back(k);
+        bool certain = true;
+        while (k < out.moves && !(out.kinds[k].cells[cell].lower >= certain_below))
+            certain = out.kinds[k++].cells[cell].verdict() == Sureness::certain && certain;
+        out.lost_at.push_back(k == out.moves && !certain ? k + 1 : k);
     }
 }
 

@@ -20,8 +20,8 @@ struct TwinFlips {
     std::string name;             ///< "moved by 1e-12 m"
     std::vector<FlipShare> cells; ///< (nf x np)
     FlipRatio all;
-    std::array<std::uint64_t, 3> classes{};  ///< cells by `Sureness`, those without a pair not counted
-    std::array<std::uint64_t, 3> resolved{}; ///< of these so many whose interval says the same
+    std::array<std::uint64_t, 3> classes{}; ///< cells by the `Sureness` that their interval lies within
+    std::uint64_t open = 0;                 ///< cells with too few pairs to say; those without a pair not counted
 };
 
 /// How the separation of twins of one kind grows.
@@ -49,7 +49,8 @@ struct Twins {
     std::vector<TwinFlips> kinds;
     std::vector<TwinGrowth> growth;  ///< of the moves that begin below the tolerance
     std::uint64_t invalid_pairs = 0; ///< with an invalid member: left out
-    /// (nf x np) number of the smallest move at which the verdict is not certain; as many as there are moves: none.
+    /// (nf x np) number of the smallest move at which the verdict is not certain, by its interval; as many as there are
+    /// moves: it is certain at all of them; one more: too few pairs to say.
     std::vector<std::size_t> lost_at;
     std::size_t moves = 0; ///< the first so many kinds
 };

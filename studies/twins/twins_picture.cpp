@@ -22,10 +22,11 @@ const std::vector<MapClass>& classes()
     return all;
 }
 
-/// So that a share of just 25 % is still probable, as `sureness` says.
-double class_place(double probability)
+/// A place within the class; NaN, which is grey, where there are too few pairs to say.
+double class_place(const FlipShare& share)
 {
-    return probability == coin_flip_above ? certain_below : probability;
+    const std::optional<Sureness> verdict = share.verdict();
+    return verdict ? classes()[static_cast<std::size_t>(*verdict)].from : std::numeric_limits<double>::quiet_NaN();
 }
 
 MapPicture on_axes(const Twins& twins)
@@ -65,12 +66,12 @@ void plot_flips(const Twins& twins, const std::string& title, const std::filesys
     picture.subtitle =
         fmt::format("{} pairs in each cell for each kind of twin · verdict: collapsed or not", twins.realizations);
     picture.columns = twins.kinds.size() > 4 ? 4 : static_cast<int>(twins.kinds.size());
-    picture.key = key;
+    picture.key = fmt::format("{} · grey: {}", key, too_few_pairs);
     for (const TwinFlips& kind : twins.kinds) {
         MapPanel panel;
         panel.title = fmt::format("{}: {:.2g} % differ", kind.name, 100 * kind.all.all.probability);
         for (const FlipShare& share : kind.cells)
-            panel.value.push_back(class_place(share.probability));
+            panel.value.push_back(class_place(share));
         panel.classes = classes();
         picture.panels.push_back(std::move(panel));
     }

@@ -40,12 +40,30 @@ std::string percents(double lower, double upper)
 std::string lost_text(const Twins& twins)
 {
     std::string text;
-    for (std::size_t k = 0; k <= twins.moves; ++k) {
+    for (std::size_t k = 0; k <= twins.moves + 1; ++k) {
         const auto cells = std::count(twins.lost_at.begin(), twins.lost_at.end(), k);
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
-                            k < twins.moves ? fmt::format("{:g} m", twins.kinds[k].kind.size) : "none", cells);
+                            k < twins.moves    ? fmt::format("{:g} m", twins.kinds[k].kind.size)
+                            : k == twins.moves ? "none"
+                                               : too_few_pairs,
+                            cells);
     }
     return text;
+}
+
+/// Where no verdict can be stated, and how many pairs it takes; empty where all can.
+std::string open_text(const Twins& twins)
+{
+    std::uint64_t open = 0, all = 0;
+    for (const TwinFlips& kind : twins.kinds) {
+        open += kind.open;
+        all += kind.open + kind.classes[0] + kind.classes[1] + kind.classes[2];
+    }
+    return open == 0
+               ? std::string()
+               : fmt::format("{} in {} of {} cells of all kinds of twins ({} pairs in each). A cell in which none "
+                             "differs needs {}, one at the edge of a class more: raise study.realizations.",
+                             too_few_pairs, open, all, twins.realizations, fewest_pairs());
 }
 
 /// In words, what the growth says of one move.
@@ -90,14 +108,16 @@ std::string cell_columns(const Twins& twins, std::size_t cell)
 std::string twins_text(const Twins& twins)
 {
     std::string text = fmt::format("  twins that differ in their verdict (95 % intervals); of what independent "
-                                   "realizations do; cells that are {} / {} / {}\n",
-                                   sureness_names[0], sureness_names[1], sureness_names[2]);
+                                   "realizations do; cells that are {} / {} / {} / {}\n",
+                                   sureness_names[0], sureness_names[1], sureness_names[2], too_few_pairs);
     for (const TwinFlips& kind : twins.kinds)
-        text +=
-            fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {}\n", kind.name, kind.all.all.flips,
-                        kind.all.all.trials, percent(kind.all.all.probability),
-                        percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
-                        interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2]);
+        text += fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {} / {}\n", kind.name,
+                            kind.all.all.flips, kind.all.all.trials, percent(kind.all.all.probability),
+                            percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
+                            interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2],
+                            kind.open);
+    if (const std::string open = open_text(twins); !open.empty())
+        text += fmt::format("  {}\n", open);
     text += fmt::format("  smallest move at which the verdict is not certain, and cells: {}\n", lost_text(twins));
     for (const TwinGrowth& growth : twins.growth)
         text += fmt::format("  {}\n", growth_sentence(twins, growth));
@@ -110,11 +130,10 @@ Json twins_json(const Twins& twins)
 {
     Json kinds = Json::list();
     for (const TwinFlips& kind : twins.kinds) {
-        Json cells = Json::object(), resolved = Json::object();
-        for (std::size_t i = 0; i < sureness_names.size(); ++i) {
+        Json cells = Json::object();
+        for (std::size_t i = 0; i < sureness_names.size(); ++i)
             cells.member(sureness_names[i], kind.classes[i]);
-            resolved.member(sureness_names[i], kind.resolved[i]);
-        }
+        cells.member(too_few_pairs, kind.open);
         kinds.item(Json::object()
                        .member("name", kind.name)
                        .member("pairs", kind.all.all.trials)
@@ -126,13 +145,13 @@ Json twins_json(const Twins& twins)
                        .member("ratio", kind.all.ratio)
                        .member("ratio_lower", kind.all.lower)
                        .member("ratio_upper", kind.all.upper)
-                       .member("cells", cells)
-                       .member("cells_resolved", resolved));
+                       .member("cells", cells));
     }
     Json lost_at = Json::list();
-    for (std::size_t k = 0; k <= twins.moves; ++k) {
+    for (std::size_t k = 0; k <= twins.moves + 1; ++k) {
         Json lost = Json::object();
         lost.member("move_m", k < twins.moves ? twins.kinds[k].kind.size : std::nan(""))
+            .member("known", k <= twins.moves)
             .member("cells", std::count(twins.lost_at.begin(), twins.lost_at.end(), k));
         lost_at.item(lost);
     }
@@ -162,24 +181,27 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
     page.paragraph(fmt::format(
         "Each of the {} realizations of a cell was run again as its own twin: the same in all that was drawn, but for "
         "one thing. A verdict (collapsed or not) is certain where fewer than {:g} % of the twins have another one, and "
-        "a coin flip where more than {:g} % have: two tosses of a fair coin differ in 50 %.",
+        "a coin flip where more than {:g} % have: two tosses of a fair coin differ in 50 %. It is stated only where "
+        "the "
+        "95 % interval of that share lies within the class.",
         twins.realizations, 100 * certain_below, 100 * coin_flip_above));
     flips();
-    HtmlTable table{"lrrrrrrrr",
-                    {"twin", "differ", "share", "95 %", "of independent", "95 %", "certain", "probable", "coin flip"},
+    HtmlTable table{"lrrrrrrrrr",
+                    {"twin", "differ", "share", "95 %", "of independent", "95 %", "certain", "probable", "coin flip",
+                     too_few_pairs},
                     {},
                     "Pairs over all cells, and cells by class"};
     for (const TwinFlips& kind : twins.kinds)
         table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.flips, kind.all.all.trials),
                               percent(kind.all.all.probability), percents(kind.all.all.lower, kind.all.all.upper),
                               number(kind.all.ratio), interval(kind.all.lower, kind.all.upper),
-                              fmt::format("{} ({})", kind.classes[0], kind.resolved[0]),
-                              fmt::format("{} ({})", kind.classes[1], kind.resolved[1]),
-                              fmt::format("{} ({})", kind.classes[2], kind.resolved[2])});
+                              fmt::format("{}", kind.classes[0]), fmt::format("{}", kind.classes[1]),
+                              fmt::format("{}", kind.classes[2]), fmt::format("{}", kind.open)});
     page.table(table);
     page.note("Of independent: the share that differs over that of two realizations that have nothing but the cell in "
-              "common: how much of the verdict's variance in a cell is decided by what twins do not share. In "
-              "brackets: cells whose 95 % interval lies within the class.");
+              "common: how much of the verdict's variance in a cell is decided by what twins do not share.");
+    if (const std::string open = open_text(twins); !open.empty())
+        page.box("warn", "Mind", open);
     page.paragraph(fmt::format("The smallest move at which the verdict is not certain, and in how many cells: {}.",
                                lost_text(twins)));
     if (twins.invalid_pairs > 0)
@@ -203,14 +225,15 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
 void write_twins_csv(const std::filesystem::path& folder, const Twins& twins)
 {
     std::string flips = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,pairs,flips,probability,lower,upper,"
-                        "independent,class,resolved\n";
+                        "independent,class\n";
     for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
         for (const TwinFlips& kind : twins.kinds) {
             const FlipShare& s = kind.cells[cell];
-            flips += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell_columns(twins, cell), kind.name, s.trials,
+            flips += fmt::format("{},{},{},{},{},{},{},{},{}\n", cell_columns(twins, cell), kind.name, s.trials,
                                  s.flips, s.probability, s.lower, s.upper, s.independent,
-                                 s.trials > 0 ? sureness_names[static_cast<std::size_t>(sureness(s.probability))] : "",
-                                 s.resolved() ? 1 : 0);
+                                 s.verdict()    ? sureness_names[static_cast<std::size_t>(*s.verdict())]
+                                 : s.trials > 0 ? too_few_pairs
+                                                : "");
         }
     write_file(folder / "twins.csv", flips);
     if (twins.growth.empty())

@@ -1,0 +1,110 @@
+/// What is told and drawn of indices: columns that do not collide, too few samples, bars that are not cut.
+
+#include "io/plot_sensitivity.hpp"
+#include "studies/sensitivity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <unistd.h>
+
+using namespace stylobate;
+
+namespace {
+
+/// Two factors, one of them with a long name, and intervals around their indices.
+SensitivityTable table_of(double lower, double upper)
+{
+    SensitivityTable table;
+    table.method = "sobol";
+    table.interval = "resampling 0.95";
+    table.outcomes = {"collapse"};
+    table.units = {""};
+    table.meanings = {"1 if a block has fallen, else 0"};
+    table.factors = {"phase", "normal_stiffness_of_every_joint"};
+    table.acts = {1, 1};
+    table.rows = 200;
+    table.mean.add(0.5, 0.4, 0.6);
+    table.explained.add(0.5, 0.4, 0.6);
+    for (const char* name : {"first", "total", "value_first", "value_total"}) {
+        table.indices.push_back({name, {}});
+        table.indices.back().of.add(0.25, 0.2, 0.3);
+        table.indices.back().of.add((lower + upper) / 2, lower, upper);
+    }
+    return table;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines(1);
+    for (const char c : text)
+        if (c == '\n')
+            lines.emplace_back();
+        else
+            lines.back() += c;
+    return lines;
+}
+
+std::string remarks_of(const SensitivityTable& table)
+{
+    std::string all;
+    for (const std::string& remark : sensitivity_remarks(table))
+        all += remark + "\n";
+    return all;
+}
+
+class SensitivityPicture : public ::testing::Test {
+protected:
+    std::string drawn(double lower, double upper) const
+    {
+        const std::filesystem::path png =
+            std::filesystem::temp_directory_path() / ("stylobate_sensitivity_" + std::to_string(getpid()) + ".png");
+        plot_sensitivity(table_of(lower, upper), "Sensitivity", png);
+        std::ifstream file(png, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        std::filesystem::remove(png);
+        return bytes;
+    }
+};
+
+} // namespace
+
+TEST(SensitivityText, ColumnsDoNotCollide)
+{
+    const std::vector<std::string> lines = lines_of(sensitivity_text(table_of(-0.00021645, 0.0000123456)));
+    const std::size_t head = 2;
+    ASSERT_NE(lines[head].find("first index"), std::string::npos) << lines[head];
+    for (const char* name : {"first index", "total index", "first, of single", "total, of single"}) {
+        const std::size_t at = lines[head].find(name);
+        ASSERT_NE(at, std::string::npos);
+        for (std::size_t line = head + 1; line < head + 3; ++line) {
+            ASSERT_LT(at, lines[line].size()) << lines[line];
+            EXPECT_EQ(lines[line].substr(at - 2, 2), "  ") << lines[line];
+            EXPECT_NE(lines[line][at], ' ') << "a column begins under its heading: " << lines[line];
+        }
+    }
+}
+
+TEST(SensitivityText, TooFewSamplesAreSaid)
+{
+    EXPECT_EQ(remarks_of(table_of(0.1, 0.28)).find("Too few"), std::string::npos);
+    // 0.4 wide with 200 rows: half of it takes four times as many
+    const std::string wide = remarks_of(table_of(-0.1, 0.3));
+    EXPECT_NE(wide.find("Raise sensitivity.samples to about 800."), std::string::npos) << wide;
+    EXPECT_NE(wide.find("normal stiffness of every joint"), std::string::npos) << wide;
+    // no index lies there
+    const std::string below = remarks_of(table_of(-0.421, -0.0145));
+    EXPECT_NE(below.find("lies below 0"), std::string::npos) << below;
+    EXPECT_NE(below.find("samples to about 830."), std::string::npos) << below;
+    EXPECT_NE(remarks_of(table_of(-0.03, -0.01)).find("samples to about 800."), std::string::npos);
+}
+
+/// Intervals that differ beyond -0.1 and 1.1 only, where the axis used to end.
+TEST_F(SensitivityPicture, IntervalsAreNotCut)
+{
+    EXPECT_NE(drawn(-0.4, 1), drawn(-0.2, 1.2));
+    EXPECT_NE(drawn(-0.2, 1.3), drawn(-0.2, 1.2));
+    EXPECT_NE(drawn(-0.5, 1.6), drawn(-2, 3.1)) << "arrows where the axis ends";
+}
