@@ -61,7 +61,8 @@ int place_column(const ColumnSpec& column, int number, Layout& layout)
     for (int i = 0; i < drums; ++i) {
         const DrumSpec& drum = column.drums[static_cast<std::size_t>(i)];
         PlacedBlock block;
-        block.name = fmt::format("drum {} of column {}", i, number);
+        block.name =
+            drum.capital ? fmt::format("capital of column {}", number) : fmt::format("drum {} of column {}", i, number);
         block.column = number;
         block.width_m = drum.width_m;
         block.height_m = drum.height_m;

@@ -28,8 +28,9 @@ struct DrumSpec {
     double width_m = 0;  ///< full width B
     double height_m = 0; ///< full height H
     double mass_kg = 0;
-    double offset_m = 0; ///< of its centre from the axis of its column
-    BedSpec bed = {};    ///< under it; without meaning where it and what it stands on are fixed
+    double offset_m = 0;  ///< of its centre from the axis of its column
+    BedSpec bed = {};     ///< under it; without meaning where it and what it stands on are fixed
+    bool capital = false; ///< the uppermost one of its column may be
     friend bool operator==(const DrumSpec&, const DrumSpec&) = default;
 };
 
@@ -68,7 +69,8 @@ StructureSpec equal_column(int blocks, int fixed, double width_m, double height_
 
 /// A block in its place at rest, faces just touching.
 struct PlacedBlock {
-    std::string name; ///< "drum 2 of column 1", "epistyle 0": counted from 0, from the bottom and from the left
+    /// "drum 2 of column 1", "capital of column 1", "epistyle 0": counted from 0, from the bottom and from the left.
+    std::string name;
     BlockRole role = BlockRole::drum;
     int column = 0; ///< of a drum, from the left; -1 for an epistyle
     double width_m = 0;

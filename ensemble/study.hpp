@@ -389,6 +389,7 @@ enum class KeptRealizations {
 
 struct Study {
     StudyKind kind = StudyKind::single;
+    std::string title; ///< of its pictures and pages; empty: they bear the name of the results' file
     std::uint64_t seed = 1;
     /// Per cell of a surface; under a motion in a stripe; of a single study, in all; not used by other kinds.
     std::uint64_t realizations = 1;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
@@ -26,6 +27,8 @@ namespace stylobate {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double points_per_inch = 72;
 
 bool is_program(const fs::path& file)
 {
@@ -96,6 +99,31 @@ void check_fonts(const TemporaryFolder& folder)
                          "  Install some: apt install fonts-dejavu-core.");
 }
 
+/// What gnuplot draws with, and how the picture begins.
+struct Terminal {
+    std::string commands;
+    std::string_view begins;
+};
+
+Terminal terminal_of(const fs::path& picture, PictureSize size)
+{
+    std::string ending = picture.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    constexpr char text[] = "font 'DejaVu Sans,24' noenhanced";
+    const std::string pixels = fmt::format("size {},{} {}", size.width, size.height, text);
+    if (ending == ".svg")
+        return {"set terminal svg " + pixels + " background '#ffffff' linewidth 2\n", "<?xml"};
+    if (ending == ".pdf") // a point for each pixel
+        return {fmt::format("set terminal pdfcairo size {}in,{}in {} background '#ffffff' linewidth 2\n",
+                            size.width / points_per_inch, size.height / points_per_inch, text),
+                "%PDF"};
+    // Some builds of gnuplot lack cairo; their plain PNG is a little coarser.
+    return {"if (strstrt(GPVAL_TERMINALS, ' pngcairo ') > 0) {\n    set terminal pngcairo " + pixels +
+                " background '#ffffff' linewidth 2 fontscale 1\n} else {\n    set terminal png truecolor " + pixels +
+                " linewidth 2\n}\n",
+            "\x89PNG"};
+}
+
 } // namespace
 
 fs::path find_gnuplot()
@@ -149,33 +177,29 @@ std::string gnuplot_heading(std::string_view title, std::string_view subtitle, P
                        below_top(123), points(subtitle, 21, 98));
 }
 
-void run_gnuplot(const std::string& script, PictureSize size, const fs::path& png)
+void run_gnuplot(const std::string& script, PictureSize size, const fs::path& file)
 {
     const fs::path gnuplot = find_gnuplot();
-    AtomicFile target(png); // refuses before any work is done
+    AtomicFile target(file); // refuses before any work is done
     const TemporaryFolder folder;
     check_fonts(folder);
 
-    // Only names without a folder are in the script, so that no path needs to be escaped. Some builds of gnuplot lack
-    // cairo; their plain PNG is a little coarser.
-    const std::string terminal = fmt::format("size {},{} font 'DejaVu Sans,24' noenhanced", size.width, size.height);
-    std::ofstream(folder / "plot.gp") << "if (strstrt(GPVAL_TERMINALS, ' pngcairo ') > 0) {\n    set terminal pngcairo "
-                                      << terminal << " background '#ffffff' linewidth 2 fontscale 1\n} else {\n"
-                                      << "    set terminal png truecolor " << terminal
-                                      << " linewidth 2\n}\n"
-                                         "set encoding utf8\nset output 'picture.png'\n"
+    const Terminal terminal = terminal_of(file, size);
+
+    // Only names without a folder are in the script, so that no path needs to be escaped.
+    std::ofstream(folder / "plot.gp") << terminal.commands << "set encoding utf8\nset output 'picture'\n"
                                       << script << "\nunset output\n";
     const fs::path log = folder / "gnuplot.log";
     // -d: nobody's settings (~/.gnuplot) change the picture.
     const int status = run_program(gnuplot, {"-d", "plot.gp"}, folder.path(), log);
-    const std::string picture = content_of(folder / "picture.png");
-    if (status != 0 || !picture.starts_with("\x89PNG")) {
+    const std::string picture = content_of(folder / "picture");
+    if (status != 0 || !picture.starts_with(terminal.begins)) {
         std::string said = content_of(log);
         while (!said.empty() && (said.back() == '\n' || said.back() == ' '))
             said.pop_back();
         throw InputError(fmt::format("gnuplot could not draw '{}' (exit status {}): {}\n  Check that '{}' is a working "
                                      "gnuplot 5.4 or newer: apt install gnuplot-nox.",
-                                     png.string(), status, said.empty() ? "it said nothing" : said.substr(0, 600),
+                                     file.string(), status, said.empty() ? "it said nothing" : said.substr(0, 600),
                                      gnuplot.string()));
     }
     target.write(picture);

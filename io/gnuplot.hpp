@@ -30,11 +30,12 @@ std::string gnuplot_text(std::string_view text);
 /// Commands for the two lines above a picture: the title (smaller if it is long) and what is said about it.
 std::string gnuplot_heading(std::string_view title, std::string_view subtitle, PictureSize size = {});
 
-/// Runs a script whose terminal and output are set already (PNG, UTF-8, no markup in texts) and writes the picture to
-/// `png`, whole or not at all. The script and its by-products live in a temporary folder that is removed.
+/// Runs a script whose terminal and output are set already (UTF-8, no markup in texts) and writes the picture to
+/// `file`, whole or not at all: as SVG or PDF where its ending says so, else as PNG. The script and its by-products
+/// live in a temporary folder that is removed.
 ///
 /// @throws InputError if gnuplot is missing, cannot be started or reports an error (its first lines are quoted), if the
 ///         machine has no fonts, or if the picture cannot be written
-void run_gnuplot(const std::string& script, PictureSize size, const std::filesystem::path& png);
+void run_gnuplot(const std::string& script, PictureSize size, const std::filesystem::path& file);
 
 } // namespace stylobate

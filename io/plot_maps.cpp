@@ -83,6 +83,18 @@ std::string lines(const MapPicture& picture, const PlotAxis& f, const PlotAxis& 
     return data;
 }
 
+/// The colour of an end stands for all that lies beyond it: then the end is marked.
+std::string ends(const MapPanel& panel)
+{
+    const auto any = [&](auto beyond) { return std::any_of(panel.value.begin(), panel.value.end(), beyond); };
+    std::string tics = "set cbtics autofreq\n";
+    if (any([&](double value) { return value < panel.low; }))
+        tics += fmt::format("set cbtics add ('≤ {0:g}' {0})\n", panel.low);
+    if (any([&](double value) { return value > panel.high; }))
+        tics += fmt::format("set cbtics add ('≥ {0:g}' {0})\n", panel.high);
+    return tics;
+}
+
 } // namespace
 
 void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
@@ -146,7 +158,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
                               "fillstyle solid 1 noborder\n",
                               grey);
         if (panel.classes.empty())
-            script += fmt::format("set cbrange [{}:{}]\nset colorbox\n", panel.low, panel.high);
+            script += fmt::format("set cbrange [{}:{}]\nset colorbox\n", panel.low, panel.high) + ends(panel);
         std::string plot = "plot ";
         if (cells(picture, panel, f, a).empty())
             plot += "1/0";

@@ -18,7 +18,8 @@ struct MapPanel {
     std::string title;
     std::vector<double> value;     ///< (nf x np), frequency by frequency; NaN: grey
     std::vector<MapClass> classes; ///< ascending; empty: a continuous scale with its own box of colours
-    double low = 0, high = 1;      ///< of the continuous scale; values beyond take the colour of its end
+    double low = 0, high = 1;      ///< of the continuous scale; values beyond take the colour of its end, which is then
+                                   ///< marked
 };
 
 struct MapPicture {

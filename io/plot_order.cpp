@@ -2,6 +2,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "io/gnuplot.hpp"
+#include "io/plot_order_parts.hpp"
 #include "io/plot_surface.hpp"
 
 #include <algorithm>
@@ -16,44 +17,10 @@ namespace {
 constexpr std::size_t most_curves = 24;  ///< with a colour and a line of the table each
 constexpr std::size_t most_steps = 1000; ///< of one curve: more are not told apart
 
-double share(const FallOrder& order, std::uint64_t count)
-{
-    return order.trials > 0 ? static_cast<double>(count) / static_cast<double>(order.trials) : 0.0;
-}
-
-double median(const std::vector<double>& ascending)
-{
-    const std::size_t n = ascending.size();
-    return (ascending[(n - 1) / 2] + ascending[n / 2]) / 2;
-}
-
-/// Colour of the k-th of n curves: dark ones fall first. The lightest end of the map is too faint on white.
+/// Colour of the k-th of n curves.
 std::string colour(std::size_t k, std::size_t n)
 {
-    const double at = n > 1 ? 0.88 * static_cast<double>(k) / static_cast<double>(n - 1) : 0.0;
-    const double position = at * static_cast<double>(viridis.size() - 1);
-    const auto low = static_cast<std::size_t>(position);
-    const double part = position - static_cast<double>(low);
-    const auto channel = [&](std::size_t digit) {
-        const auto value = [&](std::size_t i) {
-            return static_cast<double>(std::stoi(std::string(viridis[i]).substr(digit, 2), nullptr, 16));
-        };
-        return static_cast<int>(std::lround((1 - part) * value(low) + part * value(low + 1)));
-    };
-    return fmt::format("#{:02x}{:02x}{:02x}", channel(1), channel(3), channel(5));
-}
-
-/// A curve from 0 to the end of the axis, one step for each fall.
-std::string curve(const FallOrder& order, std::size_t block, double end_s)
-{
-    const std::vector<double>& falls = order.blocks[block].fall_time_s;
-    const std::size_t stride = falls.size() / most_steps + 1;
-    std::string data = fmt::format("$block{} << EOD\n0 0\n", block);
-    for (std::size_t k = 0; k < falls.size(); k += stride) {
-        const std::size_t last = std::min(k + stride, falls.size()) - 1; // of the falls that this step takes together
-        fmt::format_to(std::back_inserter(data), "{} {}\n", falls[last], share(order, last + 1));
-    }
-    return data + fmt::format("{} {}\nEOD\n", end_s, share(order, falls.size()));
+    return order_colour(n > 1 ? static_cast<double>(k) / static_cast<double>(n - 1) : 0.0);
 }
 
 /// Where the columns of the table are, in parts of the picture's width.
@@ -90,11 +57,11 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
                               "linecolor rgb '{}'\n",
                               at.line, y, at.line + 0.024, y, colour(k, shown.size()));
         script += cell(block.name, at.name, y, "left", font);
-        script += cell(fmt::format("{:.1f} % ({:.0f} to {:.0f})", 100 * share(order, block.fall_time_s.size()),
+        script += cell(fmt::format("{:.1f} % ({:.0f} to {:.0f})", 100 * fallen_share(order, block.fall_time_s.size()),
                                    100 * block.lower, 100 * block.upper),
                        at.fallen, y, "right", font);
-        script += cell(fmt::format("{:.2f} s", median(block.fall_time_s)), at.median, y, "right", font);
-        script += cell(fmt::format("{:.1f} %", 100 * share(order, block.first)), at.first, y, "right", font);
+        script += cell(fmt::format("{:.2f} s", median_fall(block.fall_time_s)), at.median, y, "right", font);
+        script += cell(fmt::format("{:.1f} %", 100 * fallen_share(order, block.first)), at.first, y, "right", font);
     }
     if (others > 0) {
         script += fmt::format("set arrow from screen {}, screen {} to screen {}, screen {} nohead linewidth 1.2 "
@@ -107,6 +74,43 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
 
 } // namespace
 
+double fallen_share(const FallOrder& order, std::uint64_t count)
+{
+    return order.trials > 0 ? static_cast<double>(count) / static_cast<double>(order.trials) : 0.0;
+}
+
+double median_fall(const std::vector<double>& ascending)
+{
+    const std::size_t n = ascending.size();
+    return (ascending[(n - 1) / 2] + ascending[n / 2]) / 2;
+}
+
+std::string order_colour(double part)
+{
+    const double position = 0.88 * part * static_cast<double>(viridis.size() - 1);
+    const auto low = static_cast<std::size_t>(position);
+    const double rest = position - static_cast<double>(low);
+    const auto channel = [&](std::size_t digit) {
+        const auto value = [&](std::size_t i) {
+            return static_cast<double>(std::stoi(std::string(viridis[i]).substr(digit, 2), nullptr, 16));
+        };
+        return static_cast<int>(std::lround((1 - rest) * value(low) + rest * value(low + 1)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", channel(1), channel(3), channel(5));
+}
+
+std::string order_curve(const FallOrder& order, std::size_t block, double end_s)
+{
+    const std::vector<double>& falls = order.blocks[block].fall_time_s;
+    const std::size_t stride = falls.size() / most_steps + 1;
+    std::string data = fmt::format("$block{} << EOD\n0 0\n", block);
+    for (std::size_t k = 0; k < falls.size(); k += stride) {
+        const std::size_t last = std::min(k + stride, falls.size()) - 1; // of the falls that this step takes together
+        fmt::format_to(std::back_inserter(data), "{} {}\n", falls[last], fallen_share(order, last + 1));
+    }
+    return data + fmt::format("{} {}\nEOD\n", end_s, fallen_share(order, falls.size()));
+}
+
 std::vector<std::size_t> order_of_falls(const FallOrder& order)
 {
     std::vector<std::size_t> fell;
@@ -114,7 +118,7 @@ std::vector<std::size_t> order_of_falls(const FallOrder& order)
         if (!order.blocks[i].fall_time_s.empty())
             fell.push_back(i);
     std::stable_sort(fell.begin(), fell.end(), [&](std::size_t a, std::size_t b) {
-        return median(order.blocks[a].fall_time_s) < median(order.blocks[b].fall_time_s);
+        return median_fall(order.blocks[a].fall_time_s) < median_fall(order.blocks[b].fall_time_s);
     });
     return fell;
 }
@@ -131,6 +135,8 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
     for (const std::size_t block : shown)
         last = std::max(last, order.blocks[block].fall_time_s.back());
     const double end_s = last > 0 ? std::max(1.06 * last, std::min(order.end_time_s, 1.15 * last)) : 1;
+    if (shown.size() > most_listed && order.places.size() == order.blocks.size())
+        return plot_order_drawn(order, shown, end_s, title, note, png);
 
     std::vector<std::size_t> others;
     if (shown.size() > most_curves) {
@@ -145,7 +151,7 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
     std::string data;
     std::string curves;
     const auto add = [&](std::size_t block, const std::string& rgb, double width) {
-        data += curve(order, block, end_s);
+        data += order_curve(order, block, end_s);
         curves += fmt::format("{}$block{} with steps linecolor rgb '{}' linewidth {}", curves.empty() ? "" : ", ",
                               block, rgb, width);
     };
@@ -157,7 +163,7 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
     std::size_t most = 0;
     for (const std::size_t block : shown)
         most = std::max(most, order.blocks[block].fall_time_s.size());
-    const double top = std::min(1.0, 1.1 * share(order, most));
+    const double top = std::min(1.0, 1.1 * fallen_share(order, most));
     const std::string below_title =
         fmt::format("{} realizations · {} of {} blocks fell in some · in brackets: {}", order.trials,
                     shown.size() + others.size(), order.blocks.size(), describe_interval(order.interval));

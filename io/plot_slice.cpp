@@ -36,10 +36,11 @@ std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vect
         for (std::size_t k = 1; k <= 3; ++k)
             rows.insert((2 * k - 1) * count / 6);
     for (const double asked : frequencies_hz) {
-        if (!(asked > 0) || !std::isfinite(asked))
+        constexpr double rounding = 1e-6; // of a frequency that is typed with fewer digits than the axis has
+        if (!(asked >= axis.values.front() * (1 - rounding) && asked <= axis.values.back() * (1 + rounding)))
             throw InputError(
-                fmt::format("a slice at {} Hz is asked for.\n  Name a frequency greater than 0, in Hz; the "
-                            "surface has {} to {} Hz.",
+                fmt::format("--frequency {}: is beyond the frequencies of the surface.\n  Name one from {} "
+                            "to {} Hz.",
                             asked, axis.values.front(), axis.values.back()));
         const auto distance = [&](double value) { return std::abs(axis.scaled(value) - axis.scaled(asked)); };
         const auto nearest = std::min_element(axis.values.begin(), axis.values.end(),
@@ -58,17 +59,28 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
     const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
     const std::size_t np = pga.values.size();
 
+    // Curves that coincide must all be seen: each is thinner than those drawn before it, and its points with their bars
+    // stand a little beside those of the others.
+    double apart = pga.scaled(pga.edges.back()) - pga.scaled(pga.edges.front());
+    for (std::size_t j = 1; j < np; ++j)
+        apart = std::min(apart, pga.scaled(pga.values[j]) - pga.scaled(pga.values[j - 1]));
+    const double step = std::min(0.1 * apart, 0.007 * (pga.scaled(pga.edges.back()) - pga.scaled(pga.edges.front())));
+    const auto beside = [&](double value, std::size_t k) {
+        const double place = static_cast<double>(k) - static_cast<double>(rows.size() - 1) / 2;
+        return pga.unscaled(pga.scaled(value) + place * step);
+    };
     std::string data;
     std::string bands;
     std::string curves;
     for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double wider = static_cast<double>(rows.size() - 1 - k);
         data += fmt::format("$slice{} << EOD\n", k);
         std::size_t points = 0;
         for (std::size_t j = 0; j < np; ++j) {
             const std::size_t cell = rows[k] * np + j;
             if (std::isfinite(surface.probability[cell])) {
-                data += fmt::format("{} {} {} {}\n", pga.values[j], surface.probability[cell], surface.lower[cell],
-                                    surface.upper[cell]);
+                data += fmt::format("{} {} {} {} {}\n", pga.values[j], surface.probability[cell], surface.lower[cell],
+                                    surface.upper[cell], beside(pga.values[j], k));
                 ++points;
             } else {
                 data += '\n'; // a gap in the curve
@@ -82,10 +94,10 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
                              "0.2 noborder notitle",
                              bands.empty() ? "" : ", ", k, style.colour);
         curves +=
-            fmt::format(", $slice{0} using 1:2 with lines linecolor rgb '{1}' linewidth 1.6 notitle"
-                        ", $slice{0} using 1:2:3:4 with yerrorbars linecolor rgb '{1}' linewidth 0.9 pointtype {2} "
+            fmt::format(", $slice{0} using 1:2 with lines linecolor rgb '{1}' linewidth {4:.1f} notitle"
+                        ", $slice{0} using 5:2:3:4 with yerrorbars linecolor rgb '{1}' linewidth 0.9 pointtype {2} "
                         "pointsize 1.3 title '{3:.3g} Hz'",
-                        k, style.colour, style.point, surface.frequency_hz[rows[k]]);
+                        k, style.colour, style.point, surface.frequency_hz[rows[k]], 1.4 + 1.3 * wider);
     }
     const std::string script =
         data + gnuplot_heading(title, below_title) + pga.commands('x') +

@@ -14,7 +14,7 @@ namespace stylobate {
 ///
 /// @param frequencies_hz at most 6; empty: up to three rows spread evenly over the axis
 /// @param limit what the probability is one of: "collapse"
-/// @throws InputError if more are asked for, if one is not a positive number, and as `plot_surface` does
+/// @throws InputError if more are asked for, if one is beyond the axis, and as `plot_surface` does
 void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequencies_hz, const std::string& limit,
                 const std::string& title, const std::filesystem::path& png);
 

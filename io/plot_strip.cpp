@@ -83,6 +83,7 @@ struct Drawn {
     std::vector<bool> fixed;         ///< for each of them: it moves with the base
     std::size_t top = 0;             ///< the last one that moves: the one whose displacement an outcome has
     std::size_t epistyles = 0;
+    std::size_t capitals = 0;
 };
 
 Drawn find_blocks(const Trajectory& t, std::size_t samples)
@@ -100,6 +101,7 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
         drawn.blocks.push_back(i);
         drawn.fixed.push_back(!moves);
         drawn.epistyles += t.role[i] == BlockRole::epistyle;
+        drawn.capitals += t.name[i].starts_with("capital ");
         if (moves)
             drawn.top = i;
     }
@@ -507,7 +509,9 @@ std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t sample
     const auto many = [](std::size_t n, const char* what) {
         return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
-    std::string text = many(drawn.blocks.size() - drawn.epistyles, "drum");
+    std::string text = many(drawn.blocks.size() - drawn.epistyles - drawn.capitals, "drum");
+    if (drawn.capitals > 0)
+        text += (drawn.epistyles > 0 ? ", " : " and ") + many(drawn.capitals, "capital");
     if (drawn.epistyles > 0)
         text += " and " + many(drawn.epistyles, "epistyle");
     if (fixed > 0)

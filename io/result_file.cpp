@@ -63,9 +63,21 @@ ResultHeader read_header(hid_t file)
     return header;
 }
 
-/// Where two study texts part, for a message; empty if they are the same.
-std::string study_difference(const std::string& in_file, const std::string& asked)
+/// A title changes nothing that is computed.
+std::string without_title(const std::string& study_toml)
 {
+    std::istringstream in(study_toml);
+    std::string out;
+    for (std::string line; std::getline(in, line);)
+        if (!line.starts_with("title = "))
+            out += line + (in.eof() ? "" : "\n");
+    return out;
+}
+
+/// Where two study texts part, for a message; empty if they are the same but for their titles.
+std::string study_difference(const std::string& text_in_file, const std::string& text_asked)
+{
+    const std::string in_file = without_title(text_in_file), asked = without_title(text_asked);
     std::istringstream a(in_file);
     std::istringstream b(asked);
     for (int line = 1;; ++line) {

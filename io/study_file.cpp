@@ -27,6 +27,7 @@ namespace stylobate {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
+constexpr std::size_t most_title_bytes = 200;
 constexpr std::uint64_t most_realizations = 1'000'000'000;
 
 /// A dashpot's ratio or its coefficient.
@@ -201,8 +202,12 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 
     Study study;
     const KeyReader keys = top.table("study");
-    keys.allow_only({"kind", "seed", "realizations", "sampling"});
+    keys.allow_only({"kind", "title", "seed", "realizations", "sampling"});
     study.kind = keys.choice("kind", study_kind_names);
+    study.title = keys.text_or_empty("title");
+    if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
+        keys.refuse("title", "is no line of a picture",
+                    fmt::format("At most {} bytes, on one line.", most_title_bytes));
     const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
     const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;

@@ -183,8 +183,10 @@ private:
     {
         keys.allow_only({"width_m", "height_m", "mass_kg", "density_kg_m3", "offset_m", "friction",
                          "normal_stiffness_n_m2", "tangential_stiffness_n_m"});
-        return read_drum(keys, {&keys, "width_m"}, "", "",
-                         {{&keys, "mass_kg", "density_kg_m3"}, {common_mass().keys, "", "density_kg_m3"}});
+        DrumSpec capital = read_drum(keys, {&keys, "width_m"}, "", "",
+                                     {{&keys, "mass_kg", "density_kg_m3"}, {common_mass().keys, "", "density_kg_m3"}});
+        capital.capital = true;
+        return capital;
     }
 
     /// @param width_for_all, height_for_all keys of the column or the structure; empty: there are none

@@ -75,21 +75,27 @@ void add(Entries& entries, const BedSpec& bed)
         entries.emplace_back("tangential_stiffness_n_m", toml_number(*bed.tangential_stiffness_n_m));
 }
 
-/// Equal drums, one upon the other, are one line.
+Entries entries_of(const DrumSpec& drum)
+{
+    Entries entries = {{"width_m", toml_number(drum.width_m)},
+                       {"height_m", toml_number(drum.height_m)},
+                       {"mass_kg", toml_number(drum.mass_kg)}};
+    if (drum.offset_m != 0)
+        entries.emplace_back("offset_m", toml_number(drum.offset_m));
+    add(entries, drum.bed);
+    return entries;
+}
+
+/// Equal drums, one upon the other, are one line; a capital is a key of its own.
 std::string drums(const std::vector<DrumSpec>& drums, const std::string& indent)
 {
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < drums.size();) {
+    for (std::size_t i = 0; i < drums.size() && !drums[i].capital;) {
         const DrumSpec& drum = drums[i];
         std::size_t count = 1;
         while (i + count < drums.size() && drums[i + count] == drum)
             ++count;
-        Entries entries = {{"width_m", toml_number(drum.width_m)},
-                           {"height_m", toml_number(drum.height_m)},
-                           {"mass_kg", toml_number(drum.mass_kg)}};
-        if (drum.offset_m != 0)
-            entries.emplace_back("offset_m", toml_number(drum.offset_m));
-        add(entries, drum.bed);
+        Entries entries = entries_of(drum);
         if (count > 1)
             entries.emplace_back("count", std::to_string(count));
         lines.push_back(inline_table(entries));
@@ -101,10 +107,14 @@ std::string drums(const std::vector<DrumSpec>& drums, const std::string& indent)
 std::string columns(const std::vector<ColumnSpec>& columns)
 {
     std::vector<std::string> lines;
-    for (const ColumnSpec& column : columns)
-        lines.push_back(inline_table({{"x_m", toml_number(column.x_m)},
-                                      {"fixed_blocks", std::to_string(column.fixed_blocks)},
-                                      {"drums", drums(column.drums, "    ")}}));
+    for (const ColumnSpec& column : columns) {
+        Entries entries = {{"x_m", toml_number(column.x_m)},
+                           {"fixed_blocks", std::to_string(column.fixed_blocks)},
+                           {"drums", drums(column.drums, "    ")}};
+        if (column.drums.back().capital)
+            entries.emplace_back("capital", inline_table(entries_of(column.drums.back())));
+        lines.push_back(inline_table(entries));
+    }
     return list(lines, "");
 }
 
@@ -147,6 +157,8 @@ void write(Writer& out, const StructureSpec& structure)
         out.number("drum_mass_kg", lowest.mass_kg);
     } else {
         out.line("drums", drums(column.drums, ""));
+        if (column.drums.back().capital)
+            out.line("capital", inline_table(entries_of(column.drums.back())));
     }
     out.whole("fixed_blocks", static_cast<std::uint64_t>(column.fixed_blocks));
 }
@@ -354,6 +366,8 @@ std::string study_text(const Study& study)
     Writer out;
     out.section("study");
     out.word("kind", word_for(study_kind_names, study.kind));
+    if (!study.title.empty()) // a study without a title has the text that it always had
+        out.word("title", study.title);
     out.whole("seed", study.seed);
     if (!study.sensitivity && !study.rare)
         out.whole("realizations", study.realizations);

@@ -31,7 +31,7 @@ for ((seed = ${seeds%%..*}; seed <= ${seeds##*..}; ++seed)); do
     [[ -e $said.json ]] && continue
     echo "diagnosis of campaign $seed"
     if "$stylobate" diagnose "$place/campaign_$seed.h5" --study "$place/campaign_$seed.toml" \
-        -o "$said.h5" --quiet --json "$@" >"$said.part" 2>"$said.log"; then
+        -o "$said.h5" --force --quiet --json "$@" >"$said.part" 2>"$said.log"; then
         mv "$said.part" "$said.json"
     else
         status=$?

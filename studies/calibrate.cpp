@@ -12,6 +12,7 @@
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/json.hpp"
+#include "studies/output_path.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -242,6 +243,8 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     search.held_out = wanted.held_out;
     const RunOptions run{options.isa(), options.thread_count()};
     // before the work is done, not after it, it is known that both can be written
+    check_output(measured, results, options.force);
+    check_output(measured, calibrated, options.force);
     AtomicFile study_file(calibrated), results_file(results);
     Calibration found;
     {

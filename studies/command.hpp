@@ -20,6 +20,7 @@ struct CommonOptions {
     std::string backend = "cpu";
     bool quiet = false;
     bool json = false;
+    bool force = false; ///< replace files that are there
 
     /// @throws InputError if the instruction set is unknown, or if this machine lacks it
     Isa isa() const;
@@ -31,13 +32,14 @@ struct CommonOptions {
 
 /// What `export` is asked for; empty, or -1: not said.
 struct ExportOptions {
-    std::string format;              ///< "csv", "png", "nrml" or "json"
+    std::string format;              ///< "png", "svg" or "pdf" of a picture; "csv", "nrml" or "json" of tables
     std::string picture;             ///< "surface", "slice", "fragility", "sensitivity", "strip" or "order"
     std::string output;              ///< file of the picture, folder of the tables
     std::string limit;               ///< limit state of a surface or slice
     long long realization = -1;      ///< of a strip
     long long cell = -1;             ///< of a surface, for the order of falls
     std::vector<double> frequencies; ///< of a slice [Hz]
+    std::string title;               ///< of the picture, instead of the study's or the file's name
 };
 
 /// What `calibrate` is asked for.
@@ -60,7 +62,8 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                    const std::string& component, const std::string& block);
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 /// @param output the page; empty: beside the file, with .html
-int report_command(const CommonOptions& options, const std::string& file, std::string output);
+/// @param title of the page, instead of the study's or the file's name; empty: not said
+int report_command(const CommonOptions& options, const std::string& file, std::string output, const std::string& title);
 /// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with
 /// _diagnosis.h5
 /// @param nulls campaigns with nothing hidden that are simulated to learn what chance gives

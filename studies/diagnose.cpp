@@ -79,20 +79,21 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     demand_double(study, study_file.empty() ? "--set" : study_file, "a diagnosis");
     if (output.empty())
         output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
-    check_output(measured, output);
+    const std::filesystem::path beside = std::filesystem::path(output).parent_path();
+    const std::string stem = std::filesystem::path(output).stem().string();
+    DiagnosisOptions how;
+    how.extension = beside / (stem + "_extended.toml");
+    check_output(measured, output, options.force);
+    check_output(measured, how.extension, options.force);
     track_scales(campaign); // refuses data that cannot be diagnosed, before anything is touched
     {                       // refuses before the work is done, not after it
         const AtomicFile writable(output);
     }
-    const std::filesystem::path beside = std::filesystem::path(output).parent_path();
-    const std::string stem = std::filesystem::path(output).stem().string();
 
-    DiagnosisOptions how;
     how.seed = static_cast<std::uint64_t>(seed);
     how.nulls = static_cast<std::uint64_t>(nulls);
     how.windows = windows;
     how.cache = beside / (stem + "_chance.txt");
-    how.extension = beside / (stem + "_extended.toml");
     how.run = {options.isa(), options.thread_count()};
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) {

@@ -13,7 +13,6 @@ namespace stylobate {
 namespace {
 
 constexpr double width = 900;
-constexpr double plot_height = 330;
 constexpr double left = 74;
 constexpr double right = 884;
 constexpr double letter = 7.1; ///< a letter's mean width at the font's size [px]
@@ -110,6 +109,35 @@ bool has_values(const FigureSeries& s)
     return s.kind != SeriesKind::band && s.y.size() == s.x.size();
 }
 
+/// Between neighbours among the bars of all series; 1 where there is one alone.
+double least_spacing(const Figure& figure)
+{
+    std::vector<double> places;
+    for (const FigureSeries& s : figure.series)
+        if (s.kind == SeriesKind::bars)
+            places.insert(places.end(), s.x.begin(), s.x.end());
+    std::sort(places.begin(), places.end());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < places.size(); ++i)
+        if (const double spacing = places[i] - places[i - 1]; spacing > 0)
+            least = std::min(least, spacing);
+    return std::isfinite(least) ? least : 1;
+}
+
+/// Whether two series have bars in one place.
+bool bars_meet(const Figure& figure)
+{
+    std::vector<double> places;
+    for (const FigureSeries& s : figure.series)
+        if (s.kind == SeriesKind::bars)
+            for (const double x : s.x) {
+                if (std::find(places.begin(), places.end(), x) != places.end())
+                    return true;
+                places.push_back(x);
+            }
+    return false;
+}
+
 /// Least and greatest of so many neighbours, in their order.
 std::vector<std::size_t> thinned(const std::vector<double>& y)
 {
@@ -146,8 +174,9 @@ std::string path(const std::string& data, const std::string& look)
 
 class Drawing {
 public:
-    explicit Drawing(const Figure& figure) : figure_(figure)
+    Drawing(const Figure& figure, double height) : figure_(figure), height_(height)
     {
+        side_by_side_ = bars_meet(figure);
         x_.log = figure.x_log && figure.x_ticks.empty();
         y_.log = figure.y_log;
         const bool bars = bar_series() > 0;
@@ -156,6 +185,11 @@ public:
                 continue;
             for (const double x : s.x)
                 x_.include(x);
+            if (s.kind == SeriesKind::spans) {
+                for (const double x : s.y)
+                    x_.include(x);
+                continue;
+            }
             if (has_values(s))
                 for (const double y : s.y)
                     y_.include(y);
@@ -180,7 +214,7 @@ public:
             x_.from = -0.6;
             x_.to = static_cast<double>(figure.x_ticks.size()) - 0.4;
         } else if (bars && !x_.log && !empty_) {
-            spacing_ = least_spacing();
+            spacing_ = least_spacing(figure);
             x_.from -= 0.6 * spacing_;
             x_.to += 0.6 * spacing_;
         }
@@ -192,12 +226,13 @@ public:
     {
         const std::string legend_text = legend();
         const double top = 14 + legend_height_;
-        const double bottom = top + plot_height;
+        const double bottom = top + height_;
         y_.first_px = bottom;
         y_.last_px = top;
         const std::string axes_text = axes(top, bottom);
         std::string marks;
-        for (const SeriesKind kind : {SeriesKind::band, SeriesKind::bars, SeriesKind::line, SeriesKind::points})
+        for (const SeriesKind kind :
+             {SeriesKind::spans, SeriesKind::band, SeriesKind::bars, SeriesKind::line, SeriesKind::points})
             for (std::size_t i = 0; i < figure_.series.size(); ++i)
                 if (figure_.series[i].kind == kind)
                     marks += series(figure_.series[i], colour(i));
@@ -210,7 +245,10 @@ public:
     }
 
 private:
-    static std::string colour(std::size_t i) { return palette[i % palette.size()]; }
+    std::string colour(std::size_t i) const
+    {
+        return figure_.series[i].kind == SeriesKind::spans ? "#5a6672" : palette[i % palette.size()];
+    }
 
     std::string legend()
     {
@@ -229,9 +267,10 @@ private:
                 out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", x + 13, y - 4.5,
                                    colour(i));
             else
-                out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"26\" height=\"{}\" fill=\"{}\"{}/>\n", x,
-                                   y - (s.kind == SeriesKind::line ? 5.5 : 10), s.kind == SeriesKind::line ? 2 : 10,
-                                   colour(i), s.kind == SeriesKind::band ? " fill-opacity=\"0.25\"" : "");
+                out += fmt::format(
+                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"26\" height=\"{}\" fill=\"{}\"{}/>\n", x,
+                    y - (s.kind == SeriesKind::line ? 5.5 : 10), s.kind == SeriesKind::line ? 2 : 10, colour(i),
+                    s.kind == SeriesKind::band || s.kind == SeriesKind::spans ? " fill-opacity=\"0.22\"" : "");
             out += svg_text(x + 34, y, "start", s.name);
             x += length;
         }
@@ -306,8 +345,10 @@ private:
             return band(s, tone);
         if (!has_values(s))
             return "";
+        if (s.kind == SeriesKind::spans)
+            return spans(s, tone);
         if (s.kind == SeriesKind::line)
-            return line(s, tone);
+            return band(s, tone) + line(s, tone);
         const double half = bar_half_width();
         const double shift_px = s.kind == SeriesKind::bars ? bar_shift(s) * 2 * half : 0;
         std::string out;
@@ -335,22 +376,15 @@ private:
         return static_cast<double>(std::count_if(figure_.series.begin(), figure_.series.end(),
                                                  [](const FigureSeries& s) { return s.kind == SeriesKind::bars; }));
     }
-    /// Between neighbours among the bars; 1 where there is one alone.
-    double least_spacing() const
-    {
-        double least = std::numeric_limits<double>::infinity();
-        for (const FigureSeries& s : figure_.series)
-            for (std::size_t i = 1; s.kind == SeriesKind::bars && i < s.x.size(); ++i)
-                if (const double spacing = std::abs(s.x[i] - s.x[i - 1]); spacing > 0)
-                    least = std::min(least, spacing);
-        return std::isfinite(least) ? least : 1;
-    }
     double bar_half_width() const
     {
-        return std::min(28.0, 0.36 * spacing_ * (right - left) / (x_.to - x_.from)) / std::max(1.0, bar_series());
+        return std::min(28.0, 0.36 * spacing_ * (right - left) / (x_.to - x_.from)) /
+               (side_by_side_ ? std::max(1.0, bar_series()) : 1.0);
     }
     double bar_shift(const FigureSeries& one) const
     {
+        if (!side_by_side_)
+            return 0;
         double before = 0;
         for (const FigureSeries& s : figure_.series) {
             if (&s == &one)
@@ -358,6 +392,18 @@ private:
             before += s.kind == SeriesKind::bars ? 1 : 0;
         }
         return before - (bar_series() - 1) / 2;
+    }
+
+    std::string spans(const FigureSeries& s, const std::string& tone) const
+    {
+        std::string out;
+        for (std::size_t i = 0; i < s.x.size(); ++i)
+            if (x_.holds(s.x[i]) && x_.holds(s.y[i]))
+                out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+                                   "fill-opacity=\"0.16\"/>\n",
+                                   x_.px(s.x[i]), y_.last_px, x_.px(s.y[i]) - x_.px(s.x[i]), y_.first_px - y_.last_px,
+                                   tone);
+        return out;
     }
 
     std::string line(const FigureSeries& s, const std::string& tone) const
@@ -402,7 +448,9 @@ private:
     }
 
     const Figure& figure_;
+    const double height_;
     Axis x_, y_;
+    bool side_by_side_ = false;
     bool empty_ = false;
     double spacing_ = 1; ///< of bars [unit of x]
     double legend_height_ = 0;
@@ -411,9 +459,9 @@ private:
 
 } // namespace
 
-Html figure_svg(const Figure& figure)
+Html figure_svg(const Figure& figure, double height)
 {
-    return Html::ready(Drawing(figure).svg());
+    return Html::ready(Drawing(figure, height).svg());
 }
 
 Html bar_svg(double value, MaybeReal mark, double most)

@@ -6,10 +6,12 @@
 
 namespace stylobate {
 
-/// The figure without its title and caption: axes, series, and a legend if a series has a name. What is not finite, or
+/// The figure without its title and caption: axes, series, and a legend if a series has a name. Bars of several series
+/// stand side by side where they meet. What is not finite, or
 /// not positive on a logarithmic axis, is left out; without any point there are empty axes that say so. Lines of more
 /// samples than the width has pixels are drawn by the least and the greatest of neighbours.
-Html figure_svg(const Figure& figure);
+/// @param height of the plot alone [px]
+Html figure_svg(const Figure& figure, double height = 330);
 
 /// A bar from 0 for a cell of a table, with a mark: how large a gain is, and how large chance makes it.
 /// @param most what the full width stands for, > 0

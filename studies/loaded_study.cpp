@@ -20,6 +20,9 @@ namespace stylobate {
 
 namespace {
 
+// the only settings that results take: where a record lies now
+constexpr char of_record[] = "excitation.file=", of_vertical[] = "mechanisms.vertical_motion.file=";
+
 /// @param what it is: "record", "vertical"
 std::string fingerprint(const Motion& motion, const char* what)
 {
@@ -32,6 +35,24 @@ std::string fingerprint(const Motion& motion, const char* what)
 }
 
 } // namespace
+
+void check_settings(const ResultHeader& header, const std::string& file, const std::vector<std::string>& settings)
+{
+    if (settings.empty())
+        return;
+    const Study study = parse_study(header.study_toml, file + " (its study)");
+    const ExcitationKind kind = study.excitation.kind;
+    const bool has_record = (kind == ExcitationKind::record || kind == ExcitationKind::table) && !study.fragility;
+    for (const std::string& setting : settings) {
+        const bool record = setting.starts_with(of_record);
+        if (!record && !setting.starts_with(of_vertical))
+            throw InputError(fmt::format("--set {}: the study of {} is fixed; only excitation.file may be set, to say "
+                                         "where its record lies now (and mechanisms.vertical_motion.file)",
+                                         setting, file));
+        if (record ? !has_record : !study.vertical)
+            throw InputError(fmt::format("--set {}: the study of {} is not driven by a record", setting, file));
+    }
+}
 
 LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move(study)))
 {
@@ -67,17 +88,9 @@ LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<st
 LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::string& file,
                                       const std::vector<std::string>& settings)
 {
-    const std::string of_record = "excitation.file=", of_vertical = "mechanisms.vertical_motion.file=";
-    for (const std::string& setting : settings)
-        if (!setting.starts_with(of_record) && !setting.starts_with(of_vertical))
-            throw InputError(fmt::format("--set {}: the study of {} is fixed; only excitation.file may be set, to say "
-                                         "where its record lies now (and mechanisms.vertical_motion.file)",
-                                         setting, file));
+    check_settings(header, file, settings);
     LoadedStudy loaded(parse_study(header.study_toml, file + " (its study)", settings));
     const Study& study = loaded.study();
-    for (const std::string& setting : settings)
-        if (setting.starts_with(of_record) ? !loaded.motion_ : !study.vertical)
-            throw InputError(fmt::format("--set {}: the study of {} is not driven by a record", setting, file));
     const auto check = [&](const std::string& record, const std::string& setting, const std::string& print) {
         if (header.study_toml.find(print) == std::string::npos)
             throw InputError(fmt::format("{} is not the record that {} was made with: its samples differ. Give the "

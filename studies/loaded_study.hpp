@@ -45,6 +45,11 @@ private:
 /// How many realizations a study has; of an adaptive surface or a rare event at most.
 std::uint64_t most_realizations(const Study& study);
 
+/// The study of results is fixed: all that may be set is where its record lies now. For verbs that may not even need
+/// it.
+/// @throws InputError for any other setting, and if the study has no record
+void check_settings(const ResultHeader& header, const std::string& file, const std::vector<std::string>& settings);
+
 /// One more than the last realization that a result may be asked for: of an adaptive surface any of its study, run or
 /// not.
 std::uint64_t realizations_end(const ResultHeader& header, const Study& study);

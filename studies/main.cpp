@@ -38,6 +38,11 @@ void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::s
     verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
 }
 
+void add_force(CLI::App& verb, CommonOptions& options)
+{
+    verb.add_flag("--force", options.force, "replace what is there under the names of the outputs");
+}
+
 /// CLI11 would say of an unknown verb only that one is missing.
 /// @throws InputError if the first word is no verb, or if there is none
 void check_verb(const CLI::App& app, int argc, char** argv)
@@ -97,6 +102,7 @@ int main(int argc, char** argv)
     replay->add_flag("--stood", choice.stood, "one that did not fall");
     replay->add_option("--nth", choice.nth, "which of those, in the order of their indices, from 1 (default: 1)");
     replay->add_option("-o,--output", trajectory, "results file for the trajectory (default: none is kept)");
+    add_force(*replay, options);
     add_common(*replay, options);
     replay->callback([&] { status = replay_command(options, results, choice, trajectory); });
 
@@ -141,6 +147,7 @@ int main(int argc, char** argv)
     calibrate->add_flag("--outcomes", calibration.outcomes,
                         "use who fell and who stood even where there are histories");
     calibrate->add_flag("--no-held-out", keep_all, "do not predict each motion by what the others say");
+    add_force(*calibrate, options);
     add_common(*calibrate, options);
     calibrate->callback([&] {
         calibration.held_out = !keep_all;
@@ -165,20 +172,22 @@ int main(int argc, char** argv)
     diagnosing->add_flag("--windows", windows,
                          "let free windows of the simulation judge causes too: slow, and less sure than the balance of "
                          "forces");
+    add_force(*diagnosing, options);
     add_common(*diagnosing, options);
     diagnosing->callback([&] { status = diagnose_command(options, measured, study, results, nulls, seed, windows); });
 
     ExportOptions wanted;
     auto* exporting = app.add_subcommand("export", "write a result in other formats");
     exporting->add_option("RESULTS", results, "results file (HDF5)")->required();
-    exporting->add_option("--to", wanted.format, "csv, png, or of fragility studies nrml or json")
-        ->required()
-        ->check(CLI::IsMember({"csv", "png", "nrml", "json"}));
     exporting
-        ->add_option(
-            "--picture", wanted.picture,
-            "png: surface, slice, twins, predictability, fragility, sensitivity, rare, strip or order (default: by "
-            "the kind of the study)")
+        ->add_option("--to", wanted.format,
+                     "a picture: png, svg or pdf; tables: csv, or of fragility studies nrml or json (default: by the "
+                     "ending of -o)")
+        ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json"}));
+    exporting
+        ->add_option("--picture", wanted.picture,
+                     "surface, slice, twins, predictability, fragility, sensitivity, rare, strip or order (default: by "
+                     "the kind of the study)")
         ->check(CLI::IsMember(
             {"surface", "slice", "twins", "predictability", "fragility", "sensitivity", "rare", "strip", "order"}));
     exporting->add_option(
@@ -189,18 +198,25 @@ int main(int argc, char** argv)
         ->check(CLI::Range(0LL, 999999999999LL));
     exporting->add_option("--cell", wanted.cell, "order: one cell of a surface (default: all of them)")
         ->check(CLI::Range(0LL, 999999999999LL));
-    exporting->add_option("--frequency", wanted.frequencies, "slice: frequencies in Hz (default: three over the axis)")
+    exporting
+        ->add_option("--frequency", wanted.frequencies,
+                     "slice: frequencies in Hz, within the axis; the nearest ones of it are drawn (default: three)")
         ->delimiter(',');
-    exporting->add_option("-o,--output", wanted.output, "the picture, or the folder of the files");
+    exporting->add_option("--title", wanted.title, "of the picture (default: by study.title, or the file's name)");
+    exporting->add_option("-o,--output", wanted.output,
+                          "the picture, whose ending says its format (.png, .svg, .pdf), or the folder of the tables");
+    add_force(*exporting, options);
     add_common(*exporting, options);
     exporting->callback([&] { status = export_command(options, results, wanted); });
 
-    std::string page;
+    std::string page, title;
     auto* report = app.add_subcommand("report", "one self-contained page of a result, a diagnosis or a calibration");
     report->add_option("FILE", results, "results file, diagnosis or calibration (HDF5)")->required();
-    report->add_option("-o,--output", page, "the page (default: the file's name with .html)");
+    report->add_option("-o,--output", page, "the page, .html (default: the file's name with that ending)");
+    report->add_option("--title", title, "of the page (default: by study.title, or the file's name)");
+    add_force(*report, options);
     add_common(*report, options);
-    report->callback([&] { status = report_command(options, results, page); });
+    report->callback([&] { status = report_command(options, results, page, title); });
 
     std::string held;
     auto* info = app.add_subcommand("info", "version, instruction sets, threads; or what a file holds");

@@ -9,8 +9,17 @@ namespace stylobate {
 /// "folder/name.h5" -> "folder/name" + `ending`.
 std::filesystem::path beside(const std::string& input, const std::string& ending);
 
-/// Results are never lost, not even to a slip in the name of the output.
 /// @throws InputError if the output is the input
-void check_output(const std::string& input, const std::string& output);
+void check_not_input(const std::string& input, const std::filesystem::path& output);
+
+/// Nothing is lost to a slip in the name of an output: what is there stays, unless it is asked to go.
+///
+/// @param output a file; asked before the work is done
+/// @param force whether a file that is there may be replaced
+/// @throws InputError if the output is the input, or if it exists and is not to be replaced
+void check_output(const std::string& input, const std::filesystem::path& output, bool force);
+
+/// The same for a folder of several files: it may be there, but empty.
+void check_output_folder(const std::string& input, const std::filesystem::path& folder, bool force);
 
 } // namespace stylobate

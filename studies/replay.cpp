@@ -6,6 +6,7 @@
 #include "studies/file_kind.hpp"
 #include "studies/json.hpp"
 #include "studies/loaded_study.hpp"
+#include "studies/output_path.hpp"
 #include "studies/result_picture.hpp"
 #include "studies/trajectory.hpp"
 #include "studies/version.hpp"
@@ -14,7 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <unistd.h>
 
 namespace stylobate {
 
@@ -53,6 +56,23 @@ double total_collapse_s(const Study& study, const FollowedRealization& f)
     return known ? f.outcome.total_collapse_time_s : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// One that is there is replaced as a whole: it stays until the new one is complete.
+void write_replay(const std::filesystem::path& file, const ResultHeader& header, const ResultRow& row,
+                  const Trajectory& trajectory)
+{
+    std::filesystem::path made = file;
+    if (std::filesystem::exists(file))
+        made.replace_filename(fmt::format(".{}.{}", file.filename().string(), ::getpid()));
+    {
+        const std::unique_ptr<ResultWriter> writer = ResultWriter::create(made, header);
+        writer->add(row);
+        writer->add(trajectory);
+        writer->finish(nullptr);
+    }
+    if (made != file)
+        std::filesystem::rename(made, file);
+}
+
 } // namespace
 
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
@@ -65,6 +85,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
     const ChosenRealization chosen = choose_realization(reader, loaded.study(), results, choice);
     const std::uint64_t index = chosen.index;
+    if (!trajectory.empty())
+        check_output(results, trajectory, options.force);
 
     ResultHeader one = header;
     one.first = index;
@@ -77,12 +99,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.code_version = code_version();
     const FollowedRealization f = follow(loaded, index, options.isa());
     const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
-    if (!trajectory.empty()) { // made only now: an interrupted replay leaves no file
-        const std::unique_ptr<ResultWriter> writer = ResultWriter::create(trajectory, one);
-        writer->add(row);
-        writer->add(f.trajectory);
-        writer->finish(nullptr);
-    }
+    if (!trajectory.empty()) // made only now: an interrupted replay leaves no file
+        write_replay(trajectory, one, row, f.trajectory);
 
     const std::vector<std::string>& names = header.block_names;
     const std::vector<std::size_t> falls = fall_sequence(row.outcome.fall_time_s);

@@ -2,37 +2,60 @@
 
 #include "studies/report.hpp"
 
+#include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "studies/console.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/json.hpp"
+#include "studies/loaded_study.hpp"
 #include "studies/output_path.hpp"
 #include "studies/result_picture.hpp"
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace stylobate {
 
-int report_command(const CommonOptions& options, const std::string& file, std::string output)
+namespace {
+
+/// A page is HTML, whatever its name says; one that says something else is a slip.
+void check_ending(const std::string& output)
+{
+    const std::string ending = std::filesystem::path(output).extension().string();
+    if (!ending.empty() && ending != ".html" && ending != ".htm")
+        throw InputError(fmt::format("-o {}: a page is HTML, and nothing else is written.\n  Name it with .html; a "
+                                     "browser prints it to PDF.",
+                                     output));
+}
+
+} // namespace
+
+int report_command(const CommonOptions& options, const std::string& file, std::string output, const std::string& title)
 {
     check_kind(file, "report");
-    check_output(file, output);
     if (output.empty())
         output = beside(file, ".html").string();
+    check_output(file, output, options.force);
+    check_ending(output);
     std::string page;
     std::vector<std::string> warnings;
     const FileKind kind = recognise(file).kind;
+    if ((kind == FileKind::diagnosis || kind == FileKind::calibration) && !options.set.empty())
+        throw InputError(fmt::format("--set {}: {} holds a {}, which has no study to be set", options.set.front(), file,
+                                     kind == FileKind::diagnosis ? "diagnosis" : "calibration"));
     if (kind == FileKind::diagnosis) {
-        page = diagnosis_page(read_diagnosis(file), file).text();
+        page = diagnosis_page(read_diagnosis(file), file, title).text();
     } else if (kind == FileKind::calibration) {
-        page = calibration_page(read_calibration(file), file).text();
+        page = calibration_page(read_calibration(file), file, title).text();
     } else {
         const ResultReader reader(file);
         check_complete(reader, file);
+        check_settings(reader.header(), file, options.set);
         const AtomicFile writable(output); // refuses before the pictures are drawn
-        page = result_page(options, reader, file, warnings).text();
+        page = result_page(options, reader, file, title, warnings).text();
     }
     AtomicFile target(output);
     target.write(page);

@@ -69,10 +69,10 @@ std::string gain_text(const PairedGain& gain)
 
 class CalibrationPage {
 public:
-    CalibrationPage(const StoredCalibration& calibration, const std::string& file)
+    CalibrationPage(const StoredCalibration& calibration, const std::string& file, const std::string& title)
         : c_(calibration), best_(calibration.best()), unit_(c_.evidence == "outcomes" ? "runs" : "windows"),
           file_(file),
-          page_("Calibration: " + name_of(c_.measured),
+          page_(title.empty() ? "Calibration: " + name_of(c_.measured) : title,
                 fmt::format("With the {} of {}. Made by stylobate {}.", c_.evidence, c_.measured, c_.code_version))
     {
     }
@@ -293,9 +293,9 @@ private:
 
 } // namespace
 
-HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file)
+HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file, const std::string& title)
 {
-    return CalibrationPage(calibration, std::filesystem::path(file).filename().string()).page();
+    return CalibrationPage(calibration, std::filesystem::path(file).filename().string(), title).page();
 }
 
 } // namespace stylobate

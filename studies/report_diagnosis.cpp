@@ -50,9 +50,11 @@ std::string size_words(const Candidate& c)
 
 class DiagnosisPage {
 public:
-    DiagnosisPage(const Diagnosis& diagnosis, const std::string& file)
+    DiagnosisPage(const Diagnosis& diagnosis, const std::string& file, const std::string& title)
         : d_(diagnosis), file_(file),
-          page_("Diagnosis: " + (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen),
+          page_(!title.empty()
+                    ? title
+                    : "Diagnosis: " + (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen),
                 fmt::format("{}, {} of {} used. Made by stylobate {}.", diagnosis.measured_file, diagnosis.runs_used,
                             count_words(diagnosis.runs, "run", "runs"), diagnosis.code_version))
     {
@@ -81,7 +83,8 @@ private:
             if (figure.place == place) {
                 Html caption = Html::ready("<b>" + html_escaped(figure.title) + "</b> ");
                 caption += figure.caption;
-                page_.figure(figure_svg(figure), caption);
+                const bool curves = place == FigurePlace::wrong; // one below the other, with one time axis
+                page_.figure(curves ? figure_svg(figure, 190) : figure_svg(figure), caption);
             }
     }
 
@@ -89,7 +92,10 @@ private:
     {
         page_.section("Verdict");
         const char* tone = d_.verdict == Verdict::none ? "good" : d_.verdict == Verdict::named ? "warn" : "bad";
-        page_.box(tone, verdict_heading(d_), verdict_words(d_));
+        const std::string said = verdict_words(d_);
+        page_.box(tone, verdict_heading(d_), said);
+        if (said.find("nats") != std::string::npos)
+            page_.note(nats_words());
         std::vector<std::pair<std::string, Html>> facts;
         for (const Candidate* cause : named_causes(d_))
             facts.emplace_back("Cause", fmt::format("{} ({}), {}: {}; probability {}", cause->mechanism,
@@ -154,6 +160,7 @@ private:
             return;
         page_.section("Candidates");
         if (!d_.candidates.empty()) {
+            page_.paragraph(nats_words() + " " + chance_words());
             double most = 0;
             for (const Candidate& c : d_.candidates)
                 most = std::max({most, c.gain_nats.value_or(0), 1.3 * c.null95.value_or(0)});
@@ -174,11 +181,12 @@ private:
                                       cell(c.null95), c.p ? probability_words(c.p) : "–", decision});
             }
             page_.table(table);
-            page_.note("Gain: log likelihood over the calibrated baseline. By chance (the mark on the bar): the 95 % "
-                       "quantile of that gain in simulated campaigns without the mechanism; p: the probability of such "
-                       "a gain there. A gain little above that of chance names no cause (see Method). Causes without "
-                       "them were found by a test of base, sensors or rest, which has a threshold of its own (see The "
-                       "data). Probabilities are among the candidates that were judged.");
+            page_.note(
+                "Gain: log likelihood over the calibrated baseline. By chance (the mark on the bar): the 95 % "
+                "quantile of that gain in simulated campaigns without the mechanism. A gain little above that of "
+                "chance names no cause (see Method). Causes without "
+                "them were found by a test of base, sensors or rest, which has a threshold of its own (see The "
+                "data). Probabilities are among the candidates that were judged.");
             reasons();
             evidence();
         }
@@ -391,9 +399,9 @@ private:
 
 } // namespace
 
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file)
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::string& title)
 {
-    return DiagnosisPage(diagnosis, std::filesystem::path(file).filename().string()).page();
+    return DiagnosisPage(diagnosis, std::filesystem::path(file).filename().string(), title).page();
 }
 
 } // namespace stylobate

@@ -86,11 +86,11 @@ HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector
 class ResultPage {
 public:
     ResultPage(const CommonOptions& options, const ResultReader& reader, const std::string& file,
-               std::vector<std::string>& warnings)
+               const std::string& title, std::vector<std::string>& warnings)
         : options_(options), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
           study_(parse_study(header_.study_toml, file + " (its study)")), rows_(original_rows(reader, file)),
           counts_(header_.block_names.size(), cells_of_motion(study_)),
-          page_("Results: " + fs::path(file).stem().string(), subtitle(header_)),
+          page_(title.empty() ? "Results: " + title_of(reader, file) : title, subtitle(header_)),
           surface_(!header_.frequency_hz.empty())
     {
         if (const Tally* tally = reader.tally()) {
@@ -202,7 +202,8 @@ private:
     void studied()
     {
         page_.section("What was run");
-        const auto facts = study_facts(study_);
+        const bool replayed = header_.kind == "replay" && rows_.size() == 1;
+        const auto facts = study_facts(study_, replayed ? &rows_.front() : nullptr, header_.input_names);
         page_.facts({facts.begin(), facts.end()});
         page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
     }
@@ -324,7 +325,7 @@ private:
         const std::size_t shown = std::min(most, rows_.size());
         for (std::size_t i = 0; i < shown; ++i)
             picture(fmt::format("Realization {}: {}.", rows_[i].index, to_string(rows_[i].outcome.state)),
-                    [&](const fs::path& png) { strip_picture(options_, reader_, file_, rows_[i].index, png); });
+                    [&](const fs::path& png) { strip_picture(options_, reader_, file_, rows_[i].index, "", png); });
         if (shown < rows_.size())
             page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
                                    "strip --realization I.",
@@ -342,7 +343,7 @@ private:
         page_.section("Order of falls");
         if (falls.trials > 1)
             picture("The share of the realizations in which a block had fallen by then.",
-                    [&](const fs::path& png) { order_picture(reader_, file_, -1, png); });
+                    [&](const fs::path& png) { order_picture(reader_, file_, -1, "", png); });
         HtmlTable table{"lrrrrr",
                         {"block", "fell", "share", describe_interval(falls.interval), "median time [s]", "fell first"},
                         {},
@@ -482,9 +483,9 @@ private:
 } // namespace
 
 HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
-                     std::vector<std::string>& warnings)
+                     const std::string& title, std::vector<std::string>& warnings)
 {
-    return ResultPage(options, reader, file, warnings).page();
+    return ResultPage(options, reader, file, title, warnings).page();
 }
 
 } // namespace stylobate

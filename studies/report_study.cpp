@@ -28,13 +28,13 @@ std::string counted(std::size_t n, const char* noun)
     return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
-/// Number and sizes of the blocks of a role; empty without any.
-std::string blocks_text(const std::vector<PlacedBlock>& blocks, BlockRole role, const char* noun)
+/// Number and sizes of the blocks of a kind; empty without any.
+std::string blocks_text(const std::vector<PlacedBlock>& blocks, const char* noun)
 {
     std::vector<double> width, height, mass;
     std::size_t fixed = 0;
     for (const PlacedBlock& block : blocks)
-        if (block.role == role) {
+        if (block.name.starts_with(noun)) {
             width.push_back(block.width_m);
             height.push_back(block.height_m);
             mass.push_back(block.mass_kg);
@@ -50,8 +50,8 @@ std::string blocks_text(const std::vector<PlacedBlock>& blocks, BlockRole role, 
 std::string structure_text(const Study& study, const Layout& layout)
 {
     std::string text = counted(study.structure.columns.size(), "column");
-    for (const std::string& part : {blocks_text(layout.blocks, BlockRole::drum, "drum"),
-                                    blocks_text(layout.blocks, BlockRole::epistyle, "epistyle")})
+    for (const std::string& part : {blocks_text(layout.blocks, "drum"), blocks_text(layout.blocks, "capital"),
+                                    blocks_text(layout.blocks, "epistyle")})
         if (!part.empty())
             text += "; " + part;
     return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
@@ -105,11 +105,19 @@ const char* excitation_name(ExcitationKind kind)
     return "";
 }
 
-std::string excitation_text(const Study& study)
+/// @param one of all realizations; null: all of them
+std::string excitation_text(const Study& study, const ResultRow* one)
 {
     const ExcitationSpec& e = study.excitation;
     std::string text = excitation_name(e.kind);
-    if (const std::optional<FragilitySpec>& f = study.fragility) {
+    if (const std::optional<FragilitySpec>& f = study.fragility; f && one) {
+        const auto stripes = static_cast<std::uint64_t>(f->stripes());
+        text += fmt::format(": motion {} (counted from 0) of {}", one->cell / stripes, f->motions);
+        if (f->method == FragilityMethod::stripes)
+            text += fmt::format(", {} {:.4g}", measure_name(f->measure, f->period_s),
+                                f->intensity.value(static_cast<int>(one->cell % stripes)));
+        return text;
+    } else if (f) {
         text += fmt::format(": {} motions", f->motions);
         if (e.frequency_hz > 0)
             text += fmt::format(" about {:.4g} Hz", e.frequency_hz);
@@ -121,6 +129,11 @@ std::string excitation_text(const Study& study)
         text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
     if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)
         text += fmt::format(", {:.3g} cycles", e.cycles);
+    if (one) {
+        if (one->frequency_hz > 0)
+            text += fmt::format(", {:.4g} Hz", one->frequency_hz);
+        return e.kind == ExcitationKind::none ? text : text + fmt::format(", PGA {:.4g} m/s²", one->pga_m_s2);
+    }
     if (study.surface)
         text += "; frequency: " + axis_text(study.surface->frequency_hz, "Hz") +
                 "; PGA: " + axis_text(study.surface->pga_m_s2, "m/s²");
@@ -142,22 +155,28 @@ std::string excitation_text(const Study& study)
 
 } // namespace
 
-std::vector<std::pair<std::string, std::string>> study_facts(const Study& study)
+std::vector<std::pair<std::string, std::string>> study_facts(const Study& study, const ResultRow* one,
+                                                             const std::vector<std::string>& inputs)
 {
     const Layout layout = lay_out(study.structure);
     std::string perturbed;
     for (const Perturbation& p : study.perturbations)
         perturbed += (perturbed.empty() ? "" : ", ") + std::string(to_string(p.quantity));
     std::replace(perturbed.begin(), perturbed.end(), '_', ' ');
+    std::string drawn;
+    for (std::size_t i = 0; one && i < std::min(inputs.size(), one->inputs.size()); ++i)
+        drawn += fmt::format("{}{} {:.4g}", drawn.empty() ? "" : ", ", inputs[i], one->inputs[i]);
     std::string mechanisms;
     for (std::size_t i = 0; i < study.mechanisms.size(); ++i)
-        if (const Mechanism one = study.mechanisms[i].mechanism; i == 0 || study.mechanisms[i - 1].mechanism != one)
-            mechanisms += fmt::format("{}{} ({})", i == 0 ? "" : ", ", to_string(one), rule_of(one).says);
+        if (const Mechanism m = study.mechanisms[i].mechanism; i == 0 || study.mechanisms[i - 1].mechanism != m)
+            mechanisms += fmt::format("{}{} ({})", i == 0 ? "" : ", ", to_string(m), rule_of(m).says);
     return {{"Structure", structure_text(study, layout)},
             {"Contact", contact_text(study.contact)},
-            {"Excitation", excitation_text(study)},
+            {"Excitation", excitation_text(study, one)},
             {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
-            {"Drawn anew in each realization", perturbed.empty() ? "nothing" : perturbed},
+            one ? std::pair<std::string, std::string>{"Drawn in this realization", drawn.empty() ? "nothing" : drawn}
+                : std::pair<std::string, std::string>{"Drawn anew in each realization",
+                                                      perturbed.empty() ? "nothing" : perturbed},
             {"Collapse", collapse_criterion(study.outcome)},
             {"Followed", followed_until(study.outcome)}};
 }

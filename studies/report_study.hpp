@@ -2,6 +2,7 @@
 /// A study on the pages of `stylobate report`.
 
 #include "ensemble/study.hpp"
+#include "io/result_store.hpp"
 #include "studies/html.hpp"
 
 #include <string>
@@ -11,7 +12,11 @@
 namespace stylobate {
 
 /// What the study says in short: structure, contact, excitation, what is perturbed.
-std::vector<std::pair<std::string, std::string>> study_facts(const Study& study);
+/// @param one of all its realizations the one that a page is about, its frequency, PGA and draws instead of the study's
+///        axes and distributions; null: all of them
+/// @param inputs names of the row's inputs
+std::vector<std::pair<std::string, std::string>> study_facts(const Study& study, const ResultRow* one = nullptr,
+                                                             const std::vector<std::string>& inputs = {});
 
 /// The structure at rest, to scale (SVG); fixed blocks are darker.
 Html structure_svg(const Study& study);

@@ -1,6 +1,7 @@
 #include "studies/result_picture.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "ensemble/structure.hpp"
 #include "io/plot_order.hpp"
 #include "io/plot_strip.hpp"
 #include "io/study_file.hpp"
@@ -43,7 +44,7 @@ Followed trajectory_of(const CommonOptions& options, const ResultReader& reader,
 
 std::string strip_title(const ResultReader& reader, const std::string& results, std::uint64_t index)
 {
-    std::string title = fmt::format("{}, realization {}", fs::path(results).stem().string(), index);
+    std::string title = fmt::format("{}, realization {}", title_of(reader, results), index);
     if (reader.has(index)) {
         const ResultRow row = reader.row(index);
         if (row.frequency_hz > 0)
@@ -59,6 +60,12 @@ Study study_of(const ResultReader& reader, const std::string& results)
 }
 
 } // namespace
+
+std::string title_of(const ResultReader& reader, const std::string& results)
+{
+    const std::string title = study_of(reader, results).title;
+    return title.empty() ? fs::path(results).stem().string() : title;
+}
 
 void check_complete(const ResultReader& reader, const std::string& results)
 {
@@ -139,13 +146,14 @@ RareTable finished_rare(const ResultReader& reader, const std::string& results)
 }
 
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
-                   std::uint64_t index, const fs::path& png)
+                   std::uint64_t index, const std::string& title, const fs::path& file)
 {
     const Followed f = trajectory_of(options, reader, results, index);
-    plot_strip(f.trajectory, f.fall_time_s, strip_title(reader, results, index), png);
+    plot_strip(f.trajectory, f.fall_time_s, title.empty() ? strip_title(reader, results, index) : title, file);
 }
 
-void order_picture(const ResultReader& reader, const std::string& results, long long cell, const fs::path& png)
+void order_picture(const ResultReader& reader, const std::string& results, long long cell,
+                   const std::string& given_title, const fs::path& file)
 {
     const ResultHeader& header = reader.header();
     check_complete(reader, results);
@@ -155,7 +163,7 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
                         "when each block fell; which fell first is in counts.csv of 'export --to csv'",
                         results));
     std::vector<ResultRow> rows = original_rows(reader, results);
-    std::string title = "Falls: " + fs::path(results).stem().string();
+    std::string title = "Falls: " + title_of(reader, results);
     const std::size_t np = header.pga_m_s2.size();
     const std::size_t cells = header.frequency_hz.size() * np;
     if (cell >= 0) {
@@ -172,10 +180,13 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
     } else if (cells > 1) {
         title += ", all cells";
     }
+    const Study study = study_of(reader, results);
+    FallOrder falls = fall_order(header.block_names, rows, cells_of_motion(study));
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
     const std::string note =
         followed_to_rest(reader, results) ? "" : "each realization was followed until its first fall only";
-    const Study study = parse_study(header.study_toml, results + " (its study)");
-    plot_order(fall_order(header.block_names, rows, cells_of_motion(study)), title, note, png);
+    plot_order(falls, given_title.empty() ? title : given_title, note, file);
 }
 
 } // namespace stylobate

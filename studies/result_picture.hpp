@@ -12,6 +12,9 @@
 
 namespace stylobate {
 
+/// What pictures and pages of the results are called: the study's title, or else the file's name without its ending.
+std::string title_of(const ResultReader& reader, const std::string& results);
+
 /// @throws InputError if the run is not complete
 void check_complete(const ResultReader& reader, const std::string& results);
 
@@ -38,14 +41,16 @@ SensitivityTable finished_sensitivity(const ResultReader& reader, const std::str
 RareTable finished_rare(const ResultReader& reader, const std::string& results);
 
 /// One realization over time: from the file's trajectory, or else run again.
+/// @param title empty: by the results, the realization and what became of it
 /// @throws InputError if there is no such realization, and as `plot_strip` does
 void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
-                   std::uint64_t index, const std::filesystem::path& png);
+                   std::uint64_t index, const std::string& title, const std::filesystem::path& file);
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations
+/// @param title empty: by the results and the cell
 /// @throws InputError if there is no such cell, if the run is not complete, and as `plot_order` does
-void order_picture(const ResultReader& reader, const std::string& results, long long cell,
-                   const std::filesystem::path& png);
+void order_picture(const ResultReader& reader, const std::string& results, long long cell, const std::string& title,
+                   const std::filesystem::path& file);
 
 } // namespace stylobate

@@ -69,10 +69,25 @@ TEST_F(DiagnosisProgram, APitchingTableIsNamed)
     EXPECT_EQ(names(), (Words{"d.h5", "d_chance.txt", "d_extended.toml"}));
     EXPECT_NE(read_bytes(folder / "d_extended.toml").find("table_pitch"), std::string::npos);
 
+    // the page: the motion where the simulation is wrong, measured and simulated; and the gain of what is named, which
+    // was found without campaigns that say what chance gives
+    ASSERT_EQ(run({"report", "d.h5", "--quiet"}).status, 0);
+    const std::string page = read_bytes(folder / "d.html");
+    EXPECT_EQ(count_of(page, ">measured, ± 2 sd of the noise</text>"), 4u); // x and rotation in two runs
+    EXPECT_EQ(count_of(page, ">calibrated baseline, anew in each window</text>"), 4u);
+    EXPECT_GT(count_of(page, ">off by more than noise and a short lag make</text>"), 1u);
+    const std::size_t chart = page.find("aria-label=\"What each cause would explain");
+    ASSERT_NE(chart, std::string::npos);
+    const std::string svg = page.substr(chart, page.find("</svg>", chart) - chart);
+    EXPECT_NE(svg.find(">named as the cause</text>"), std::string::npos);
+    EXPECT_NE(svg.find(">table_pitch, base</text>"), std::string::npos);
+    fs::remove(folder / "d.html");
+
     // again: what chance gives is not simulated anew, and nothing else comes of it
     const std::string kept = read_bytes(folder / "d_chance.txt");
     EXPECT_EQ(count_of(kept, "\n"), 7u); // what it is of, and a line for each campaign
-    const JsonValue again = diagnosed(4);
+    expect_refused({"diagnose", campaign(4), "-o", "d.h5", "--quiet"}, {"d.h5", "exists already", "--force"});
+    const JsonValue again = diagnosed(4, {"--force"});
     EXPECT_EQ(read_bytes(folder / "d_chance.txt"), kept);
     EXPECT_LT(again["simulations"].number, d["simulations"].number);
     EXPECT_EQ(again["text"].text, d["text"].text);

@@ -147,6 +147,107 @@ TEST(HtmlFigure, OfNothingSaysSo)
     }
 }
 
+TEST(HtmlFigure, MarksSpansAndDrawsBandsAboutLines)
+{
+    Figure figure;
+    figure.series = {{"seen", SeriesKind::line, {0, 1, 2}, {0, 1, 0}, {-0.1, 0.9, -0.1}, {0.1, 1.1, 0.1}},
+                     {"model", SeriesKind::line, {0, 1, 2}, {0, 0.5, 0}, {}, {}},
+                     {"wrong", SeriesKind::spans, {0.5}, {1.5}, {}, {}}};
+    const std::string svg = figure_svg(figure, 100).markup;
+    EXPECT_EQ(count_of(svg, "<path"), 3U); // a band and two lines
+    double x = 0, y = 0, width = 0, height = 0;
+    const std::size_t at = svg.rfind("<rect", svg.find("fill-opacity=\"0.16\""));
+    ASSERT_EQ(std::sscanf(svg.c_str() + at, "<rect x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &y, &width,
+                          &height),
+              4);
+    EXPECT_NEAR(height, 100, 0.11); // the whole height
+    double left = 0, right = 0, unused = 0, also = 0, middle = 0;
+    const std::size_t line = svg.rfind("<path d=\"M");
+    ASSERT_EQ(std::sscanf(svg.c_str() + line, "<path d=\"M%lf %lfL%lf %lfL%lf", &left, &unused, &middle, &also, &right),
+              5);
+    EXPECT_NEAR(x, left + 0.25 * (right - left), 0.2);
+    EXPECT_NEAR(width, 0.5 * (right - left), 0.2);
+    EXPECT_LT(at, svg.find("<path")); // behind the curves
+}
+
+TEST(HtmlFigure, BarsStandSideBySideOnlyWhereTheyMeet)
+{
+    const auto middle = [](const std::string& svg) {
+        const std::size_t at = svg.rfind("<rect", svg.find("fill-opacity=\"0.8\""));
+        double x = 0, y = 0, width = 0;
+        EXPECT_EQ(std::sscanf(svg.c_str() + at, "<rect x=\"%lf\" y=\"%lf\" width=\"%lf\"", &x, &y, &width), 3);
+        return x + width / 2;
+    };
+    const auto tick = [](const std::string& svg) { // of the first name
+        const std::size_t at = svg.rfind("<text", svg.find(">a<"));
+        double x = 0;
+        EXPECT_EQ(std::sscanf(svg.c_str() + at, "<text x=\"%lf\"", &x), 1);
+        return x;
+    };
+    Figure figure;
+    figure.x_ticks = {"a", "b"};
+    figure.series = {{"one", SeriesKind::bars, {0}, {3}, {}, {}}, {"other", SeriesKind::bars, {1}, {2}, {}, {}}};
+    const std::string apart = figure_svg(figure).markup;
+    EXPECT_NEAR(middle(apart), tick(apart), 0.2);
+    figure.series[1].x = {0};
+    const std::string beside = figure_svg(figure).markup;
+    EXPECT_LT(middle(beside), tick(beside) - 5);
+}
+
+TEST(StudyFacts, OfAReplayAreOfItsRealization)
+{
+    Study study = parse_study(R"([study]
+kind = "surface"
+realizations = 8
+[structure]
+blocks = 7
+drum_width_m = 0.048
+drum_height_m = 0.029
+depth_m = 0.048
+drum_mass_kg = 0.1355
+capital = { width_m = 0.06, height_m = 0.02, mass_kg = 0.1 }
+[contact]
+normal_stiffness_n_m2 = 1e8
+friction = 0.68
+[excitation]
+kind = "harmonic"
+[surface]
+frequency_hz = { from = 0.5, to = 8, count = 5 }
+pga_m_s2 = { from = 1, to = 9, count = 3 }
+)",
+                              "a study");
+    const auto fact = [](const auto& facts, const std::string& name) {
+        for (const auto& [what, text] : facts)
+            if (what == name)
+                return text;
+        return std::string();
+    };
+    const auto all = study_facts(study);
+    EXPECT_NE(fact(all, "Excitation").find("5 from 0.5 to 8 Hz"), std::string::npos);
+    EXPECT_NE(fact(all, "Structure").find("7 drums: width"), std::string::npos);
+    EXPECT_NE(fact(all, "Structure").find("1 capital: width 0.06 m"), std::string::npos);
+    ResultRow row;
+    row.frequency_hz = 2.375;
+    row.pga_m_s2 = 5;
+    row.inputs = {0.71};
+    const auto one = study_facts(study, &row, {"friction"});
+    EXPECT_NE(fact(one, "Excitation").find("2.375 Hz, PGA 5 m/s²"), std::string::npos) << fact(one, "Excitation");
+    EXPECT_EQ(fact(one, "Excitation").find(" to "), std::string::npos);
+    EXPECT_EQ(fact(one, "Drawn in this realization"), "friction 0.71");
+    EXPECT_EQ(fact(one, "Drawn anew in each realization"), "");
+}
+
+TEST(DiagnosisPage, SaysWhatNatsAndSmallProbabilitiesMean)
+{
+    const std::string page = diagnosis_page(filled_diagnosis(), "diagnosis.h5").text();
+    const std::size_t nats = page.find("the unit of log likelihood"),
+                      p = page.find("p is the probability that chance alone");
+    const std::size_t table = page.find("gain [nats]");
+    EXPECT_LT(nats, table);
+    EXPECT_LT(p, table);
+    EXPECT_NE(page.find("rejected all the same"), std::string::npos);
+}
+
 TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
 {
     const std::string page = diagnosis_page(filled_diagnosis(), "folder/diagnosis.h5").text();

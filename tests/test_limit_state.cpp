@@ -231,7 +231,7 @@ TEST_F(Falls, PicturesOfLimitStatesAndOfTheOrder)
     }
     const std::vector<std::pair<Words, std::string>> pictures = {
         {{"--picture", "order"}, "a_order.png"},
-        {{"--cell", "3"}, "a_order.png"},
+        {{"--cell", "3"}, "a_order_cell_3.png"},
         {{"--limit", "rocked"}, "a_surface_rocked.png"},
         {{"--limit", "slid", "--picture", "slice"}, "a_slice_slid.png"},
         {{"--limit", "unseated"}, "a_surface_unseated.png"},

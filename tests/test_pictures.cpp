@@ -3,6 +3,7 @@
 #include "export_cases.hpp"
 #include "io/gnuplot.hpp"
 #include "io/plot_axis.hpp"
+#include "io/plot_maps.hpp"
 #include "io/plot_rare.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_strip.hpp"
@@ -86,9 +87,9 @@ TEST(Slice, NearestRowsOnTheAxisScale)
     // 2.9 is nearer to 4 on the logarithmic axis (midpoint 2.828), 2.8 to 2; two that meet in one row are one.
     EXPECT_EQ(slice_rows(surface, {2.9}), std::vector<std::size_t>{2});
     EXPECT_EQ(slice_rows(surface, {2.8}), std::vector<std::size_t>{1});
-    EXPECT_EQ(slice_rows(surface, {100, 0.1, 15}), (std::vector<std::size_t>{0, 4}));
+    EXPECT_EQ(slice_rows(surface, {16, 1, 15}), (std::vector<std::size_t>{0, 4}));
     EXPECT_EQ(slice_rows(surface, {}), (std::vector<std::size_t>{0, 2, 4}));
-    for (const double bad : {0.0, -1.0, nan_value})
+    for (const double bad : {0.0, -1.0, 0.9, 17.0, nan_value}) // none is drawn instead of another
         EXPECT_THROW(slice_rows(surface, {bad}), InputError);
     EXPECT_THROW(slice_rows(surface, std::vector<double>(7, 1.0)), InputError);
 }
@@ -203,6 +204,62 @@ TEST_F(Pictures, SliceShowsEachCurve)
     plot_slice(flat, {1}, "collapse", "", folder / "flat.png");
     const double frame = 0.87 * 0.725;
     EXPECT_NEAR(share(decode(folder / "flat.png"), 0xcce3f0, 4), frame * 11 / 12 * 0.5 / 1.03, 0.02);
+}
+
+TEST_F(Pictures, SliceShowsCurvesThatCoincide)
+{
+    NEEDS_GNUPLOT();
+    SurfaceTable surface = some_surface(3, 12);
+    for (std::size_t i = 12; i < 36; ++i) { // all rows as the first one
+        surface.probability[i] = surface.probability[i - 12];
+        surface.lower[i] = surface.lower[i - 12];
+        surface.upper[i] = surface.upper[i - 12];
+    }
+    plot_slice(surface, surface.frequency_hz, "collapse", "", folder / "same.png");
+    const Pixels pixels = decode(folder / "same.png");
+    // the curves, without the marks at the cells and the legend: in a column of pixels between two cells each colour is
+    // there
+    const double from = 0.1, to = 0.97, pga = 3.5; // midway between two values
+    const auto x = static_cast<std::size_t>(1800 * (from + (to - from) * (pga - 0.5) / 12));
+    for (const std::uint32_t colour : {0x0072b2U, 0xd55e00U, 0x009e73U}) {
+        std::size_t found = 0;
+        for (std::size_t y = 250; y < 1190; ++y)
+            found += similar(pixels.colour[y * pixels.width + x], colour, 12);
+        EXPECT_GE(found, 2U) << std::hex << colour;
+    }
+}
+
+TEST_F(Pictures, AsTheEndingSays)
+{
+    NEEDS_GNUPLOT();
+    plot_surface(some_surface(), "collapse", "A title", folder / "a.svg");
+    EXPECT_TRUE(read_file(folder / "a.svg").starts_with("<?xml"));
+    EXPECT_NE(read_file(folder / "a.svg").find("A title"), std::string::npos);
+    plot_surface(some_surface(), "collapse", "A title", folder / "a.pdf");
+    EXPECT_TRUE(read_file(folder / "a.pdf").starts_with("%PDF"));
+    plot_surface(some_surface(), "collapse", "A title", folder / "a.png");
+    EXPECT_TRUE(read_file(folder / "a.png").starts_with("\x89PNG"));
+}
+
+TEST_F(Pictures, TheEndOfAScaleThatMoreLiesBeyondIsMarked)
+{
+    NEEDS_GNUPLOT();
+    MapPicture picture;
+    picture.frequency_hz = {1, 2, 3};
+    picture.pga_m_s2 = {1, 2, 3};
+    MapPanel panel;
+    panel.high = 2;
+    panel.value = {0, 0.5, 1, 1, 1.5, 2, 1, 2, 2};
+    picture.panels = {panel};
+    picture.columns = 1;
+    plot_maps(picture, folder / "inside.svg");
+    EXPECT_EQ(read_file(folder / "inside.svg").find("≥"), std::string::npos);
+    picture.panels[0].value.back() = 7; // drawn in the same colour
+    plot_maps(picture, folder / "beyond.svg");
+    EXPECT_NE(read_file(folder / "beyond.svg").find("≥ 2"), std::string::npos);
+    picture.panels[0].low = 0.4;
+    plot_maps(picture, folder / "both.svg");
+    EXPECT_NE(read_file(folder / "both.svg").find("≤ 0.4"), std::string::npos);
 }
 
 TEST_F(Pictures, StripDrawsDrumsToScale)

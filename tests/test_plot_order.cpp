@@ -84,5 +84,56 @@ TEST_F(Order, OrderOfManyBlocksAndAtOnce)
     EXPECT_GT(decode(folder / "one.png").colours, 20U);
 }
 
+TEST_F(Order, OfManyBlocksIsADrawingInTheirPlaces)
+{
+    NEEDS_GNUPLOT();
+    // two columns of ten drums of 1 m by 1 m, 3 m apart; block i falls at 1 + i / 10 s, the last one never
+    FallOrder order;
+    order.trials = 10;
+    order.end_time_s = 4;
+    order.interval = "jeffreys 0.95";
+    for (std::size_t i = 0; i < 20; ++i) {
+        const double left = i < 10 ? 0 : 3, bottom = static_cast<double>(i % 10);
+        FallOrder::Block block{"drum " + std::to_string(i), 0, {}, 0, 1};
+        if (i < 19)
+            block.fall_time_s.assign(10, 1 + 0.1 * static_cast<double>(i));
+        order.blocks.push_back(block);
+        order.places.push_back({left, left + 1, bottom, bottom + 1});
+    }
+    order.blocks[0].first = 7;
+    order.blocks[3].first = 3;
+    plot_order(order, "many", "", folder / "drawn.png");
+    const Pixels pixels = decode(folder / "drawn.png");
+    EXPECT_EQ(pixels.width, 1800U);
+    EXPECT_EQ(pixels.height, 1350U);
+    // the drawing alone: above the curves, and left of the box of colours
+    const auto in_drawing = [&](std::uint32_t colour) {
+        Pixels part = pixels;
+        for (std::size_t k = 0; k < part.colour.size(); ++k)
+            if (k % part.width > 1570 || k / part.width > 676 || k / part.width < 185)
+                part.colour[k] = 0xffffff;
+        return extent(part, colour);
+    };
+    const Extent first = in_drawing(0x440154), last = in_drawing(0xb0dc2f), never = in_drawing(0xe8e8e8);
+    // one scale for both axes: the first drum is at the bottom of the left column, the last two at the top of the right
+    const double metre = first.right - first.left;
+    EXPECT_GT(metre, 40);
+    EXPECT_NEAR(first.bottom - first.top, metre, 2.5);
+    EXPECT_NEAR(last.left - first.left, 3 * metre, 2.5);
+    EXPECT_NEAR(first.bottom - last.bottom, 8 * metre, 8); // outlines take a pixel from each side of a metre
+    EXPECT_NEAR(last.top - never.top, metre, 2.5);
+    // SVG has its words: shares, who was first, the scale
+    plot_order(order, "many", "", folder / "drawn.svg");
+    const std::string svg = read_file(folder / "drawn.svg");
+    EXPECT_NE(svg.find("fell first: drum 0 70.0 %, drum 3 30.0 %"), std::string::npos);
+    EXPECT_NE(svg.find("median time of its fall"), std::string::npos);
+    EXPECT_NE(svg.find("19 of 20 blocks fell"), std::string::npos);
+    // few blocks have their table
+    order.blocks.resize(5);
+    order.places.resize(5);
+    plot_order(order, "few", "", folder / "few.svg");
+    EXPECT_NE(read_file(folder / "few.svg").find("drum 4"), std::string::npos);
+}
+
 } // namespace
 } // namespace stylobate

@@ -256,7 +256,7 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
             json_of(run({"replay", "a.h5", "--realization", std::to_string(index), "-o", file, "--json"}));
         EXPECT_EQ(json["trajectory"].text, file);
         // its picture is the strip, without being asked for by name; and it can be replayed itself
-        EXPECT_EQ(run({"export", file, "--to", "png", "-o", "strip.png"}).status, 0);
+        EXPECT_EQ(run({"export", file, "--to", "png", "-o", "strip.png", "--force"}).status, 0);
         EXPECT_EQ(run({"replay", file, "--realization", std::to_string(index)}).status, 0);
         const ResultReader reader(folder / file);
         ASSERT_TRUE(reader.complete());
@@ -388,8 +388,8 @@ TEST_F(Verbs, ExportDrawsPictures)
     // the strip has no trajectory in the file: the realization is run again
     const std::vector<std::pair<Words, std::string>> pictures = {
         {{}, "a_surface.png"},
-        {{"--picture", "slice", "--frequency", "2,8"}, "a_slice.png"},
-        {{"--realization", "3"}, "a_strip.png"},
+        {{"--picture", "slice", "--frequency", "4.4,8"}, "a_slice_4Hz_8Hz.png"},
+        {{"--realization", "3"}, "a_strip_realization_3.png"},
         {{"--picture", "surface", "-o", "other.png"}, "other.png"},
     };
     for (const auto& [more, name] : pictures) {
@@ -402,7 +402,8 @@ TEST_F(Verbs, ExportDrawsPictures)
         EXPECT_GE(width, 400u) << name;
         EXPECT_GE(height, 300u) << name;
     }
-    EXPECT_EQ(names(), (Words{"a.h5", "a_slice.png", "a_strip.png", "a_surface.png", "other.png"}));
+    EXPECT_EQ(names(),
+              (Words{"a.h5", "a_slice_4Hz_8Hz.png", "a_strip_realization_3.png", "a_surface.png", "other.png"}));
 }
 
 } // namespace

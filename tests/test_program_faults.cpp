@@ -137,7 +137,7 @@ TEST_F(Faults, WrongCommandLines)
     expect_refused({"replay", "out.h5", "--realization", "1.5"}, {"--realization", "1.5"});
     expect_refused({"replay", "out.h5", "--realization", "99999999999999999999"}, {"--realization"});
     expect_refused({"export", "out.h5"}, {"--to"});
-    expect_refused({"export", "out.h5", "--to", "pdf"}, {"pdf", "csv", "png"});
+    expect_refused({"export", "out.h5", "--to", "bmp"}, {"bmp", "csv", "png", "svg", "pdf"});
     expect_refused({"export", "out.h5", "--to", "png", "--picture", "cake"}, {"cake", "strip"});
     expect_refused({"export", "out.h5", "--to", "png", "--realization", "8"}, {"--realization 8", "0 to 7"});
     expect_refused({"export", "out.h5", "--to", "png", "--realization", "-3"}, {"--realization", "-3"});
@@ -156,7 +156,7 @@ TEST_F(Faults, OutputsThatCannotBeWritten)
                                                     {".", {"folder"}}})
         expect_refused(words_for(eight_realizations, {"-o", output}), parts);
     expect_refused({"replay", "out.h5", "--realization", "0", "-o", "nowhere/t.h5"}, {"nowhere", "no such folder"});
-    expect_refused({"replay", "out.h5", "--realization", "0", "-o", "out.h5"}, {"out.h5", "exists already"});
+    expect_refused({"replay", "out.h5", "--realization", "0", "-o", "out.h5"}, {"out.h5", "the file that is read"});
     expect_refused({"export", "out.h5", "--to", "png", "-o", "nowhere/a.png"}, {"nowhere/a.png"});
     expect_refused({"export", "out.h5", "--to", "png", "-o", "./out.h5"}, {"out.h5", "the file that is read"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "nowhere/a"}, {"nowhere/a"});

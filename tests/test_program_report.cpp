@@ -65,7 +65,11 @@ TEST_F(Report, OfASingleRealizationAndOfAReplay)
     expect_done({"replay", "surface.h5", "--realization", "7", "-o", "seven.h5", "--quiet"});
     expect_done({"report", "seven.h5", "--quiet"});
     html = page("seven.html");
-    expect_has(html, {"Kind of study: replay", "Realization 7 ", "Motion", "--realization 7 -o seven.h5"});
+    expect_has(html, {"Kind of study: replay", "Realization 7 ", "8 Hz, PGA 16 m/s²", "Drawn in this realization",
+                      "Motion", "--realization 7 -o seven.h5"});
+    // not the axes of the surface that it is from
+    const std::string facts = html.substr(html.find("What was run</h2>"), html.find("The structure at rest"));
+    EXPECT_EQ(facts.substr(0, facts.find("<figure>")).find("2 from"), std::string::npos) << facts;
 }
 
 TEST_F(Report, OfADiagnosis)
@@ -110,7 +114,10 @@ TEST_F(Report, RefusesBadInputAndWritesNothing)
     expect_refused({"report", "study.h5"}, {"study.h5", "is a study file"});
     expect_refused({"report", "empty.h5"}, {"empty.h5", "empty"});
     fs::create_directory(folder / "page.html");
+    expect_refused({"report", "diagnosis.h5", "--set", "contact.friction=1"},
+                   {"--set contact.friction=1", "diagnosis"});
     for (const char* file : {"one.h5", "diagnosis.h5"}) {
+        expect_refused({"report", file, "-o", "page.pdf"}, {"page.pdf", ".html"});
         expect_refused({"report", file, "-o", "page.html"}, {"page.html", "nothing was written"});
         expect_refused({"report", file, "-o", "no/page.html"}, {"no/page.html", "nothing was written"});
         expect_refused({"report", file, "-o", file}, {file, "the file that is read"});

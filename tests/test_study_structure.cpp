@@ -121,7 +121,13 @@ capital = { width_m = 1.75, height_m = 0.4 }
         EXPECT_NEAR(drums[i].width_m, width[i], 1e-15);
         EXPECT_EQ(drums[i].height_m, i < 5 ? 0.8 : 0.4);
         EXPECT_NEAR(drums[i].mass_kg, 2500 * width[i] * drums[i].height_m, 1e-9);
+        EXPECT_EQ(drums[i].capital, i == 5);
     }
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    EXPECT_EQ(blocks[4].name, "drum 4 of column 0");
+    EXPECT_EQ(blocks[5].name, "capital of column 0");
+    // the canonical text says which one is the capital
+    EXPECT_EQ(parse_study(study.text, "again").structure, study.structure);
 }
 
 TEST(StudyStructure, ColonnadeFlushWithItsOuterFaces)
@@ -222,7 +228,7 @@ epistyles = [ { first_column = 1, last_column = 2, length_m = 4.1, height_m = 0.
     EXPECT_EQ(s.columns[1].drums[0].mass_kg, 1500);
     EXPECT_EQ(s.columns[2].drums.size(), 2U);
     EXPECT_EQ(s.columns[2].drums[1].height_m, 2);
-    EXPECT_EQ(s.columns[3].drums[1], (DrumSpec{.width_m = 1.5, .height_m = 0.25, .mass_kg = 750}));
+    EXPECT_EQ(s.columns[3].drums[1], (DrumSpec{.width_m = 1.5, .height_m = 0.25, .mass_kg = 750, .capital = true}));
     ASSERT_EQ(s.epistyles.size(), 1U);
     EXPECT_EQ(s.epistyles[0].x_m, 1.5); // the middle of its bay
     EXPECT_EQ(s.epistyles[0].mass_kg, 2500 * (4.1 * 0.75 * 1));

@@ -1,5 +1,6 @@
 /// The canonical text of a study: it reads back to itself, and is equal for equal studies only.
 
+#include "ensemble/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>
@@ -171,6 +172,18 @@ void expect_other_texts(const Study& base, const std::vector<std::function<void(
     }
 }
 
+TEST(StudyText, HasTheTitleWhereThereIsOne)
+{
+    const Study plain = all_sorts()[1];
+    EXPECT_EQ(plain.text.find("title"), std::string::npos); // as before there were titles
+    const Study titled = read(surface + structure + perturbed, {"study.title=\"It's the \\\"south\\\" side: 5 %\""});
+    EXPECT_EQ(titled.title, "It's the \"south\" side: 5 %");
+    EXPECT_EQ(parse_study(titled.text, "again").title, titled.title);
+    EXPECT_EQ(parse_study(titled.text, "again").text, titled.text);
+    for (const std::string& bad : {std::string(201, 'x'), std::string("two\\nlines")})
+        EXPECT_THROW(read(surface + structure, {"study.title=\"" + bad + "\""}), InputError) << bad;
+}
+
 TEST(StudyText, DiffersWhereverAStudyDoes)
 {
     const auto sorts = all_sorts();
@@ -188,6 +201,7 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [](Study& s) { s.structure.kind = StructureKind::colonnade; },
         [](Study& s) { s.structure.columns[0].drums.push_back(s.structure.columns[0].drums[0]); },
         [](Study& s) { s.structure.columns[0].fixed_blocks = 0; },
+        [](Study& s) { s.structure.columns[0].drums[6].capital = true; },
         [&](Study& s) { up(s.structure.columns[0].drums[0].width_m); },
         [&](Study& s) { up(s.structure.columns[0].drums[6].height_m); },
         [](Study& s) { s.structure.columns[0].drums[2].offset_m = 0.001; },

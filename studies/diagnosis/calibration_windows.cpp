@@ -30,6 +30,25 @@ struct WindowComparison::Prepared {
     std::vector<WindowPlace> places;
     std::vector<std::vector<SeenValue>> values; ///< (windows)
     std::size_t blocks = 0;
+
+    /// The run as a variant is to follow it, through all of its windows.
+    FollowJob job_of(const Run& run, const ModelVariant& variant) const
+    {
+        FollowJob job;
+        job.realization = nominal_realization(variant.study, structure);
+        Realization& r = job.realization;
+        for (std::size_t i = 0; i < blocks; ++i)
+            if (std::isfinite(run.seen.standing_x_m[i]) && !r.blocks[i].fixed)
+                r.blocks[i].x_m += run.seen.standing_x_m[i];
+        r.motion = variant.base ? std::make_shared<Motion>(variant.base(*run.base)) : run.base;
+        if (variant.change)
+            variant.change(r, run.index);
+        job.targets = run.targets;
+        job.pull_rad_s = scales.pull_rad_s;
+        job.windows = run.windows;
+        return job;
+    }
+
     std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
 };
 
@@ -145,22 +164,9 @@ std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<Model
     std::vector<FollowJob> jobs;
     std::vector<std::vector<double>> rest_y; // (jobs x blocks)
     for (const ModelVariant& variant : variants) {
-        const Realization nominal = nominal_realization(variant.study, p.structure);
         for (const Prepared::Run& run : p.runs) {
-            FollowJob job;
-            job.realization = nominal;
-            Realization& r = job.realization;
-            for (std::size_t i = 0; i < p.blocks; ++i)
-                if (std::isfinite(run.seen.standing_x_m[i]) && !r.blocks[i].fixed)
-                    r.blocks[i].x_m += run.seen.standing_x_m[i];
-            r.motion = variant.base ? std::make_shared<Motion>(variant.base(*run.base)) : run.base;
-            if (variant.change)
-                variant.change(r, run.index);
-            job.targets = run.targets;
-            job.pull_rad_s = p.scales.pull_rad_s;
-            job.windows = run.windows;
-            rest_y.push_back(static_state(r).y_m);
-            jobs.push_back(std::move(job));
+            jobs.push_back(p.job_of(run, variant));
+            rest_y.push_back(static_state(jobs.back().realization).y_m);
         }
     }
     const FollowReport report = follow(jobs, options, observer);
@@ -183,6 +189,54 @@ std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<Model
         all.push_back(std::move(z));
     }
     return all;
+}
+
+std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, const std::vector<std::size_t>& windows,
+                                                  std::size_t block, const RunOptions& options, Observer& observer)
+{
+    Prepared& p = *prepared_;
+    const auto of = std::find_if(p.runs.begin(), p.runs.end(), [&](const Prepared::Run& run) {
+        return run.first <= windows.front() && windows.front() < run.first + run.windows->size();
+    });
+    const SeenRun& seen = of->seen;
+    std::vector<WindowCurve> curves;
+    auto dense = std::make_shared<std::vector<FreeWindow>>();
+    for (const std::size_t w : windows) {
+        const FreeWindow& window = (*of->windows)[w - of->first];
+        const double clock_s = p.places[w].start_s - window.start_s;
+        FreeWindow all{window.start_s, {}};
+        WindowCurve curve;
+        curve.noise_sd = seen.noise_sd;
+        for (std::size_t row = 0; row < seen.time_s.size(); ++row) {
+            if (!(seen.time_s[row] > window.start_s && seen.time_s[row] <= window.times_s.back()))
+                continue;
+            all.times_s.push_back(seen.time_s[row]);
+            curve.time_s.push_back(seen.time_s[row] + clock_s);
+            for (std::size_t c = 0; c < coordinate_count; ++c)
+                curve.seen[c].push_back(seen.seen[c][row * p.blocks + block]);
+        }
+        dense->push_back(std::move(all));
+        curves.push_back(std::move(curve));
+    }
+    FollowJob job = p.job_of(*of, variant);
+    job.windows = dense;
+    const double rest_y_m = static_state(job.realization).y_m[block];
+    const FollowReport report = follow({job}, options, observer);
+    p.simulations += 1;
+    p.window_simulations += report.windows;
+    p.block_steps += report.block_steps;
+    if (!report.complete)
+        return {};
+    for (std::size_t w = 0; w < curves.size(); ++w) {
+        const Readings& readings = report.results.front().windows[w];
+        for (std::size_t k = 0; k < curves[w].time_s.size(); ++k) {
+            const std::size_t i = k * p.blocks + block;
+            curves[w].model[0].push_back(readings.x_m[i]);
+            curves[w].model[1].push_back(readings.y_m[i] - rest_y_m);
+            curves[w].model[2].push_back(readings.theta_rad[i]);
+        }
+    }
+    return curves;
 }
 
 ResidualScales WindowComparison::fit_scales(const WindowResiduals& residuals,

@@ -7,6 +7,7 @@
 #include "ensemble/observer.hpp"
 #include "ensemble/study.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -45,6 +46,15 @@ struct WindowPlace {
 /// What a variant is off by: residuals over their scale s (`SeenValue`) of every window.
 using WindowResiduals = std::vector<std::vector<double>>;
 
+/// A block in a window, at every sample in which it was seen.
+struct WindowCurve {
+    std::vector<double> time_s; ///< the cameras' clock
+    /// By coordinate, as displacements from where it stood: measured, and as a variant predicts it from the window's
+    /// start. NaN: not seen, or no longer finite.
+    std::array<std::vector<double>, coordinate_count> seen, model;
+    std::array<double, coordinate_count> noise_sd{}; ///< of a sample
+};
+
 /// A campaign made ready to be predicted: base motions, smoothed histories, windows. Made once, used for many models.
 class WindowComparison {
 public:
@@ -64,6 +74,12 @@ public:
     /// @throws InputError if a variant cannot be built
     std::vector<WindowResiduals> residuals(const std::vector<ModelVariant>& variants, const RunOptions& options,
                                            Observer& observer);
+
+    /// The motion behind the residuals.
+    /// @param windows of one run, ascending   @param block of the realization
+    /// @return in their order; empty if the observer stopped it
+    std::vector<WindowCurve> curves(const ModelVariant& variant, const std::vector<std::size_t>& windows,
+                                    std::size_t block, const RunOptions& options, Observer& observer);
 
     /// Scales k fitted to a variant, of the runs in `runs` (of the campaign; empty: all).
     ResidualScales fit_scales(const WindowResiduals& residuals, const std::vector<std::size_t>& runs = {}) const;

@@ -186,10 +186,11 @@ struct DiagnosisCost {
 };
 
 enum class SeriesKind {
-    line,   ///< x, y
+    line,   ///< x, y; with low and high: a band about it
     points, ///< x, y; with low and high: error bars
     band,   ///< x, low, high; y is empty
-    bars    ///< x, y from 0; with low and high: error bars
+    bars,   ///< x, y from 0; with low and high: error bars
+    spans   ///< stretches of the axis from x to y, marked over the whole height
 };
 
 /// NaN in y, low or high leaves a gap.

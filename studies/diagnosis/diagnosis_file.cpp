@@ -19,7 +19,7 @@ namespace stylobate {
 namespace {
 
 constexpr char format_name[] = "stylobate-diagnosis";
-constexpr std::uint64_t format_version = 1;
+constexpr std::uint64_t format_version = 2; // 2: spans in figures
 constexpr char row_column[] = "row";
 constexpr char value_column[] = "value";
 
@@ -40,7 +40,7 @@ struct Words<Decision> {
 };
 template <>
 struct Words<SeriesKind> {
-    static constexpr const char* words[] = {"line", "points", "band", "bars"};
+    static constexpr const char* words[] = {"line", "points", "band", "bars", "spans"};
 };
 template <>
 struct Words<FigurePlace> {

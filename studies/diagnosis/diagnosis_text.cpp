@@ -131,6 +131,9 @@ std::string diagnosis_text(const Diagnosis& d)
     if (!d.candidates.empty())
         out +=
             heading("Candidates (gain in nats over the calibrated baseline; by chance: its 95 % quantile)") +
+            wrapped(nats_words() + " " + chance_words() +
+                        " prob. is the probability that it is the cause, given that one of those judged is.",
+                    2) +
             table_of(d.candidates, {"mechanism", "place", "size", "gain", "by chance", "p", "prob.", "decision"},
                      [](const Candidate& c) {
                          const auto blank = [](const std::string& words) { return words == "not known" ? "" : words; };

@@ -107,6 +107,22 @@ std::string wrong_words(const Diagnosis& diagnosis)
     return text;
 }
 
+std::string nats_words()
+{
+    return "A gain is told in nats, the unit of log likelihood: with 1 nat the cause makes the measured data 2.7 times "
+           "as "
+           "probable as the baseline does, with 3 nats 20 times, with 10 nats 22,000 times.";
+}
+
+std::string chance_words()
+{
+    return "p is the probability that chance alone gives a gain as large: the share of simulated campaigns with "
+           "nothing "
+           "hidden that reach it. Where p is below 0.001, chance is no explanation. Such a candidate may be rejected "
+           "all "
+           "the same: its gain is no chance, but the cause that is named explains the same data, and better.";
+}
+
 std::string verdict_heading(const Diagnosis& diagnosis)
 {
     switch (diagnosis.verdict) {

@@ -34,6 +34,10 @@ std::string wrong_words(const Diagnosis& diagnosis);
 
 /// "The simulation agrees with ...": a line.
 std::string verdict_heading(const Diagnosis& diagnosis);
+/// What a nat is, for who has not met one.
+std::string nats_words();
+/// What p says of a candidate, and why one with a small p may be rejected all the same.
+std::string chance_words();
 /// The verdict in one to three sentences: the pipeline's own, or else composed of what was found.
 std::string verdict_words(const Diagnosis& diagnosis);
 /// The gain on runs left out, in a sentence; empty where there is none.

@@ -7,6 +7,7 @@
 #include "studies/diagnosis/diagnosis_words.hpp"
 #include "studies/diagnosis/prediction.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
+#include "studies/diagnosis/wrong_windows.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -82,7 +84,7 @@ std::string size_text(const Candidate& c)
     return ", " + c.parameter + " = " + estimate_words(c.size, c.low, c.high, c.unit);
 }
 
-/// Gains of the candidates beside what chance gives.
+/// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
 Figure candidates_figure(const std::vector<Candidate>& candidates)
 {
     Figure figure;
@@ -90,22 +92,35 @@ Figure candidates_figure(const std::vector<Candidate>& candidates)
     figure.title = "What each cause would explain, and what chance would";
     figure.caption =
         "Gain in log likelihood over the baseline; the dot is what 95 % of simulated campaigns with nothing "
-        "hidden stay below (of fewer than 20 campaigns: half as much again as their largest, and 1).";
+        "hidden stay below (of fewer than 20 campaigns: half as much again as their largest, and 1). A cause without a "
+        "dot was found by a direct test of base, sensors or rest, which has a threshold of its own.";
     figure.x_label = "cause";
     figure.y_label = "gain [nats]";
-    FigureSeries gain{"gain", SeriesKind::bars, {}, {}, {}, {}},
-        chance{"chance, 95 %", SeriesKind::points, {}, {}, {}, {}};
-    for (const Candidate& c : candidates) {
-        if (figure.x_ticks.size() == 10 || !c.gain_nats || !c.null95)
+    FigureSeries named{"named as the cause", SeriesKind::bars, {}, {}, {}, {}},
+        gain{"not named", SeriesKind::bars, {}, {}, {}, {}}, chance{"chance, 95 %", SeriesKind::points, {}, {}, {}, {}};
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const Candidate& c : candidates) { // the named ones come first
+        if (figure.x_ticks.size() == 10 || !c.gain_nats)
             continue;
         const auto x = static_cast<double>(figure.x_ticks.size());
         figure.x_ticks.push_back(c.mechanism + ", " + c.place);
-        gain.x.push_back(x);
-        gain.y.push_back(*c.gain_nats);
-        chance.x.push_back(x);
-        chance.y.push_back(*c.null95);
+        FigureSeries& bars = c.decision == Decision::named ? named : gain;
+        bars.x.push_back(x);
+        bars.y.push_back(*c.gain_nats);
+        if (c.null95) {
+            chance.x.push_back(x);
+            chance.y.push_back(*c.null95);
+        }
+        for (const MaybeReal value : {c.gain_nats, c.null95})
+            if (value && *value > 0) {
+                least = std::min(least, *value);
+                most = std::max(most, *value);
+            }
     }
-    figure.series = {gain, chance};
+    figure.y_log = most > 100 * least; // beside the bar of a direct test others are not seen
+    for (FigureSeries& series : std::vector{std::move(named), std::move(gain), std::move(chance)})
+        if (!series.x.empty())
+            figure.series.push_back(std::move(series));
     return figure;
 }
 
@@ -423,7 +438,9 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         d.figures.push_back(candidates_figure(d.candidates));
 
     // where the baseline is wrong, and what the extension gains
-    d.wrong = wrong_stretches(measured, study, {}, most_wrong, options.run, count, observer);
+    WrongWindows wrong = wrong_windows(measured, study, most_wrong, options.run, count, observer);
+    d.wrong = std::move(wrong.stretches);
+    std::move(wrong.figures.begin(), wrong.figures.end(), std::back_inserter(d.figures));
     if (d.verdict == Verdict::named) {
         if (!windows.baselines.empty())
             d.gain =

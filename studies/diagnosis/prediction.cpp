@@ -144,67 +144,6 @@ std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named)
     return causes;
 }
 
-std::vector<WrongStretch> wrong_stretches(const Campaign& campaign, const Study& baseline,
-                                          const std::vector<SizedCause>& causes, std::size_t most,
-                                          const RunOptions& options, SimulationCount& count, Observer& observer)
-{
-    const SpecimenStructure built = build_specimen(campaign.specimen);
-    WindowComparison comparison(campaign, {});
-    std::vector<WrongStretch> wrong;
-    if (comparison.windows().empty())
-        return wrong;
-    const std::optional<WindowResiduals> residuals =
-        residuals_of(comparison, built, baseline, causes, options, count, observer);
-    if (!residuals)
-        return wrong;
-    std::map<int, int> block_of; // of the layout -> of the specimen
-    for (std::size_t b = 0; b < built.block.size(); ++b)
-        block_of[built.block[b]] = static_cast<int>(b);
-    constexpr double beyond = 2; // scales: noise and 20 ms of the local motion
-    std::map<std::tuple<std::size_t, int, int>, WrongStretch> open;
-    const auto close = [&](auto it) {
-        wrong.push_back(it->second);
-        return open.erase(it);
-    };
-    for (std::size_t w = 0; w < residuals->size(); ++w) {
-        const WindowPlace& place = comparison.windows()[w];
-        std::map<std::pair<int, int>, std::pair<double, int>> square;
-        for (std::size_t k = 0; k < (*residuals)[w].size(); ++k) {
-            const SeenValue& seen = comparison.seen(w)[k];
-            auto& [sum, n] = square[{block_of[static_cast<int>(seen.block)], static_cast<int>(seen.coordinate)}];
-            sum += std::min(std::pow((*residuals)[w][k], 2), 1e4);
-            ++n;
-        }
-        for (const auto& [what, sum] : square) {
-            const double excess = std::sqrt(sum.first / sum.second);
-            const auto key = std::tuple{place.run, what.first, what.second};
-            const auto it = open.find(key);
-            if (excess < beyond) {
-                if (it != open.end())
-                    close(it);
-                continue;
-            }
-            if (it != open.end() && place.start_s <= it->second.to_s + 1e-6) {
-                it->second.to_s = place.end_s;
-                it->second.excess = std::max(it->second.excess, excess);
-                continue;
-            }
-            if (it != open.end())
-                close(it);
-            static constexpr const char* names[] = {"x", "y", "theta"};
-            open[key] = {
-                campaign.runs[place.run].name, what.first, names[what.second], place.start_s, place.end_s, excess};
-        }
-    }
-    for (auto it = open.begin(); it != open.end();)
-        it = close(it);
-    std::sort(wrong.begin(), wrong.end(),
-              [](const WrongStretch& a, const WrongStretch& b) { return a.excess > b.excess; });
-    if (wrong.size() > most)
-        wrong.resize(most);
-    return wrong;
-}
-
 std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
                                          const std::vector<JudgedCause>& named, std::uint64_t seed,
                                          const RunOptions& options, SimulationCount& count, Observer& observer)

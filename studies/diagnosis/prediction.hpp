@@ -28,11 +28,6 @@ struct SimulationCount {
     std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
 };
 
-/// Where the baseline is off by more than noise and its own usual error: worst first, at most `most`.
-std::vector<WrongStretch> wrong_stretches(const Campaign& campaign, const Study& baseline,
-                                          const std::vector<SizedCause>& causes, std::size_t most,
-                                          const RunOptions& options, SimulationCount& count, Observer& observer);
-
 /// Every second motion is left out; the causes are sized by the others.
 /// @return nothing where there are fewer than two motions, or the observer stopped it
 std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,

@@ -261,7 +261,8 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
     }
     page.table(ranks);
     page.note(
-        "Information: log likelihood gained over the mean share, in nats a realization; behind the best: by how "
+        "Information: log likelihood gained over the mean share, in nats a realization (one nat more: 2.7 times as "
+        "probable); behind the best: by how "
         "much, 95 %, by the motions. A measure tells not all where what motions differ in besides still shifts the "
         "curve (5 %, all looked at together).");
 }

@@ -1,0 +1,28 @@
+#pragma once
+/// Where and how the baseline is off: the windows that it predicts worst, and the motion in them.
+
+#include "ensemble/campaign.hpp"
+#include "ensemble/executor.hpp"
+#include "ensemble/observer.hpp"
+#include "ensemble/study.hpp"
+#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/prediction.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace stylobate {
+
+struct WrongWindows {
+    std::vector<WrongStretch> stretches; ///< worst first
+    /// Measured and simulated x and rotation over each other, about the worst windows of the worst runs.
+    std::vector<Figure> figures;
+};
+
+/// Where the baseline is off by more than noise and a lag of some milliseconds make.
+/// @param most stretches; the rest is left out
+/// @return empty where no window can be simulated, or the observer stopped it
+WrongWindows wrong_windows(const Campaign& campaign, const Study& baseline, std::size_t most, const RunOptions& options,
+                           SimulationCount& count, Observer& observer);
+
+} // namespace stylobate
