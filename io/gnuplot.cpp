@@ -111,10 +111,11 @@ Terminal terminal_of(const fs::path& picture, PictureSize size)
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     constexpr char text[] = "font 'DejaVu Sans,24' noenhanced";
     const std::string pixels = fmt::format("size {},{} {}", size.width, size.height, text);
+    // Type and lines as large as in PNG, where a point of type is 4/3 of a pixel.
     if (ending == ".svg")
-        return {"set terminal svg " + pixels + " background '#ffffff' linewidth 2\n", "<?xml"};
+        return {"set terminal svg " + pixels + " background '#ffffff' linewidth 2 fontscale 1.3333\n", "<?xml"};
     if (ending == ".pdf") // a point for each pixel
-        return {fmt::format("set terminal pdfcairo size {}in,{}in {} background '#ffffff' linewidth 2\n",
+        return {fmt::format("set terminal pdfcairo size {}in,{}in {} background '#ffffff' linewidth 4 fontscale 1\n",
                             size.width / points_per_inch, size.height / points_per_inch, text),
                 "%PDF"};
     // Some builds of gnuplot lack cairo; their plain PNG is a little coarser.

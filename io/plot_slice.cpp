@@ -69,6 +69,7 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
         const double place = static_cast<double>(k) - static_cast<double>(rows.size() - 1) / 2;
         return pga.unscaled(pga.scaled(value) + place * step);
     };
+    const double thicker = std::min(1.6, 6.0 / std::max(1.0, static_cast<double>(rows.size() - 1)));
     std::string data;
     std::string bands;
     std::string curves;
@@ -97,7 +98,7 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
             fmt::format(", $slice{0} using 1:2 with lines linecolor rgb '{1}' linewidth {4:.1f} notitle"
                         ", $slice{0} using 5:2:3:4 with yerrorbars linecolor rgb '{1}' linewidth 0.9 pointtype {2} "
                         "pointsize 1.3 title '{3:.3g} Hz'",
-                        k, style.colour, style.point, surface.frequency_hz[rows[k]], 1.4 + 1.3 * wider);
+                        k, style.colour, style.point, surface.frequency_hz[rows[k]], 1.4 + thicker * wider);
     }
     const std::string script =
         data + gnuplot_heading(title, below_title) + pga.commands('x') +

@@ -224,7 +224,7 @@ TEST_F(Pictures, SliceShowsCurvesThatCoincide)
     for (const std::uint32_t colour : {0x0072b2U, 0xd55e00U, 0x009e73U}) {
         std::size_t found = 0;
         for (std::size_t y = 250; y < 1190; ++y)
-            found += similar(pixels.colour[y * pixels.width + x], colour, 12);
+            found += similar(pixels.colour[y * pixels.width + x], colour, 20);
         EXPECT_GE(found, 2U) << std::hex << colour;
     }
 }
