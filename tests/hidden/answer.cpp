@@ -45,9 +45,9 @@ std::string text_of(const Answer& answer)
 {
     std::string text =
         fmt::format("# what is hidden in campaign_{}.h5\nseed = {}\nlaw = {}\nspecimen = {}\nverdict = {}\nruns = {}\n"
-                    "collapses = {}\n",
+                    "collapses = {}\nfriction = {}\n",
                     answer.seed, answer.seed, toml_quoted(answer.law), toml_quoted(answer.specimen),
-                    toml_quoted(answer.verdict()), answer.runs, answer.collapses);
+                    toml_quoted(answer.verdict()), answer.runs, answer.collapses, toml_number(answer.friction));
     for (const AnswerEffect& effect : answer.effects)
         text += fmt::format("\n[[effect]]\nname = {}\nlisted = {}\nplace = {}\nparameter = {}\nsize = {}\n"
                             "size_comparable = {}\nsnr_noise = {}\nsnr_scatter = {}\ndetectable = {}\n",
@@ -71,6 +71,7 @@ Answer read_answer(const std::filesystem::path& file)
     answer.specimen = entry(root, "specimen", Type::string).text;
     answer.runs = static_cast<int>(entry(root, "runs", Type::integer).integer);
     answer.collapses = static_cast<int>(entry(root, "collapses", Type::integer).integer);
+    answer.friction = number(root, "friction");
     if (const TomlValue* effects = root.find("effect"))
         for (const TomlValue& one : effects->entries) {
             AnswerEffect effect;

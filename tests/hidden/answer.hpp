@@ -28,6 +28,7 @@ struct Answer {
     std::vector<AnswerEffect> effects; ///< none, one or two
     int runs = 0;
     int collapses = 0;
+    double friction = 0; ///< mean over the beds, without what effects change
 
     /// The right one: "none", "named" or "unexplained".
     std::string verdict() const;

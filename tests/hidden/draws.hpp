@@ -20,7 +20,8 @@ enum class Draw : std::uint64_t {
     cameras = 2006,   ///< noise; index = run
     table = 2007,     ///< noise and zero of the table's sensors; index = run
     trial = 2008,     ///< amplitudes; index = motion
-    scatter = 2009    ///< the scatter that an effect is compared with; index = run
+    scatter = 2009,   ///< the scatter that an effect is compared with; index = run
+    friction = 2010   ///< how far the friction is from the nominal one, where that is wished for
 };
 
 /// One sequence. Copies go on independently from where they are.

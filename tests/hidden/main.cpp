@@ -64,6 +64,8 @@ Answer answer_of(const VirtualCampaign& made)
     answer.law = made.model.law == Law::nonsmooth ? "nonsmooth" : "compliant";
     answer.specimen = made.planned.specimen.name;
     answer.runs = static_cast<int>(made.runs.size());
+    for (int j = 0; j < made.model.bed_count; ++j)
+        answer.friction += made.model.beds[static_cast<std::size_t>(j)].friction / made.model.bed_count;
     for (const TrueRun& run : made.runs)
         answer.collapses += run.history.collapsed ? 1 : 0;
     const std::vector<Detectability> seen = detectability_of(made);
@@ -149,6 +151,12 @@ int main(int argc, char** argv)
     make->add_option("--law", law, "healthy contact law, instead of the seed's")
         ->check(CLI::IsMember({"nonsmooth", "compliant"}));
 
+    std::pair<double, double> friction;
+    auto* slippery =
+        make->add_option("--friction", friction,
+                         "FROM TO: true friction over the nominal one of the file, uniform in the logarithm")
+            ->check(CLI::Range(0.1, 3.0));
+
     std::string answers, diagnoses, page;
     auto* judge_them = app.add_subcommand("score", "compares diagnoses with answers");
     judge_them->add_option("--answers", answers, "folder of SEED.toml")->required();
@@ -164,6 +172,11 @@ int main(int argc, char** argv)
                 wish.most_motions = 2;
             if (!law.empty())
                 wish.law = law == "nonsmooth" ? Law::nonsmooth : Law::compliant;
+            if (slippery->count() > 0 && friction.first > friction.second)
+                throw InputError("--friction", 0,
+                                 "the first number is above the second. Give FROM TO with FROM <= TO.");
+            if (slippery->count() > 0)
+                wish.friction = friction;
             for (const std::string& name : effects)
                 check_effect(name);
             for (const std::string& name : effects)

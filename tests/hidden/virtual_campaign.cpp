@@ -190,6 +190,11 @@ VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
     for (const std::string& name : wish.effects.value_or(std::vector<std::string>()))
         healthy = applies(name, healthy) ? healthy : Law::compliant;
     made.model = make_specimen(made.planned, healthy, Draws(seed, Draw::making), Draws(seed, Draw::law));
+    if (wish.friction) {
+        const double ratio = Draws(seed, Draw::friction).log_uniform(wish.friction->first, wish.friction->second);
+        for (Bed& bed : made.model.beds)
+            bed.friction *= ratio;
+    }
     made.of_command = plan.chance(0.3);
     const bool table_seen = plan.chance(0.25);
 

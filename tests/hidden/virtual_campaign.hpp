@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate::hidden {
@@ -18,6 +19,8 @@ struct Wish {
     std::optional<SpecimenKind> specimen;
     std::optional<std::vector<std::string>> effects; ///< names; empty: nothing hidden
     int most_motions = 6;                            ///< from 4; fewer make a short campaign, without repeats
+    /// True friction over the nominal one that the file gives: from, to; uniform in the logarithm. Not given: 1.
+    std::optional<std::pair<double, double>> friction;
 };
 
 /// One run as it truly was.
