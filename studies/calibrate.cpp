@@ -11,6 +11,7 @@
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/file_kind.hpp"
+#include "studies/fingerprint.hpp"
 #include "studies/json.hpp"
 #include "studies/output_path.hpp"
 #include "studies/version.hpp"
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <system_error>
 
 namespace stylobate {
@@ -48,14 +50,20 @@ class CalibrationConsole : public Observer {
 public:
     explicit CalibrationConsole(bool quiet) : console_(quiet), quiet_(quiet) {}
 
+    void stage(const std::string& what) { stage_ = what; }
+
     void progress(const Progress& p) override
     {
+        planned_ = p.total;
         if (quiet_ || p.done == 0 || (p.seconds < next_s_ && p.done < p.total))
             return;
         next_s_ = p.seconds + between_lines_s;
-        fmt::print(stderr, "{} of at most {} parameter sets, at most {} left\n", p.done, p.total,
-                   duration_text(static_cast<double>(p.total - p.done) / p.rate));
+        fmt::print(stderr, "{}: {} of at most {} parameter sets{}\n", stage_, p.done, p.total,
+                   p.rate > 0
+                       ? fmt::format(", at most {} left", duration_text(static_cast<double>(p.total - p.done) / p.rate))
+                       : "");
     }
+    std::uint64_t planned() const { return planned_; }
     void warn(const std::string& text) override { console_.warn(text); }
     bool stop_requested() override { return console_.stop_requested(); }
 
@@ -64,7 +72,21 @@ private:
     Console console_;
     const bool quiet_;
     double next_s_ = between_lines_s;
+    std::uint64_t planned_ = 0;
+    std::string stage_;
 };
+
+/// What the measured data are known by: the file, and the motions that a table names.
+std::string data_key(const std::filesystem::path& measured, const std::optional<OutcomeTable>& table)
+{
+    std::string key = fingerprint(measured);
+    std::set<std::string> files;
+    if (table)
+        for (const MeasuredOutcome& row : table->rows)
+            if (!row.motion_file.empty() && files.insert(row.motion_file).second)
+                key += " " + fingerprint(measured.parent_path() / row.motion_file);
+    return key;
+}
 
 /// The contact's keys without those that are held, and those of --fit, which replace them where they are the same.
 std::vector<FitKey> keys_of(const Study& study, const CalibrateOptions& wanted)
@@ -102,8 +124,8 @@ std::string calibrated_text(const Calibration& calibration, const std::string& m
         fmt::format("# Calibrated with {}, contact form {}, by stylobate {}.\n",
                     std::filesystem::path(measured).filename().string(), form_name(best.form), code_version());
     for (const FittedParameter& p : best.parameters)
-        text += fmt::format("# {} = {:.5g}, 95 % from {:.5g} to {:.5g}{}{}\n", p.key, p.value, p.low, p.high,
-                            p.note.empty() ? "" : ": ", p.note);
+        text += fmt::format("# {} = {:.5g}, {}{}{}\n", p.key, p.value, interval_words(p), p.note.empty() ? "" : ": ",
+                            p.note);
     return text + "\n" + best.study.text;
 }
 
@@ -118,6 +140,7 @@ Json parameter_json(const FittedParameter& p)
         .member("range_low", p.from)
         .member("range_high", p.to)
         .member("determined", p.determined)
+        .member("effective", p.effective)
         .member("bounded_below", p.bounded_below)
         .member("bounded_above", p.bounded_above)
         .member("note", p.note);
@@ -164,6 +187,7 @@ void print_json(const Calibration& c, const std::string& results, const std::str
         .member("forms", forms)
         .member("notes", notes)
         .member("parameter_sets", c.parameter_sets)
+        .member("restored_sets", c.restored_sets)
         .member("simulations", c.simulations)
         .member("window_simulations", c.window_simulations)
         .member("block_steps", c.block_steps)
@@ -175,11 +199,9 @@ void print_json(const Calibration& c, const std::string& results, const std::str
 
 void print_form(const FormCalibration& form, bool from_outcomes)
 {
-    fmt::print("contact form {}\n  {:<36} {:>11} {:>11}   95 % interval\n", form_name(form.form), "", "start",
-               "calibrated");
+    fmt::print("contact form {}\n  {:<36} {:>11} {:>11}\n", form_name(form.form), "", "start", "calibrated");
     for (const FittedParameter& p : form.parameters)
-        fmt::print("  {:<36} {:>11.4g} {:>11.4g}   {:.4g} to {:.4g}{}{}\n", p.key, p.start, p.value, p.low, p.high,
-                   p.note.empty() ? "" : "   ", p.note);
+        fmt::print("  {:<36} {:>11.4g} {:>11.4g}   {}\n      {}\n", p.key, p.start, p.value, interval_words(p), p.note);
     if (form.held_out.groups == 0)
         return;
     std::size_t units = 0;
@@ -201,8 +223,10 @@ void print_text(const Calibration& c, const std::string& results, const std::str
         fmt::print("best on motions left out: {}\n", form_name(c.forms[c.best].form));
     for (const std::string& note : c.notes)
         fmt::print("note: {}\n", note);
-    fmt::print("{}: {} parameter sets, {} runs and {} windows simulated in {}\n{}: the calibrated study\n", results,
-               c.parameter_sets, c.simulations, c.window_simulations, duration_text(c.seconds), study);
+    fmt::print("{}: {} parameter sets{}, {} runs and {} windows simulated in {}\n{}: the calibrated study\n", results,
+               c.parameter_sets,
+               c.restored_sets > 0 ? fmt::format(" ({} of them kept from before)", c.restored_sets) : "", c.simulations,
+               c.window_simulations, duration_text(c.seconds), study);
 }
 
 } // namespace
@@ -246,15 +270,18 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     check_output(measured, results, options.force);
     check_output(measured, calibrated, options.force);
     AtomicFile study_file(calibrated), results_file(results);
-    Calibration found;
-    {
-        CalibrationConsole console(options.quiet);
-        found =
-            table ? calibrate(*table, start, search, run, console) : calibrate(campaign, start, search, run, console);
-    }
+    search.kept = std::filesystem::path(results).replace_extension().string() + "_sets.bin";
+    search.kept_key = data_key(given, table);
+    CalibrationConsole console(options.quiet);
+    search.stage = [&](const std::string& what) { console.stage(what); };
+    const Calibration found =
+        table ? calibrate(*table, start, search, run, console) : calibrate(campaign, start, search, run, console);
     if (!found.complete) {
         if (!options.quiet)
-            fmt::print(stderr, "Interrupted: nothing was written.\n");
+            fmt::print(stderr,
+                       "Interrupted: {} of at most {} parameter sets are kept in {}. The same command goes on from "
+                       "there.\n",
+                       found.kept_sets, console.planned(), search.kept.string());
         return exit_interrupted;
     }
     const std::string text = calibrated_text(found, measured);

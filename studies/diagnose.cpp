@@ -3,7 +3,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/measured_file.hpp"
-#include "io/result_seal.hpp"
 #include "io/study_file.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
@@ -14,6 +13,7 @@
 #include "studies/diagnosis/pipeline.hpp"
 #include "studies/diagnosis/track.hpp"
 #include "studies/file_kind.hpp"
+#include "studies/fingerprint.hpp"
 #include "studies/output_path.hpp"
 
 #include <fmt/format.h>
@@ -21,36 +21,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace stylobate {
 
 namespace {
-
-/// "crc32 1a2b3c4d" of a file, or of a folder's files.
-std::string fingerprint(const std::filesystem::path& path)
-{
-    std::uint32_t sum = 0;
-    const auto add = [&](const std::filesystem::path& file) {
-        std::ifstream in(file, std::ios::binary);
-        const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-        sum = crc32_of(std::as_bytes(std::span(content)), sum);
-    };
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
-        std::vector<std::filesystem::path> files;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(path, error))
-            if (entry.is_regular_file(error))
-                files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
-        for (const auto& file : files)
-            add(file);
-    } else {
-        add(path);
-    }
-    return fmt::format("crc32 {:08x}", sum);
-}
 
 /// As a shell takes it for one word.
 std::string shell_word(const std::string& word)

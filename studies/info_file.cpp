@@ -152,8 +152,9 @@ void tell_calibration(const std::string& file, Told& told)
                             .member("low", p.low)
                             .member("high", p.high)
                             .member("determined", p.determined)
+                            .member("effective", p.effective)
                             .member("note", p.note));
-        told.text += fmt::format("  {:<36} {:>11.4g}   95 % from {:.4g} to {:.4g}{}{}\n", p.key, p.value, p.low, p.high,
+        told.text += fmt::format("  {:<36} {:>11.4g}   {}{}{}\n", p.key, p.value, interval_words(p),
                                  p.note.empty() ? "" : "   ", p.note);
     }
     told.json.member("holds", "calibration")

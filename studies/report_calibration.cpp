@@ -36,7 +36,7 @@ std::string name_of(const std::string& measured)
 
 std::string interval(const FittedParameter& p)
 {
-    return fmt::format("{:.4g} to {:.4g}", p.low, p.high);
+    return p.determined || p.effective ? fmt::format("{:.4g} to {:.4g}", p.low, p.high) : "–";
 }
 
 Html tag(const char* tone, const char* text)
@@ -138,7 +138,9 @@ private:
         for (const FittedParameter& p : best_.parameters)
             table.rows.push_back({code(p.key), number(p.start), number(p.value), interval(p),
                                   fmt::format("{:.4g} to {:.4g}", p.from, p.to),
-                                  p.determined ? tag("good", "determined") : tag("warn", "not determined")});
+                                  p.determined  ? tag("good", "determined")
+                                  : p.effective ? tag("warn", "effective")
+                                                : tag("warn", "not determined")});
         page_.table(table);
         std::vector<std::string> pairs;
         const std::size_t n = best_.parameters.size();
@@ -164,8 +166,10 @@ private:
             if (!p.determined)
                 table.rows.push_back({code(p.key), interval(p), p.note.empty() ? "–" : p.note});
         page_.table(table);
-        page_.note("The value of such a parameter is no measurement: an interval that reaches an end of the searched "
-                   "range may go on beyond it.");
+        page_.note(
+            "The value of such a parameter is no measurement. An effective one belongs to this model with its "
+            "contact form: its interval is that of the model's value, and an interval that reaches an end of the "
+            "searched range may go on beyond it. One without an interval keeps the value of the study.");
     }
 
     void profiles()

@@ -20,6 +20,7 @@ inline FittedParameter sample_parameter(const std::string& key, double value, bo
     p.from = 0.2 * value;
     p.to = 5 * value;
     p.determined = determined;
+    p.effective = !determined;
     p.note = determined ? "" : "not determined by these data: nothing slides <here> & there";
     for (int i = -3; i <= 3; ++i)
         p.profile.push_back({value * std::pow(1.5, i), determined ? -2.0 * i * i : -0.01 * i * i});

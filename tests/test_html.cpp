@@ -384,6 +384,7 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
                              "+75.0 (+20.5 to +129.5)",
                              "nothing slides &lt;here&gt; &amp; there",
                              "1.2e+07",
+                             ">effective</span>",
                              "9.6e+06 to 1.5e+07",
                              "2.4e+06 to 6e+07",
                              "(-0.70)",

@@ -3,9 +3,13 @@
 #include "ensemble/input_error.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/study_file.hpp"
+#include "io/study_names.hpp"
 #include "io/toml_document.hpp"
 #include "studies/diagnosis/calibration_evidence.hpp"
 #include "studies/diagnosis/calibration_search.hpp"
+#include "studies/diagnosis/friction_judgement.hpp"
+#include "studies/diagnosis/kept_evidence.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* friction_key = "contact.friction";
 constexpr double friction_method_deviation = 0.01;
 
 constexpr const char* name = "the study to be calibrated";
@@ -64,12 +69,26 @@ void refuse_vertical_record(const Study& study)
 }
 
 /// Progress of the whole calibration, from that of its parts.
-class Counting : public Observer {
+class Counting : public Observer, public SearchProgress {
 public:
-    Counting(Observer& outer, std::size_t total) : outer_(outer) { progress_.total = total; }
-    void advance(std::size_t done)
+    Counting(Observer& outer, std::size_t total, const CalibrationOptions& options, const CalibrationEvidence& evidence)
+        : outer_(outer), options_(options), evidence_(evidence)
     {
-        progress_.done = std::min(progress_.done + done, progress_.total);
+        progress_.total = total;
+    }
+    void stage(const std::string& what) override
+    {
+        if (options_.stage)
+            options_.stage(what);
+    }
+    void advance(std::size_t done) override
+    {
+        progress_.done = std::min<std::uint64_t>(progress_.done + done, progress_.total);
+        tell();
+    }
+    void spare(std::size_t sets) override
+    {
+        progress_.total = std::max<std::uint64_t>(progress_.total - sets, progress_.done);
         tell();
     }
     void progress(const Progress&) override { tell(); }
@@ -79,15 +98,27 @@ private:
     void tell()
     {
         progress_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-        progress_.rate = static_cast<double>(progress_.done) / std::max(progress_.seconds, 1e-9);
+        // what was kept took no time
+        const auto simulated =
+            static_cast<double>(progress_.done - std::min<std::uint64_t>(evidence_.restored(), progress_.done));
+        progress_.rate = simulated / std::max(progress_.seconds, 1e-9);
         outer_.progress(progress_);
     }
     Observer& outer_;
+    const CalibrationOptions& options_;
+    const CalibrationEvidence& evidence_;
     Progress progress_;
     const Clock::time_point start_ = Clock::now();
 };
 
 } // namespace
+
+std::string interval_words(const FittedParameter& p)
+{
+    if (!p.determined && !p.effective)
+        return "no interval";
+    return fmt::format("95 % {}from {:.4g} to {:.4g}", p.effective ? "of the model's value " : "", p.low, p.high);
+}
 
 double number_in(const Study& study, const std::string& key)
 {
@@ -128,8 +159,7 @@ std::vector<FitKey> contact_keys(const Study& study)
     };
     damping("normal_damping_ratio", "normal_damping_n_s_m", c.normal_damping_n_s_m);
     damping("tangential_damping_ratio", "tangential_damping_n_s_m", c.tangential_damping_n_s_m);
-    keys.push_back(
-        {"contact.friction", c.friction / 3, std::min(c.friction * 1.6, 2.0), true, friction_method_deviation});
+    keys.push_back({friction_key, c.friction / 3, std::min(c.friction * 1.6, 2.0), true, friction_method_deviation});
     return keys;
 }
 
@@ -165,8 +195,9 @@ FitKey fit_key(const Study& study, const std::string& text)
         key.to = colon == std::string::npos ? number("") : number(text.substr(colon + 1));
     }
     key.logarithmic = key.from > 0 && key.to / key.from > 3;
-    if (key.key == "contact.friction")
+    if (key.key == friction_key)
         key.method_deviation = friction_method_deviation;
+    key.asked = true;
     check(study, key);
     return key;
 }
@@ -190,31 +221,111 @@ Study default_study(const Campaign& campaign)
 
 namespace {
 
+/// What a calibration begins from.
+struct Begin {
+    Study nominal;                       ///< the study as it was given, of the measured structure
+    Study base;                          ///< with what is held at another value
+    std::vector<FitKey> keys;            ///< that are searched
+    std::vector<FittedParameter> judged; ///< that are not
+    Clock::time_point time = Clock::now();
+};
+
+/// The friction as the balance of forces judges it, in the place of a search (`friction_judgement.hpp`).
+void take_friction(const Campaign& campaign, Begin& begin)
+{
+    const auto key = std::find_if(begin.keys.begin(), begin.keys.end(),
+                                  [](const FitKey& k) { return k.key == friction_key && !k.asked; });
+    if (key == begin.keys.end())
+        return;
+    const FrictionJudgement judged = judge_friction(campaign);
+    FittedParameter p;
+    p.key = key->key;
+    p.start = p.value = number_in(begin.nominal, key->key);
+    p.low = p.from = key->from;
+    p.high = p.to = key->to;
+    p.determined = p.bounded_below = p.bounded_above = judged.determined;
+    p.note = judged.note;
+    if (judged.determined) {
+        p.value = judged.value;
+        p.low = judged.low;
+        p.high = judged.high;
+        p.from = std::min(p.from, p.low);
+        p.to = std::max(p.to, p.high);
+        begin.base = with_values(begin.base, {key->key}, {p.value});
+    } else {
+        p.note = "not determined by these data, held at the study's: " + judged.note;
+    }
+    begin.judged.push_back(p);
+    begin.keys.erase(key);
+}
+
+/// What was found by the search is a value of the model.
+void mark_effective(FormCalibration& form)
+{
+    for (FittedParameter& p : form.parameters) {
+        p.effective = true;
+        if (!p.determined)
+            continue;
+        p.determined = false;
+        p.note =
+            fmt::format("effective: of this model with the contact form {}, not of the specimen; its interval does "
+                        "not hold for another contact law",
+                        contact_form_names[static_cast<std::size_t>(form.form)].word);
+    }
+}
+
+/// Parameters that were not searched, behind those that were; they correlate with nothing.
+void append_judged(FormCalibration& form, const std::vector<FittedParameter>& judged)
+{
+    const std::size_t before = form.parameters.size(), n = before + judged.size();
+    std::vector<double> correlation(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < n; ++k)
+            correlation[i * n + k] = i < before && k < before ? form.correlation[i * before + k] : i == k;
+    form.correlation = std::move(correlation);
+    form.parameters.insert(form.parameters.end(), judged.begin(), judged.end());
+}
+
+/// What the other contact forms say of the same parameter.
+void compare_forms(std::vector<FormCalibration>& forms)
+{
+    for (FormCalibration& form : forms)
+        for (std::size_t i = 0; i < form.parameters.size(); ++i) {
+            if (!form.parameters[i].effective)
+                continue;
+            for (const FormCalibration& other : forms)
+                if (&other != &form)
+                    form.parameters[i].note += fmt::format(
+                        "; form {} has {:.4g}", contact_form_names[static_cast<std::size_t>(other.form)].word,
+                        other.parameters[i].value);
+        }
+}
+
 /// Searches with each contact form, by one evidence.
-/// @param base what the search begins from
 /// @param all what the runs of the evidence are
-/// @param begin when the calibration did
-void search_forms(Calibration& result, const Study& base, std::vector<FitKey> keys, const CalibrationOptions& options,
-                  CalibrationEvidence& evidence, const std::vector<CalibrationRun>& all, const RunOptions& run,
-                  Observer& observer, Clock::time_point begin)
+void search_forms(Calibration& result, Begin begin, const CalibrationOptions& options, CalibrationEvidence& evidence,
+                  const std::vector<CalibrationRun>& all, const RunOptions& run, Observer& observer)
 {
     if (result.from_outcomes)
-        for (FitKey& key : keys)
+        for (FitKey& key : begin.keys)
             key.method_deviation = 0; // nothing is followed
     const std::vector<ContactForm> forms =
-        options.forms.empty() ? std::vector<ContactForm>{base.contact.form} : options.forms;
+        options.forms.empty() ? std::vector<ContactForm>{begin.base.contact.form} : options.forms;
     std::size_t folds = 0;
     const std::vector<std::size_t> fold = folds_of(all, evidence.runs(), folds);
     if (folds < 2)
         result.notes.emplace_back("all runs are of one motion: no motion can be left out and predicted by the others");
 
-    Counting counting(observer, forms.size() * CalibrationSearch::planned(keys.size(), options, folds));
+    Counting counting(observer, forms.size() * CalibrationSearch::planned(begin.keys.size(), options, folds), options,
+                      evidence);
+    const auto of_form = [](Study study, ContactForm form) {
+        study.contact.form = form;
+        study.text = study_text(study);
+        return study;
+    };
     for (const ContactForm form : forms) {
-        Study with_form = base;
-        with_form.contact.form = form;
-        with_form.text = study_text(with_form);
-        CalibrationSearch search(with_form, keys, options, evidence, run, counting,
-                                 [&](std::size_t done) { counting.advance(done); });
+        CalibrationSearch search(of_form(begin.nominal, form), of_form(begin.base, form), begin.keys, options, evidence,
+                                 run, counting, counting);
         std::optional<FormCalibration> found = search.run(fold, folds);
         if (!found)
             return;
@@ -223,8 +334,11 @@ void search_forms(Calibration& result, const Study& base, std::vector<FitKey> ke
             found->runs[r].run = measured.name;
             found->runs[r].motion_id = measured.motion_id;
         }
+        mark_effective(*found);
+        append_judged(*found, begin.judged);
         result.forms.push_back(std::move(*found));
     }
+    compare_forms(result.forms);
     const auto merit = [&](const FormCalibration& f) {
         double sum = 0; // on runs left out where there are such
         for (const RunScore& r : f.runs)
@@ -234,12 +348,36 @@ void search_forms(Calibration& result, const Study& base, std::vector<FitKey> ke
     for (std::size_t f = 1; f < result.forms.size(); ++f)
         if (merit(result.forms[f]) > merit(result.forms[result.best]))
             result.best = f;
+    const EvidenceCost cost = evidence.cost();
     result.parameter_sets = evidence.candidates();
-    result.simulations = evidence.simulations();
-    result.window_simulations = evidence.window_simulations();
-    result.block_steps = evidence.block_steps();
-    result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    result.restored_sets = evidence.restored();
+    result.simulations = cost.simulations;
+    result.window_simulations = cost.window_simulations;
+    result.block_steps = cost.block_steps;
+    result.seconds = std::chrono::duration<double>(Clock::now() - begin.time).count();
     result.complete = true;
+}
+
+/// The same with what is predicted kept in a file, where one is named.
+void search_and_keep(Calibration& result, Begin begin, const CalibrationOptions& options,
+                     std::unique_ptr<CalibrationEvidence> evidence, const std::vector<CalibrationRun>& all,
+                     const RunOptions& run, Observer& observer)
+{
+    if (options.kept.empty()) {
+        search_forms(result, std::move(begin), options, *evidence, all, run, observer);
+        return;
+    }
+    std::string runs;
+    for (const std::size_t r : options.runs)
+        runs += fmt::format(" {}", r);
+    KeptEvidence kept(std::move(evidence), options.kept,
+                      fmt::format("{} {} {} windows {} ensemble {} runs{}", code_version(), options.kept_key,
+                                  result.from_outcomes ? "outcomes" : "histories", options.window_s, options.ensemble,
+                                  runs));
+    search_forms(result, std::move(begin), options, kept, all, run, observer);
+    result.kept_sets = kept.kept();
+    if (result.complete)
+        kept.remove();
 }
 
 /// The keys to be fitted, all of them ones that the study can have.
@@ -258,14 +396,15 @@ std::vector<FitKey> checked_keys(const Study& base, const CalibrationOptions& op
 Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
                       const RunOptions& run, Observer& observer)
 {
-    const Clock::time_point begin = Clock::now();
+    Begin begin;
     Calibration result;
     result.measured = campaign.source;
     refuse_vertical_record(start);
-    Study base = start;
-    base.structure = structure_of(campaign.specimen);
-    base.text = study_text(base);
-    const std::vector<FitKey> keys = checked_keys(base, options);
+    begin.nominal = start;
+    begin.nominal.structure = structure_of(campaign.specimen);
+    begin.nominal.text = study_text(begin.nominal);
+    begin.base = begin.nominal;
+    begin.keys = checked_keys(begin.base, options);
 
     std::unique_ptr<CalibrationEvidence> evidence;
     if (!options.outcomes)
@@ -289,24 +428,27 @@ Calibration calibrate(const Campaign& campaign, const Study& start, const Calibr
     std::vector<CalibrationRun> all;
     for (const MeasuredRun& measured : campaign.runs)
         all.push_back({measured.name, measured.motion_id});
-    search_forms(result, base, keys, options, *evidence, all, run, observer, begin);
+    if (!result.from_outcomes)
+        take_friction(campaign, begin);
+    search_and_keep(result, std::move(begin), options, std::move(evidence), all, run, observer);
     return result;
 }
 
 Calibration calibrate(const OutcomeTable& table, const Study& start, const CalibrationOptions& options,
                       const RunOptions& run, Observer& observer)
 {
-    const Clock::time_point begin = Clock::now();
+    Begin begin;
     Calibration result;
     result.measured = table.source;
     result.from_outcomes = true;
     for (const Finding& finding : table.findings)
         result.notes.push_back(finding.place + ": " + finding.text);
     refuse_vertical_record(start);
-    Study base = start;
-    base.text = study_text(base);
-    const std::vector<FitKey> keys = checked_keys(base, options);
-    const std::unique_ptr<CalibrationEvidence> evidence =
+    begin.nominal = start;
+    begin.nominal.text = study_text(begin.nominal);
+    begin.base = begin.nominal;
+    begin.keys = checked_keys(begin.base, options);
+    std::unique_ptr<CalibrationEvidence> evidence =
         outcome_evidence(outcome_tests(table, start),
                          start.perturbations.empty() ? tolerances(Specimen{}) : start.perturbations, options.ensemble);
     if (!evidence)
@@ -323,7 +465,7 @@ Calibration calibrate(const OutcomeTable& table, const Study& start, const Calib
         result.notes.push_back(fmt::format("all tests ended alike (all {}): they can bound a parameter to one side "
                                            "alone",
                                            fell == 0 ? "stood" : "fell"));
-    search_forms(result, base, keys, options, *evidence, all, run, observer, begin);
+    search_and_keep(result, std::move(begin), options, std::move(evidence), all, run, observer);
     return result;
 }
 

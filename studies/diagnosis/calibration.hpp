@@ -2,6 +2,12 @@
 /// Contact parameters, and any other number of a study file, from measured response: how likely they make what was
 /// measured, how well they are known, and what was not determined.
 ///
+/// Determined are values of the specimen, with intervals that hold whatever its contact law is: the friction, where
+/// `judge_friction` says so; it is then held at that value, otherwise at the study's. What is found by the search are
+/// values of this model with its contact law, which predict best: they are effective, and determine nothing of the
+/// specimen, however narrow their intervals are. Stiffness and damping of a contact law that the specimen does not have
+/// cannot be anything else.
+///
 /// Evidence is either histories, scored window by window (`calibration_windows.hpp`), or outcomes (fell or stood),
 /// scored by the share of falls in small ensembles. The search is a scan over the whole range (friction is a cliff:
 /// below some value all slides, above another nothing does, and between them there is no slope to follow), then points
@@ -16,6 +22,8 @@
 #include "studies/diagnosis/calibration_windows.hpp"
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +39,7 @@ struct FitKey {
     /// value, 1 sigma; of friction .01. Measured on 20 simulated campaigns of known parameters: friction came out .6 %
     /// too low in the median, K_N 5 %, in one of ten 20 %.
     double method_deviation = 0.1;
+    bool asked = false; ///< by the user: the friction is then searched for too, as an effective value
 };
 
 struct CalibrationOptions {
@@ -38,13 +47,17 @@ struct CalibrationOptions {
     std::vector<ContactForm> forms; ///< empty: the study's
     std::vector<std::size_t> runs;  ///< of the campaign; empty: all
     bool outcomes = false;          ///< use outcomes even where there are histories
-    std::size_t scan = 96;          ///< points spread over the whole range
-    std::size_t refine = 40;        ///< points of each of three rounds about the best ones
-    std::size_t surface = 64;       ///< points of each of two rounds for the quadratic form
-    std::size_t profile = 9;        ///< values of each parameter in its profile; 0: none (intervals from the form)
+    std::size_t scan = 48;          ///< points spread over the whole range
+    std::size_t refine = 24;        ///< points of each of the rounds about the best ones
+    std::size_t surface = 40;       ///< points of each of two rounds for the quadratic form
+    std::size_t profile = 5;        ///< values of each parameter in its profile; 0: none (intervals from the form)
     bool held_out = true;           ///< predict each motion by what the others say
     std::uint64_t ensemble = 24;    ///< outcomes: realizations of each run
     double window_s = 0;            ///< histories: 0: by the size of the drums
+    /// File that keeps what was predicted until the calibration is complete (`kept_evidence.hpp`); empty: none.
+    std::filesystem::path kept;
+    std::string kept_key;                          ///< what the measured data are known by
+    std::function<void(const std::string&)> stage; ///< told what is being done, in words; may be empty
 };
 
 struct ProfilePoint {
@@ -62,10 +75,14 @@ struct FittedParameter {
     double to = 0;
     bool bounded_below = false; ///< the data exclude the lower end of the range
     bool bounded_above = false;
-    bool determined = false; ///< both
-    std::string note;        ///< in words, where it is not determined
+    bool determined = false; ///< a value of the specimen, with an interval that holds whatever its contact law is
+    bool effective = false;  ///< a value of this model with its contact law; the interval is that of the model's value
+    std::string note;        ///< in words: what a value rests on, why it is effective or not determined
     std::vector<ProfilePoint> profile;
 };
+
+/// "95 % from 0.4 to 0.5", "95 % of the model's value from 1 to 2", or "no interval".
+std::string interval_words(const FittedParameter& parameter);
 
 /// Score of one run, in nats, by parameters that it did and did not help to find.
 struct RunScore {
@@ -96,6 +113,8 @@ struct Calibration {
     std::size_t best = 0;               ///< of the forms: by the score on runs left out
     std::vector<std::string> notes;     ///< what could not be used or judged, in words
     std::uint64_t parameter_sets = 0;
+    std::uint64_t restored_sets = 0; ///< of them, taken from what an interrupted calibration left
+    std::uint64_t kept_sets = 0;     ///< held by the file, where the calibration was interrupted
     std::uint64_t simulations = 0;
     std::uint64_t window_simulations = 0;
     std::uint64_t block_steps = 0;

@@ -48,9 +48,40 @@ public:
         return comparison_.scores(residuals_[candidate], *scales_[scales_of]);
     }
 
-    std::uint64_t simulations() const override { return comparison_.simulations(); }
-    std::uint64_t window_simulations() const override { return comparison_.window_simulations(); }
-    std::uint64_t block_steps() const override { return comparison_.block_steps(); }
+    EvidenceCost cost() const override
+    {
+        return {comparison_.simulations(), comparison_.window_simulations(), comparison_.block_steps()};
+    }
+
+    std::vector<double> prediction(std::size_t candidate) const override
+    {
+        std::vector<double> all;
+        for (const std::vector<double>& window : residuals_[candidate])
+            all.insert(all.end(), window.begin(), window.end());
+        return all;
+    }
+
+    bool take(const std::vector<std::vector<double>>& predictions) override
+    {
+        std::size_t length = 0;
+        for (std::size_t w = 0; w < runs_.size(); ++w)
+            length += comparison_.seen(w).size();
+        for (const std::vector<double>& all : predictions)
+            if (all.size() != length)
+                return false;
+        for (const std::vector<double>& all : predictions) {
+            WindowResiduals z;
+            auto at = all.begin();
+            for (std::size_t w = 0; w < runs_.size(); ++w) {
+                const auto end = at + static_cast<std::ptrdiff_t>(comparison_.seen(w).size());
+                z.emplace_back(at, end);
+                at = end;
+            }
+            residuals_.push_back(std::move(z));
+        }
+        scales_.resize(residuals_.size());
+        return true;
+    }
 
 private:
     WindowComparison comparison_;
@@ -105,12 +136,12 @@ public:
                     collapsed += o.state == State::collapsed;
                     valid += o.state != State::invalid;
                     for (const Block& block : r.blocks)
-                        block_steps_ += block.fixed ? 0 : o.steps;
+                        cost_.block_steps += block.fixed ? 0 : o.steps;
                 };
                 const Progress p = run_ensemble(study, sampler, shaking.motion.get(), options, plan, quietly);
                 if (p.done < plan.total)
                     return false;
-                simulations_ += plan.total;
+                cost_.simulations += plan.total;
                 // the mean of the posterior of Jeffreys' prior: a small ensemble never excludes an outcome
                 share.push_back((static_cast<double>(collapsed) + 0.5) / (static_cast<double>(valid) + 1));
             }
@@ -128,8 +159,16 @@ public:
         return scores_[candidate];
     }
     std::vector<double> scores(std::size_t candidate, std::size_t) const override { return scores_[candidate]; }
-    std::uint64_t simulations() const override { return simulations_; }
-    std::uint64_t block_steps() const override { return block_steps_; }
+    EvidenceCost cost() const override { return cost_; }
+    std::vector<double> prediction(std::size_t candidate) const override { return scores_[candidate]; }
+    bool take(const std::vector<std::vector<double>>& predictions) override
+    {
+        for (const std::vector<double>& scores : predictions)
+            if (scores.size() != runs_.size())
+                return false;
+        scores_.insert(scores_.end(), predictions.begin(), predictions.end());
+        return true;
+    }
 
 private:
     const OutcomeTests tests_;
@@ -137,7 +176,7 @@ private:
     const std::uint64_t ensemble_;
     std::vector<std::size_t> runs_;           ///< (tests)
     std::vector<std::vector<double>> scores_; ///< (candidates x tests)
-    std::uint64_t simulations_ = 0, block_steps_ = 0;
+    EvidenceCost cost_;
 };
 
 } // namespace

@@ -13,6 +13,13 @@
 
 namespace stylobate {
 
+/// What predictions have cost.
+struct EvidenceCost {
+    std::uint64_t simulations = 0; ///< runs along the measurement, or realizations
+    std::uint64_t window_simulations = 0;
+    std::uint64_t block_steps = 0;
+};
+
 /// Candidates are added, and kept with what they predict; their scores are asked for as often as needed.
 class CalibrationEvidence {
 public:
@@ -33,9 +40,15 @@ public:
     /// (units) scores of a candidate by the scales of another one.
     virtual std::vector<double> scores(std::size_t candidate, std::size_t scales_of) const = 0;
 
-    virtual std::uint64_t simulations() const = 0;
-    virtual std::uint64_t window_simulations() const { return 0; }
-    virtual std::uint64_t block_steps() const = 0;
+    virtual EvidenceCost cost() const = 0;
+
+    /// What a candidate was predicted with, as numbers from which all its scores follow.
+    virtual std::vector<double> prediction(std::size_t candidate) const = 0;
+    /// Adds candidates whose predictions are known. @return false if these are none of this evidence: then none is
+    /// added
+    virtual bool take(const std::vector<std::vector<double>>& predictions) = 0;
+    /// How many candidates were taken from what an interrupted calibration has left.
+    virtual std::size_t restored() const { return 0; }
 };
 
 /// Null where no run has a history that a model could follow.

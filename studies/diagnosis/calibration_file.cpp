@@ -14,7 +14,7 @@ namespace stylobate {
 namespace {
 
 constexpr char format_name[] = "stylobate-calibration";
-constexpr std::uint64_t format_version = 2;
+constexpr std::uint64_t format_version = 3;
 
 void write_form(hid_t parent, const FormCalibration& form)
 {
@@ -31,7 +31,7 @@ void write_form(hid_t parent, const FormCalibration& form)
     hdf5::write_real(group.id(), "held_out_high", form.held_out.high);
 
     std::vector<std::string> keys, notes;
-    std::vector<std::int32_t> determined, of;
+    std::vector<std::int32_t> determined, effective, of;
     std::vector<double> profile_value, profile_score;
     const auto column = [&](double FittedParameter::*member) {
         std::vector<double> values;
@@ -44,6 +44,7 @@ void write_form(hid_t parent, const FormCalibration& form)
         keys.push_back(p.key);
         notes.push_back(p.note);
         determined.push_back(p.determined);
+        effective.push_back(p.effective);
         for (const ProfilePoint& point : p.profile) {
             of.push_back(static_cast<std::int32_t>(i));
             profile_value.push_back(point.value);
@@ -59,6 +60,7 @@ void write_form(hid_t parent, const FormCalibration& form)
     hdf5::write_array(group.id(), "parameters/range_low", column(&FittedParameter::from), {n}, "");
     hdf5::write_array(group.id(), "parameters/range_high", column(&FittedParameter::to), {n}, "");
     hdf5::write_array(group.id(), "parameters/determined", determined, {n}, "");
+    hdf5::write_array(group.id(), "parameters/effective", effective, {n}, "");
     hdf5::write_texts(group.id(), "parameters/note", notes);
     hdf5::write_array(group.id(), "parameters/correlation", form.correlation, {n, n}, "");
     if (!of.empty()) {
@@ -114,10 +116,12 @@ std::vector<FittedParameter> read_parameters(hid_t group)
     const std::vector<std::string> keys = hdf5::read_texts(group, "parameters/key", n);
     const std::vector<std::string> notes = hdf5::read_texts(group, "parameters/note", n);
     const std::vector<std::int32_t> determined = hdf5::read_integers(group, "parameters/determined", n);
+    const std::vector<std::int32_t> effective = hdf5::read_integers(group, "parameters/effective", n);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         parameters[i].key = keys[i];
         parameters[i].note = notes[i];
         parameters[i].determined = determined[i] != 0;
+        parameters[i].effective = effective[i] != 0;
     }
     if (hdf5::exists(group, "profile")) {
         const hdf5::Dims m = hdf5::dims_of(group, "profile/parameter");

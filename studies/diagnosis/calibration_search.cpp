@@ -11,7 +11,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr std::size_t most_rounds = 9;
+constexpr std::size_t most_rounds = 6;
 constexpr double widen = 1.5;                      // of the spread of the best points, for the next round
 constexpr double least_spread = 1e-3;              // of the range
 constexpr double few_points = 0.7;                 // part of a correlation of so few points that is believed
@@ -39,16 +39,18 @@ std::vector<double> unit_matrix(std::size_t d)
 
 } // namespace
 
-CalibrationSearch::CalibrationSearch(const Study& start, std::vector<FitKey> keys, const CalibrationOptions& options,
-                                     CalibrationEvidence& evidence, const RunOptions& run, Observer& observer,
-                                     std::function<void(std::size_t)> advance)
-    : start_(start), keys_(std::move(keys)), options_(options), evidence_(evidence), run_(run), observer_(observer),
-      advance_(std::move(advance))
+CalibrationSearch::CalibrationSearch(Study nominal, Study start, std::vector<FitKey> keys,
+                                     const CalibrationOptions& options, CalibrationEvidence& evidence,
+                                     const RunOptions& run, Observer& observer, SearchProgress& progress)
+    : nominal_(std::move(nominal)), start_(std::move(start)), keys_(std::move(keys)), options_(options),
+      evidence_(evidence), run_(run), observer_(observer), progress_(progress)
 {
 }
 
 std::size_t CalibrationSearch::planned(std::size_t keys, const CalibrationOptions& options, std::size_t folds)
 {
+    if (keys == 0)
+        return 2 + (options.held_out ? folds : 0);
     return 2 + options.scan + most_rounds * options.refine + 2 * options.surface +
            2 * keys * (options.profile + 1 + 2 * fine_steps.size()) + (options.held_out ? folds : 0);
 }
@@ -84,10 +86,10 @@ bool CalibrationSearch::try_points(const std::vector<UnitPoint>& points)
         if (!evidence_.add(studies, run_, observer_))
             return false;
         for (std::size_t i = first; i < last; ++i) {
-            const std::size_t candidate = before_ + tried_.size();
+            const std::size_t candidate = evidence_.candidates() - (last - i);
             tried_.push_back({points[i], candidate, sum(evidence_.own_scores(candidate, {}))});
         }
-        advance_(last - first);
+        progress_.advance(last - first);
     }
     return true;
 }
@@ -103,6 +105,7 @@ std::size_t CalibrationSearch::best_tried() const
 /// as good as each other, or no longer become better.
 bool CalibrationSearch::refine()
 {
+    progress_.stage("rounds about the best");
     const std::size_t d = keys_.size(), best = 3 * d;
     double last_mean = -std::numeric_limits<double>::infinity();
     for (std::size_t round = 0;; ++round) {
@@ -137,8 +140,10 @@ bool CalibrationSearch::refine()
         const bool settled =
             tried_[order.front()].own - tried_[order.back()].own < alike || (round >= 3 && mean - last_mean < alike);
         last_mean = mean;
-        if (round == most_rounds || settled)
+        if (round == most_rounds || settled) {
+            progress_.spare((most_rounds - round) * options_.refine);
             return true;
+        }
         std::vector<double> spread = surface_.deviation;
         for (double& s : spread)
             s *= widen;
@@ -160,6 +165,7 @@ std::vector<ScoredPoint> CalibrationSearch::scored(const std::vector<std::size_t
 /// there, whatever round they are from.
 bool CalibrationSearch::fit()
 {
+    progress_.stage("the form of the score about the best");
     const std::size_t d = keys_.size();
     std::vector<double> most(d, prior_deviation);
     for (int round = 0; round < 2; ++round) {
@@ -193,6 +199,7 @@ bool CalibrationSearch::fit()
 /// best point that has been tried nearby.
 bool CalibrationSearch::profiles(FormCalibration& result)
 {
+    progress_.stage("profiles of the parameters");
     const std::size_t d = keys_.size();
     std::vector<UnitPoint> points;
     held_.assign(d, {});
@@ -297,6 +304,7 @@ void CalibrationSearch::judge(FittedParameter& p, std::size_t i) const
 /// Each motion is predicted by the parameters that the others give, and by the study as it was.
 bool CalibrationSearch::hold_out(FormCalibration& result, const std::vector<std::size_t>& fold, std::size_t folds)
 {
+    progress_.stage("motions left out, predicted by the others");
     const std::vector<std::size_t>& runs = evidence_.runs();
     const std::vector<ScoredPoint> near = scored(near_);
     std::vector<UnitPoint> points;
@@ -317,7 +325,7 @@ bool CalibrationSearch::hold_out(FormCalibration& result, const std::vector<std:
             if (fold[u] != f)
                 used.push_back(runs[u]);
         const std::vector<double> by_others = evidence_.own_scores(tried_[first + f].candidate, used);
-        const std::vector<double> as_it_was = evidence_.own_scores(tried_.front().candidate, used);
+        const std::vector<double> as_it_was = evidence_.own_scores(nominal_candidate_, used);
         for (std::size_t u = 0; u < runs.size(); ++u)
             if (fold[u] == f) {
                 calibrated[u] = by_others[u];
@@ -336,35 +344,37 @@ bool CalibrationSearch::hold_out(FormCalibration& result, const std::vector<std:
     return true;
 }
 
-std::optional<FormCalibration> CalibrationSearch::run(const std::vector<std::size_t>& fold, std::size_t folds)
+/// The study as it was given, before any point; where it is a point of the search too, it counts as one.
+bool CalibrationSearch::begin(FormCalibration& result)
 {
-    const std::size_t d = keys_.size();
-    before_ = evidence_.candidates();
-    // the study as it is comes first; it need not lie within the ranges
-    if (!evidence_.add({start_}, run_, observer_))
-        return std::nullopt;
-    UnitPoint at_start(d);
-    FormCalibration result;
+    nominal_candidate_ = evidence_.candidates();
+    progress_.stage("the study as it is");
+    if (!evidence_.add({nominal_}, run_, observer_))
+        return false;
+    progress_.advance(1);
+    UnitPoint at_start;
     result.form = start_.contact.form;
-    for (std::size_t i = 0; i < d; ++i) {
+    for (const FitKey& key : keys_) {
         FittedParameter p;
-        p.key = keys_[i].key;
-        p.start = number_in(start_, p.key);
-        p.from = keys_[i].from;
-        p.to = keys_[i].to;
-        at_start[i] = keys_[i].logarithmic ? std::log(std::max(p.start, p.from) / p.from) / std::log(p.to / p.from)
-                                           : (p.start - p.from) / (p.to - p.from);
-        at_start[i] = std::clamp(at_start[i], 0.0, 1.0);
+        p.key = key.key;
+        p.start = number_in(nominal_, p.key);
+        p.from = key.from;
+        p.to = key.to;
+        // it need not lie within the range
+        const double at = key.logarithmic ? std::log(std::max(p.start, p.from) / p.from) / std::log(p.to / p.from)
+                                          : (p.start - p.from) / (p.to - p.from);
+        at_start.push_back(std::clamp(at, 0.0, 1.0));
         result.parameters.push_back(p);
     }
-    tried_.push_back({at_start, before_, sum(evidence_.own_scores(before_, {}))});
-    advance_(1);
-    if (!try_points(spread_points(d, options_.scan, 0)))
-        return std::nullopt;
-    drawn_ = options_.scan;
-    if (!refine() || !fit() || !profiles(result))
-        return std::nullopt;
+    if (nominal_.text == start_.text)
+        tried_.push_back({at_start, nominal_candidate_, sum(evidence_.own_scores(nominal_candidate_, {}))});
+    return true;
+}
 
+/// Values, intervals, and what is known only together.
+void CalibrationSearch::conclude(FormCalibration& result) const
+{
+    const std::size_t d = keys_.size();
     result.roughness = surface_.roughness;
     result.correlation = surface_.correlation;
     for (std::size_t i = 0; i < d; ++i) {
@@ -383,15 +393,31 @@ std::optional<FormCalibration> CalibrationSearch::run(const std::vector<std::siz
             p.note =
                 fmt::format("not determined by these data by itself: only together with {}", result.parameters[j].key);
         }
+}
+
+std::optional<FormCalibration> CalibrationSearch::run(const std::vector<std::size_t>& fold, std::size_t folds)
+{
+    FormCalibration result;
+    if (!begin(result))
+        return std::nullopt;
+    if (!keys_.empty()) {
+        progress_.stage("scan of the whole range");
+        if (!try_points(spread_points(keys_.size(), options_.scan, 0)))
+            return std::nullopt;
+        drawn_ = options_.scan;
+        if (!refine() || !fit() || !profiles(result))
+            return std::nullopt;
+    }
+    conclude(result);
+    progress_.stage("the calibrated study");
     if (!try_points({surface_.best}))
         return std::nullopt;
     result.study = study_at(surface_.best);
     const std::size_t final_candidate = tried_.back().candidate;
-    result.score = tried_.back().own;
-    result.nominal_score = tried_.front().own;
-
-    const std::vector<double> nominal = evidence_.own_scores(before_, {});
+    const std::vector<double> nominal = evidence_.own_scores(nominal_candidate_, {});
     const std::vector<double> calibrated = evidence_.own_scores(final_candidate, {});
+    result.score = sum(calibrated);
+    result.nominal_score = sum(nominal);
     const std::vector<std::size_t>& runs = evidence_.runs();
     for (std::size_t u = 0; u < runs.size(); ++u) {
         if (u == 0 || runs[u] != runs[u - 1])

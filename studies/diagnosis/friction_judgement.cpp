@@ -22,9 +22,9 @@ constexpr double friction_unknown = 0.7;
 constexpr double slow_part = 0.5;
 // The nominal friction shall say next to nothing.
 constexpr double nominal_deviation = 1;
-// Half an interval over the standard deviation. Of independent, normal errors it would be 1.96. It was fitted to
-// campaigns of the kernel's own contact laws (docs/calibration.md), so that 95 % of the intervals hold.
-constexpr double deviations = 1.65;
+// Half an interval over the standard deviation: that of normal errors. Campaigns of the kernel's own contact laws ask
+// for less, those of other laws for as much (docs/calibration.md).
+constexpr double deviations = 1.96;
 // Fewer windows or slides than these do not show how they err.
 constexpr std::size_t least_windows = 3;
 constexpr std::size_t least_slides = 2;

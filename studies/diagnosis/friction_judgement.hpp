@@ -9,8 +9,8 @@
 ///
 ///   sd^2 = sd_fit^2 + sd_slides^2,    interval = mu exp(+- k sd / mu)
 ///
-/// with k such that the intervals hold in campaigns that were simulated with many contact laws (`docs/calibration.md`).
-/// Where the interval is wide, or rests on too few windows, the friction is not determined by the data.
+/// with k = 1.96. How often they hold, in campaigns of contact laws that the model does not have, is in
+/// `docs/calibration.md`. Where the interval is wide, or rests on too few windows, the friction is not determined.
 
 #include "ensemble/campaign.hpp"
 #include "studies/diagnosis/law_samples.hpp"

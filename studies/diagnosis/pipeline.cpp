@@ -5,6 +5,7 @@
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/chance.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/friction_judgement.hpp"
 #include "studies/diagnosis/prediction.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 #include "studies/diagnosis/wrong_windows.hpp"
@@ -122,6 +123,19 @@ Figure candidates_figure(const std::vector<Candidate>& candidates)
         if (!series.x.empty())
             figure.series.push_back(std::move(series));
     return figure;
+}
+
+/// The friction as the balance of forces judges it, for the table of the baseline.
+CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start)
+{
+    CalibratedParameter p{"contact.friction", "",         start.contact.friction, std::nullopt, std::nullopt,
+                          judged.determined,  judged.note};
+    if (judged.determined) {
+        p.value = judged.value;
+        p.low = judged.low;
+        p.high = judged.high;
+    }
+    return p;
 }
 
 /// What sliding joints say of friction, sample by sample.
@@ -300,13 +314,6 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                 ++(t.law == Law::sliding ? sliding : rocking);
         tell(fmt::format("  balance of forces: {} windows in which a joint slides, {} in which one rocks", sliding,
                          rocking));
-        d.baseline.push_back({"contact.friction", "",
-                              measured.specimen.friction_nominal.value_or(0.7) * balance.fit->friction_ratio(),
-                              measured.specimen.friction_nominal.value_or(0.7) *
-                                  (balance.fit->friction_ratio() - two_sided95 * balance.fit->friction_ratio_sd()),
-                              measured.specimen.friction_nominal.value_or(0.7) *
-                                  (balance.fit->friction_ratio() + two_sided95 * balance.fit->friction_ratio_sd()),
-                              sliding > 4, sliding > 4 ? "from the joints that slide" : "no joint slides long enough"});
         if (auto figure = friction_figure(balance, measured))
             d.figures.push_back(*figure);
         if (auto figure = turning_figure(balance))
@@ -324,6 +331,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         d.missing.push_back({"balance of forces", balance.why_not});
         tell("  balance of forces: " + balance.why_not);
     }
+    d.baseline.push_back(baseline_friction(judge_friction(measured, scales, direct.base_m), start));
 
     // windows of the simulation; a vertical motion without a model of its own would be blamed on something
     const bool unmodelled = std::any_of(direct.found.begin(), direct.found.end(), [](const CauseFit& fit) {

@@ -5,6 +5,7 @@
 #include "io/measured_file.hpp"
 #include "io/suggest.hpp"
 #include "tests/hidden/answer.hpp"
+#include "tests/hidden/coverage.hpp"
 #include "tests/hidden/detectability.hpp"
 #include "tests/hidden/score.hpp"
 
@@ -15,6 +16,8 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 namespace fs = std::filesystem;
 using namespace stylobate;
@@ -105,29 +108,50 @@ void generate(const Seeds& seeds, const fs::path& out, const Wish& wish)
     }
 }
 
-void score_folder(const fs::path& answers, const fs::path& diagnoses, const std::string& page)
+/// The answers of a folder, in the order of their seeds.
+std::vector<Answer> answers_of(const fs::path& answers)
 {
-    std::vector<fs::path> files;
     if (!fs::is_directory(answers))
         throw InputError(answers.string(), 0, "is no folder. Give that of the answers, DIR/answers of 'generate'.");
+    std::vector<Answer> known;
     for (const auto& entry : fs::directory_iterator(answers))
         if (entry.path().extension() == ".toml")
-            files.push_back(entry.path());
-    if (files.empty())
+            known.push_back(read_answer(entry.path()));
+    if (known.empty())
         throw InputError(answers.string(), 0, "holds no answers (SEED.toml). Give DIR/answers of 'generate'.");
-    std::vector<Answer> known;
-    for (const fs::path& file : files)
-        known.push_back(read_answer(file));
     std::sort(known.begin(), known.end(), [](const Answer& a, const Answer& b) { return a.seed < b.seed; });
-    std::vector<std::optional<DiagnosisSummary>> said;
-    for (const Answer& answer : known) {
-        const fs::path file = diagnoses / fmt::format("{}.json", answer.seed);
-        said.push_back(fs::exists(file) ? std::optional(read_diagnosis(file)) : std::nullopt);
+    return known;
+}
+
+/// What was said of each campaign, in DIR/SEED.json; nothing where there is no such file.
+template <class Read>
+auto said_of(const std::vector<Answer>& answers, const fs::path& folder, Read&& read)
+{
+    std::vector<std::optional<decltype(read(folder))>> said;
+    for (const Answer& answer : answers) {
+        const fs::path file = folder / fmt::format("{}.json", answer.seed);
+        said.push_back(fs::exists(file) ? std::optional(read(file)) : std::nullopt);
     }
-    const std::string text = markdown(score(known, said));
+    return said;
+}
+
+void tell(const std::string& text, const std::string& page)
+{
     fmt::print("{}", text);
     if (!page.empty())
         write_text(page, text);
+}
+
+void score_folder(const fs::path& answers, const fs::path& diagnoses, const std::string& page)
+{
+    const std::vector<Answer> known = answers_of(answers);
+    tell(markdown(score(known, said_of(known, diagnoses, read_diagnosis))), page);
+}
+
+void coverage_of_folder(const fs::path& answers, const fs::path& calibrations, const std::string& page)
+{
+    const std::vector<Answer> known = answers_of(answers);
+    tell(markdown(coverage(known, said_of(known, calibrations, read_calibration))), page);
 }
 
 } // namespace
@@ -164,6 +188,13 @@ int main(int argc, char** argv)
         ->required();
     judge_them->add_option("--markdown", page, "file for the tables, too");
 
+    std::string calibrations;
+    auto* cover = app.add_subcommand("coverage", "how often the intervals of calibrations hold the true friction");
+    cover->add_option("--answers", answers, "folder of SEED.toml")->required();
+    cover->add_option("--calibrations", calibrations, "folder of SEED.json, as 'calibrate --json' prints them")
+        ->required();
+    cover->add_option("--markdown", page, "file for the table, too");
+
     try {
         app.parse(argc, argv);
         if (make->parsed()) {
@@ -188,6 +219,8 @@ int main(int argc, char** argv)
             if (nothing || !effects.empty())
                 wish.effects = effects;
             generate(parse_seeds(seeds), out, wish);
+        } else if (cover->parsed()) {
+            coverage_of_folder(answers, calibrations, page);
         } else {
             score_folder(answers, diagnoses, page);
         }
