@@ -114,7 +114,8 @@ void expect_found(const char* file, const std::vector<std::string>& truth, const
     EXPECT_LT(std::fabs(std::log(p.value / value)), within);
     EXPECT_LE(p.low, value);
     EXPECT_GE(p.high, value);
-    EXPECT_TRUE(p.determined);
+    EXPECT_TRUE(p.bounded_below && p.bounded_above);
+    EXPECT_TRUE(p.effective && !p.determined) << "found by the search: a value of the model";
     EXPECT_GT(form.score, form.nominal_score + 5);
     EXPECT_GT(form.held_out.total, 0) << "tests that were left out are predicted better than by the start";
     ASSERT_EQ(form.runs.size(), 60u);
