@@ -1,6 +1,7 @@
 /// The score of diagnoses, on answers and diagnoses that are written here by hand.
 
 #include "ensemble/input_error.hpp"
+#include "tests/hidden/coverage.hpp"
 #include "tests/hidden/score.hpp"
 
 #include <gtest/gtest.h>
@@ -192,6 +193,48 @@ TEST(Answers, AreReadAsTheyAreWritten)
     EXPECT_EQ(hiding({}).verdict(), "none");
     EXPECT_EQ(hiding({effect("magnet", true, false)}).verdict(), "unexplained");
     EXPECT_THROW(read_answer(file), InputError);
+}
+
+/// What `stylobate calibrate --json` prints, as far as it counts.
+std::string calibration(bool determined, double low, double high)
+{
+    return "{\"best_form\": \"area\", \"forms\": [{\"form\": \"points\", \"parameters\": []}, {\"form\": \"area\", "
+           "\"parameters\": [{\"key\": \"contact.normal_stiffness_n_m2\", \"value\": 1, \"low\": 1, \"high\": 1, "
+           "\"determined\": false}, {\"key\": \"contact.friction\", \"value\": 0.5, \"low\": " +
+           std::to_string(low) + ", \"high\": " + std::to_string(high) +
+           ", \"determined\": " + (determined ? "true" : "false") + "}]}]}";
+}
+
+TEST(Coverage, CountsIntervalsThatHoldTheTruthOfThoseThatThereAre)
+{
+    std::vector<Answer> answers(5);
+    std::vector<std::optional<SaidFriction>> said;
+    const double truth[] = {0.5, 0.5, 0.6, 0.5, 0.5};
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+        answers[k].friction = truth[k];
+        answers[k].law = k < 3 ? "nonsmooth" : "compliant";
+        answers[k].specimen = k == 0 ? "column of 4 small blocks" : "column of 5 small blocks";
+        said.emplace_back(parse_calibration(calibration(k != 1, 0.45, 0.55), "0.json"));
+    }
+    said[4].reset(); // was not calibrated
+    const std::vector<CoverageRow> rows = coverage(answers, said);
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(rows[0].of, "all");
+    EXPECT_EQ(rows[0].campaigns, 4);
+    EXPECT_EQ(rows[0].held.of, 3) << "one is not determined";
+    EXPECT_EQ(rows[0].held.count, 2) << "one misses 0.6";
+    EXPECT_EQ(rows[1].of, "law nonsmooth");
+    EXPECT_EQ(rows[1].held.of, 2);
+    EXPECT_EQ(rows[1].held.count, 1);
+    EXPECT_EQ(rows[2].of, "law compliant");
+    EXPECT_EQ(rows[2].held.of, 1);
+    EXPECT_EQ(rows[3].of, "column of n small blocks") << "of any number of blocks";
+    EXPECT_EQ(rows[3].campaigns, 4);
+    EXPECT_NEAR(rows[1].relative_half[0], 0.1, 1e-9);
+    EXPECT_NEAR(rows[1].error[1], std::log(0.5 / 0.6), 1e-9);
+    EXPECT_NE(markdown(rows).find("| all | 4 | 3 (75 %) | 2, 66.7 %"), std::string::npos) << markdown(rows);
+    for (const char* text : {"", "{}", R"({"best_form": "area", "forms": []})"})
+        EXPECT_THROW(parse_calibration(text, "0.json"), InputError) << text;
 }
 
 } // namespace
