@@ -117,10 +117,12 @@ private:
         for (const FittedParameter& p : best_.parameters)
             if (p.determined)
                 facts.emplace_back(p.key, fmt::format("{} (95 %: {})", number(p.value), interval(p)));
-        std::vector<std::string> open;
+        std::vector<std::string> effective, open;
         for (const FittedParameter& p : best_.parameters)
             if (!p.determined)
-                open.push_back(p.key);
+                (p.effective ? effective : open).push_back(p.key);
+        if (!effective.empty())
+            facts.emplace_back("Effective", list_words(effective));
         if (!open.empty())
             facts.emplace_back("Not determined", list_words(open));
         facts.emplace_back("Contact form", best_.name);
@@ -157,8 +159,7 @@ private:
     {
         page_.section("What these data do not determine");
         if (determined() == best_.parameters.size()) {
-            page_.paragraph("All fitted parameters are determined: the data exclude both ends of the range that was "
-                            "searched.");
+            page_.paragraph("All fitted parameters are determined.");
             return;
         }
         HtmlTable table{"lll", {"parameter", "interval", "why"}, {}, ""};
@@ -209,8 +210,10 @@ private:
             figure.x_log = p.from > 0 && p.to > 5 * p.from;
             figure.series = {ends, line, marks};
             Html caption = Html::ready("<b>" + html_escaped(p.key) + "</b> ");
-            caption +=
-                fmt::format("{} (95 %: {}){}", number(p.value), interval(p), p.determined ? "." : "; not determined.");
+            caption += fmt::format("{} (95 %: {}){}", number(p.value), interval(p),
+                                   p.determined  ? "."
+                                   : p.effective ? "; effective."
+                                                 : "; not determined.");
             page_.figure(figure_svg(figure), caption);
         }
     }

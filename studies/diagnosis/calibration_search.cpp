@@ -29,6 +29,12 @@ double sum(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+/// Points that the profiles of so many parameters take.
+std::size_t most_profile_points(std::size_t keys, const CalibrationOptions& options)
+{
+    return 2 * keys * (options.profile + 1 + 2 * fine_steps.size());
+}
+
 std::vector<double> unit_matrix(std::size_t d)
 {
     std::vector<double> m(d * d, 0.0);
@@ -51,8 +57,8 @@ std::size_t CalibrationSearch::planned(std::size_t keys, const CalibrationOption
 {
     if (keys == 0)
         return 2 + (options.held_out ? folds : 0);
-    return 2 + options.scan + most_rounds * options.refine + 2 * options.surface +
-           2 * keys * (options.profile + 1 + 2 * fine_steps.size()) + (options.held_out ? folds : 0);
+    return 2 + options.scan + most_rounds * options.refine + 2 * options.surface + most_profile_points(keys, options) +
+           (options.held_out ? folds : 0);
 }
 
 double CalibrationSearch::value(std::size_t key, double unit) const
@@ -234,6 +240,7 @@ bool CalibrationSearch::profiles(FormCalibration& result)
         }
         held_[i] = std::move(values);
     }
+    progress_.spare(most_profile_points(d, options_) - points.size());
     const std::size_t first = tried_.size();
     if (!try_points(points))
         return false;
