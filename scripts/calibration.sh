@@ -29,6 +29,7 @@ for answer in "$place"/answers/*.toml; do
     seed=$(basename "$answer" .toml)
     said=$place/calibrations/$seed
     [[ -e $said.json ]] && continue
+    rm -f "$said.h5" "${said}_calibrated.toml"
     if "$stylobate" calibrate "$place/campaign_$seed.h5" -o "$said.h5" --no-held-out \
         --hold contact.normal_stiffness_n_m2 --hold contact.tangential_stiffness_n_m \
         --hold contact.normal_damping_ratio --hold contact.tangential_damping_ratio \
