@@ -77,6 +77,55 @@ TEST(WindowCurves, AreTheMotionThatTheResidualsAreOf)
     EXPECT_EQ(compared, 9U); // x, y and rotation of three windows
 }
 
+TEST(WindowCurves, OfABlockOnTheGroundAreItsOwnToo)
+{
+    // the same campaign, said to stand on the table itself instead of on a block fixed to it: the ground is then a
+    // block of the realization too, and to the right model the motion is the same
+    const SyntheticCampaign c = two_runs();
+    Campaign campaign = measure(c);
+    Specimen& s = campaign.specimen;
+    for (double& y : s.rest_y_m)
+        y -= s.base_block_top_m;
+    for (MeasuredRun& run : campaign.runs)
+        for (double& y : run.blocks.y_m.values)
+            y -= s.base_block_top_m;
+    s.base_block_half_width_m.reset();
+    s.base_block_top_m = 0;
+    ModelVariant variant;
+    variant.study = right_study(c, campaign);
+    WindowComparison comparison(campaign, {});
+    Observer observer;
+    const std::vector<WindowResiduals> z = comparison.residuals({variant}, {best_isa(), 1}, observer);
+    ASSERT_EQ(z.size(), 1U);
+    // where it moves most, from sample to sample it does not jump to another block
+    std::size_t strongest = 0;
+    double most = 0;
+    for (std::size_t w = 0; w < z[0].size(); ++w)
+        for (const SeenValue& seen : comparison.seen(w))
+            if (comparison.windows()[w].run == 0 && seen.coordinate == BlockCoordinate::x &&
+                std::fabs(seen.value) > most) {
+                most = std::fabs(seen.value);
+                strongest = w;
+            }
+    ASSERT_GT(most, 2e-3);
+    const auto block = static_cast<std::size_t>(build_specimen(s).block.back());
+    const std::vector<WindowCurve> curves = comparison.curves(variant, {strongest}, block, {best_isa(), 1}, observer);
+    ASSERT_EQ(curves.size(), 1U);
+    for (std::size_t k = 1; k < curves[0].time_s.size(); ++k)
+        EXPECT_LT(std::fabs(curves[0].model[0][k] - curves[0].model[0][k - 1]), 0.5 * most) << k;
+    // and the residuals at its end are of the same block
+    std::size_t compared = 0;
+    for (std::size_t k = 0; k < z[0][strongest].size(); ++k) {
+        const SeenValue& seen = comparison.seen(strongest)[k];
+        if (seen.block != block || seen.time != 1)
+            continue;
+        const auto of = static_cast<std::size_t>(seen.coordinate);
+        EXPECT_NEAR(curves[0].model[of].back() - curves[0].seen[of].back(), z[0][strongest][k] * seen.scale, 1e-12);
+        ++compared;
+    }
+    EXPECT_EQ(compared, 3U);
+}
+
 TEST(WrongWindows, DrawsMeasuredAndSimulatedWhereTheModelIsWrong)
 {
     const SyntheticCampaign c = two_runs();

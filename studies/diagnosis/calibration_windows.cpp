@@ -181,9 +181,9 @@ std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<Model
         WindowResiduals z(p.places.size());
         for (const Prepared::Run& run : p.runs) {
             const FollowResult& result = report.results[job];
+            const std::size_t read = jobs[job].realization.blocks.size(); // the ground among them, where it can be met
             for (std::size_t w = 0; w < result.windows.size(); ++w)
-                z[run.first + w] =
-                    stylobate::residuals(p.values[run.first + w], result.windows[w], p.blocks, rest_y[job]);
+                z[run.first + w] = stylobate::residuals(p.values[run.first + w], result.windows[w], read, rest_y[job]);
             ++job;
         }
         all.push_back(std::move(z));
@@ -230,7 +230,7 @@ std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, c
     for (std::size_t w = 0; w < curves.size(); ++w) {
         const Readings& readings = report.results.front().windows[w];
         for (std::size_t k = 0; k < curves[w].time_s.size(); ++k) {
-            const std::size_t i = k * p.blocks + block;
+            const std::size_t i = k * job.realization.blocks.size() + block; // the ground may be one of them
             curves[w].model[0].push_back(readings.x_m[i]);
             curves[w].model[1].push_back(readings.y_m[i] - rest_y_m);
             curves[w].model[2].push_back(readings.theta_rad[i]);
