@@ -4,6 +4,7 @@
 #include "io/atomic_file.hpp"
 #include "io/result_layout.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <iterator>
@@ -88,7 +89,7 @@ void visit_outcome(const ResultRow& row, F&& f)
     constexpr std::string_view group = "outcome/";
     visit_fields(row, [&](std::string_view path, const char*, const auto& value) {
         if (path.starts_with(group))
-            f(path.substr(group.size()), value);
+            f(path.substr(group.size()), without_none(path, value));
     });
 }
 
@@ -102,8 +103,18 @@ auto word(const Value& value)
         return value;
 }
 
-std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows)
+std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows,
+                              const FragilityTable& fragility)
 {
+    const auto known = [&](std::int32_t motion) {
+        return motion >= 0 && static_cast<std::size_t>(motion) < header.motions.names.size();
+    };
+    if (!fragility.empty() && (fragility.motion.size() != rows.size() || fragility.intensity.size() != rows.size() ||
+                               !std::all_of(fragility.motion.begin(), fragility.motion.end(), known)))
+        throw InputError(fmt::format("{} realizations have {} motions, or some that are not there: the results are "
+                                     "damaged.\n  Run the study again into "
+                                     "a new file.",
+                                     rows.size(), fragility.motion.size()));
     std::string text;
     {
         Line line(text);
@@ -111,13 +122,18 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
              << "cell"
              << "frequency_hz"
              << "pga_m_s2";
+        if (!fragility.empty())
+            line << "motion"
+                 << "motion_name"
+                 << "intensity_" + fragility.measure;
         for (const std::string& name : header.input_names)
             line << input_column(name);
         visit_outcome(ResultRow{}, [&](std::string_view name, const auto&) { line << name; });
         for (std::size_t i = 0; i < header.block_names.size(); ++i)
             line << fmt::format("fall_time_s[{}]", i);
     }
-    for (const ResultRow& row : rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const ResultRow& row = rows[i];
         if (row.inputs.size() != header.input_names.size())
             throw InputError(fmt::format("realization {} has {} inputs where {} are named: the results are damaged.\n"
                                          "  Run the study again into a new file.",
@@ -128,11 +144,14 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
                                          row.index, row.outcome.fall_time_s.size(), header.block_names.size()));
         Line line(text);
         line << row.index << row.cell << row.frequency_hz << row.pga_m_s2;
+        if (!fragility.empty())
+            line << fragility.motion[i] << header.motions.names.at(static_cast<std::size_t>(fragility.motion[i]))
+                 << fragility.intensity[i];
         for (const double value : row.inputs)
             line << value;
         visit_outcome(row, [&](std::string_view, const auto& value) { line << word(value); });
         for (const double value : row.outcome.fall_time_s)
-            line << value;
+            line << without_none(result_names::fall_time, value);
     }
     return text;
 }
@@ -241,9 +260,9 @@ void write_tables(const std::filesystem::path& folder, const ResultHeader& heade
 } // namespace
 
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
-               const SurfaceTable& surface)
+               const SurfaceTable& surface, const FragilityTable& fragility)
 {
-    write_tables(folder, header, surface, "realizations.csv", realizations_text(header, rows));
+    write_tables(folder, header, surface, "realizations.csv", realizations_text(header, rows, fragility));
 }
 
 void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,

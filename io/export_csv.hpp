@@ -9,15 +9,16 @@
 namespace stylobate {
 
 /// Writes `realizations.csv` (one line per row, every field of `ResultRow` and `Outcome`; drawn values in the columns
-/// "input_...", fall times in "fall_time_s[i]"), `blocks.csv` (the name of block i) and, if the surface has axes,
+/// "input_...", fall times in "fall_time_s[i]"; of a fragility study the number and name of the motion and the
+/// intensity, "intensity_pgv_m_s"),  `blocks.csv` (the name of block i) and, if the surface has axes,
 /// `surface.csv` (one line per cell, frequency by frequency) into `folder`, which is made if its parent exists. Numbers
-/// are the shortest decimals with the same double, "nan" and "inf" where they are not finite. Each file appears whole,
-/// and nothing is touched if the input is refused.
+/// are the shortest decimals with the same double, "nan" and "inf" where they are not finite; a time that never came is
+/// "nan", a block that is none -1. Each file appears whole, and nothing is touched if the input is refused.
 ///
 /// @throws InputError if the folder cannot be made or written, if a row has another number of inputs or of fall times
 ///         than the header, or if the surface's arrays do not fit its axes
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
-               const SurfaceTable& surface);
+               const SurfaceTable& surface, const FragilityTable& fragility = {});
 
 /// The same of a result that keeps no rows: `counts.csv` instead of `realizations.csv`, one line per cell: its trials,
 /// its invalid realizations, how many reached each limit state, and how often each block fell first

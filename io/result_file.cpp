@@ -245,6 +245,8 @@ hdf5::Handle file_type(Stored stored)
     }
     case Stored::i32:
         return copy(H5T_STD_I32LE);
+    case Stored::i64:
+        return copy(H5T_STD_I64LE);
     case Stored::u64:
         return copy(H5T_STD_U64LE);
     case Stored::f64:

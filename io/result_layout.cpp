@@ -2,6 +2,7 @@
 
 #include "ensemble/mechanism_spec.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -19,6 +20,7 @@ constexpr std::uint64_t bytes_of(Stored stored)
         return 1;
     case Stored::i32:
         return 4;
+    case Stored::i64:
     case Stored::u64:
     case Stored::f64:
         return 8;
@@ -104,13 +106,16 @@ ResultLayout::ResultLayout(const ResultHeader& header)
         throw std::invalid_argument("the indices of the rows are too large");
     ResultRow row;
     visit_fields(row, [&](const char* path, const char* unit, auto& field) {
-        columns_.push_back({path, unit, stored_as<std::remove_cvref_t<decltype(field)>>(), false, 1, 0});
+        const Stored stored =
+            std::string_view(path) == "cell" ? Stored::i64 : stored_as<std::remove_cvref_t<decltype(field)>>();
+        columns_.push_back({path, unit, std::string(meaning_of_none(path)), stored, false, 1, 0});
     });
     if (header.block_names.empty())
         throw std::invalid_argument("a results file has at least one block");
     joined_names(header.block_names); // for its refusals
     fall_time_ = columns_.size();
-    columns_.push_back({result_names::fall_time, "s", Stored::f64, true, header.block_names.size(), 0});
+    columns_.push_back({result_names::fall_time, "s", std::string(meaning_of_none(result_names::fall_time)),
+                        Stored::f64, true, header.block_names.size(), 0});
 
     std::map<std::string, std::size_t> column_of;
     std::set<std::pair<std::size_t, std::uint64_t>> taken;
@@ -118,7 +123,8 @@ ResultLayout::ResultLayout(const ResultHeader& header)
         const InputName input = parse_input_name(name);
         const auto [at, is_new] = column_of.try_emplace(input.base, columns_.size());
         if (is_new)
-            columns_.push_back({"input/" + input.base, unit_of_input(input.base), Stored::f64, input.indexed, 1, 0});
+            columns_.push_back(
+                {"input/" + input.base, unit_of_input(input.base), "", Stored::f64, input.indexed, 1, 0});
         Column& column = columns_[at->second];
         if (column.matrix != input.indexed || !taken.emplace(at->second, input.index).second)
             throw std::invalid_argument("the input '" + name + "' comes twice");
@@ -146,11 +152,15 @@ std::size_t ResultLayout::place(std::size_t column, std::uint64_t number) const
 void ResultLayout::encode(std::uint64_t number, const ResultRow& row, std::span<std::byte> chunk_bytes) const
 {
     std::size_t column = 0;
-    visit_fields(row, [&](const char*, const char*, const auto& field) {
+    visit_fields(row, [&](const char* path, const char*, const auto& field) {
         const std::size_t at = place(column++, number);
-        std::memcpy(chunk_bytes.subspan(at, sizeof field).data(), &field, sizeof field);
+        const auto value = without_none(path, field);
+        std::memcpy(chunk_bytes.subspan(at, sizeof value).data(), &value, sizeof value);
     });
-    const std::span falls = std::as_bytes(std::span(row.outcome.fall_time_s));
+    std::vector<double> fall_times = row.outcome.fall_time_s;
+    for (double& time : fall_times)
+        time = without_none(result_names::fall_time, time);
+    const std::span falls = std::as_bytes(std::span(fall_times));
     std::memcpy(chunk_bytes.subspan(place(fall_time_, number), falls.size()).data(), falls.data(), falls.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const std::size_t at = place(inputs_[i].column, number) + inputs_[i].component * sizeof(double);
@@ -162,13 +172,21 @@ ResultRow ResultLayout::decode(std::uint64_t number, std::span<const std::byte> 
 {
     ResultRow row;
     std::size_t column = 0;
-    visit_fields(row, [&](const char*, const char*, auto& field) {
+    const auto none = [](std::string_view path, auto& value) { // NaN is -1 again
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
+            if (std::isnan(value) && !meaning_of_none(path).empty())
+                value = -1;
+    };
+    visit_fields(row, [&](const char* path, const char*, auto& field) {
         const std::size_t at = place(column++, number);
         std::memcpy(&field, chunk_bytes.subspan(at, sizeof field).data(), sizeof field);
+        none(path, field);
     });
     row.outcome.fall_time_s.resize(blocks());
     const std::span falls = std::as_writable_bytes(std::span(row.outcome.fall_time_s));
     std::memcpy(falls.data(), chunk_bytes.subspan(place(fall_time_, number), falls.size()).data(), falls.size());
+    for (double& time : row.outcome.fall_time_s)
+        none(result_names::fall_time, time);
     row.inputs.resize(inputs_.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const std::size_t at = place(inputs_[i].column, number) + inputs_[i].component * sizeof(double);

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -87,7 +89,31 @@ void visit_fields(Row& row, F&& f)
 }
 static_assert(sizeof(Outcome) == 232, "a field that comes to Outcome or leaves it does so in visit_fields() too");
 
-enum class Stored { state, invalid_reason, i32, u64, f64 };
+/// What stands for "none" in a column; empty: nothing does. In memory it is -1; in files and tables a time that never
+/// came is NaN, and of blocks, which are whole numbers, -1 is none.
+constexpr std::string_view meaning_of_none(std::string_view path)
+{
+    const std::size_t begin = path.rfind('/') + 1; // 0 where there is none
+    const std::string_view name = path.substr(begin);
+    if (name == "collapse_time_s" || name == "unseating_time_s" || name == "total_collapse_time_s" ||
+        name == "fall_time_s")
+        return "NaN: it did not happen";
+    if (name == "first_collapse_block" || name == "unseated_block")
+        return "-1: no block";
+    return {};
+}
+/// A time as files and tables have it.
+template <class Value>
+Value without_none(std::string_view path, const Value& value)
+{
+    if constexpr (std::is_same_v<Value, double>)
+        return value == -1 && !meaning_of_none(path).empty() ? std::numeric_limits<double>::quiet_NaN() : value;
+    else
+        return value;
+}
+
+/// `i64`: a number that is counted with, of which NumPy makes a place in an array.
+enum class Stored { state, invalid_reason, i32, i64, u64, f64 };
 
 template <class T>
 constexpr Stored stored_as()
@@ -110,6 +136,7 @@ constexpr Stored stored_as()
 struct Column {
     std::string path; ///< below /realizations
     std::string unit; ///< empty: none
+    std::string none; ///< `meaning_of_none`
     Stored stored = Stored::f64;
     bool matrix = false;     ///< (n x width) instead of (n)
     std::uint64_t width = 1; ///< values for each row

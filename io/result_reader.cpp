@@ -1,5 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_fragility.hpp"
 #include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
@@ -189,6 +190,11 @@ SensitivityTable ResultReader::sensitivity() const
 RareTable ResultReader::rare() const
 {
     return impl_->guarded([](hid_t file) { return read_rare_table(file); });
+}
+
+FragilityTable ResultReader::fragility() const
+{
+    return impl_->guarded([](hid_t file) { return read_fragility_table(file); });
 }
 
 std::vector<FollowedTwin> ResultReader::twins() const

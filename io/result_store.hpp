@@ -5,6 +5,7 @@
 #include "ensemble/interval.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/realization.hpp"
+#include "io/fragility_table.hpp"
 #include "io/rare_table.hpp"
 #include "io/sensitivity_table.hpp"
 #include "io/tally.hpp"
@@ -128,13 +129,13 @@ public:
     /// Takes a trajectory; it is kept in memory until `finish`, so a resumed run adds it again, also where it `has` the
     /// row.
     void add(const Trajectory& trajectory);
-    /// Writes the surface's table or that of the sensitivities or of a rare event, the twins that were followed,
-    /// and the trajectories, and marks the
-    /// file complete, in one step: killed meanwhile, the file stays as it was. All rows must have been added; where
-    /// they are selected, those that were added are all, and are put in index order. Needs the disk space of the file
-    /// once more.
+    /// Writes the surface's table or that of the sensitivities, of a rare event or of fragility, the twins that were
+    /// followed, and the trajectories, and marks the file complete, in one step: killed meanwhile, the file stays as it
+    /// was. All rows must have been added; where they are selected, those that were added are all, and are put in index
+    /// order. Needs the disk space of the file once more.
     void finish(const SurfaceTable* surface, const SensitivityTable* sensitivity = nullptr,
-                const RareTable* rare = nullptr, const std::vector<FollowedTwin>* twins = nullptr);
+                const RareTable* rare = nullptr, const std::vector<FollowedTwin>* twins = nullptr,
+                const FragilityTable* fragility = nullptr);
     /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
@@ -173,6 +174,8 @@ public:
     SensitivityTable sensitivity() const;
     /// Empty if there is none.
     RareTable rare() const;
+    /// Empty if there is none.
+    FragilityTable fragility() const;
     /// Twins that were followed, of a surface with twins that is complete.
     std::vector<FollowedTwin> twins() const;
     std::vector<std::uint64_t> trajectory_indices() const;

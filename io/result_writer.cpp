@@ -1,5 +1,6 @@
 #include "ensemble/input_error.hpp"
 #include "io/result_file.hpp"
+#include "io/result_fragility.hpp"
 #include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
@@ -28,6 +29,8 @@ void write_rows_skeleton(hid_t file, const ResultHeader& header, const ResultLay
                                                   column.stored == Stored::state ? &state_not_run : nullptr);
         if (!column.unit.empty())
             hdf5::write_text(dataset.id(), "unit", column.unit);
+        if (!column.none.empty())
+            hdf5::write_text(dataset.id(), "none", column.none);
     }
     const auto checksum = hdf5::create_dataset(file, names::checksum, H5T_STD_U64LE, {layout.chunks()});
     hdf5::write_number(checksum.id(), names::rows_per_chunk, H5T_STD_U32LE, ResultWriter::rows_per_chunk);
@@ -307,7 +310,7 @@ void ResultWriter::flush()
 }
 
 void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity, const RareTable* rare,
-                          const std::vector<FollowedTwin>* twins)
+                          const std::vector<FollowedTwin>* twins, const FragilityTable* fragility)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
@@ -336,6 +339,8 @@ void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* s
         write_rare(opened.id(), *rare);
     if (twins)
         write_twins(opened.id(), *twins);
+    if (fragility)
+        write_fragility(opened.id(), *fragility);
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, trajectory] : impl_->trajectories)

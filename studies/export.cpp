@@ -172,7 +172,7 @@ void export_csv(const ResultReader& reader, const std::string& results, const fs
     if (const Tally* tally = reader.tally())
         write_counts_csv(folder, reader.header(), *tally, surface);
     else
-        write_csv(folder, reader.header(), reader.rows(), surface);
+        write_csv(folder, reader.header(), reader.rows(), surface, reader.fragility());
     if (reader.header().kind == "fragility" && reader.complete()) {
         write_whole(folder / "motions.csv", motions_csv(reader.header().motions));
         const Fragility fragility = fragility_of(reader, results);

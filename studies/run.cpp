@@ -374,20 +374,23 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     std::optional<SensitivityTable> indices;
     if (complete && sensitivity)
         indices = sensitivity->table();
+    std::optional<Fragility> fragility;
+    std::optional<FragilityTable> curves;
+    if (complete && loaded.study().fragility) {
+        fragility = fragility_of(ResultReader(results), results);
+        curves = fragility_table(*fragility);
+    }
     if (writer && complete)
         writer->finish(table ? &*table : nullptr, indices ? &*indices : nullptr, rare ? &*rare : nullptr,
-                       followed.empty() ? nullptr : &followed);
+                       followed.empty() ? nullptr : &followed, curves ? &*curves : nullptr);
     else if (writer)
         writer->flush();
     writer.reset();
     Findings findings;
-    std::optional<Fragility> fragility;
     std::optional<Twins> twins;
     if (complete) {
         if (loaded.study().twins)
             twins = twins_of(ResultReader(results), results);
-        if (loaded.study().fragility)
-            fragility = fragility_of(ResultReader(results), results);
         findings = {adaptive && table ? &*table : nullptr, fragility ? &*fragility : nullptr,
                     indices ? &*indices : nullptr, rare ? &*rare : nullptr, twins ? &*twins : nullptr};
     }

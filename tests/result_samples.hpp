@@ -108,7 +108,18 @@ inline ResultRow sample_row(std::uint64_t index)
                           &o.rocking_path_rad})
         *field = any();
     o.fall_time_s = {any(), any(), any()};
+    // of times that may never come NaN is the file's word for none, which is -1 in memory
+    for (double* time : {&o.collapse_time_s, &o.unseating_time_s, &o.total_collapse_time_s, &o.fall_time_s[0],
+                         &o.fall_time_s[1], &o.fall_time_s[2]})
+        if (std::isnan(*time))
+            *time = -1;
     return row;
+}
+
+/// A time as it stands in the file.
+inline double time_in_file(double time)
+{
+    return time == -1 ? std::numeric_limits<double>::quiet_NaN() : time;
 }
 
 /// Every value of a row as bits.

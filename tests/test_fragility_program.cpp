@@ -8,6 +8,7 @@
 #include "kernels/isa.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace stylobate {
 namespace {
@@ -95,6 +96,36 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     EXPECT_EQ(limits["collapse"]["lower"].number, want.lower);
     EXPECT_EQ(limits["collapse"]["upper"].number, want.upper);
     EXPECT_GT(want.upper - want.lower, 0.1);
+
+    // what the file keeps of it: motion and intensity of each realization, and the curves
+    const FragilityTable table = reader.fragility();
+    EXPECT_EQ(table.measure, "pgv_m_s");
+    ASSERT_EQ(table.motion.size(), 1200U);
+    for (const ResultRow& row : reader.rows()) {
+        EXPECT_EQ(table.motion[row.index], static_cast<std::int32_t>(row.cell / 5));
+        EXPECT_EQ(table.intensity[row.index], f["states"].items[0]["stripes"].items[row.cell % 5]["intensity"].number);
+    }
+    ASSERT_EQ(table.states.size(), f["states"].items.size());
+    for (std::size_t k = 0; k < table.states.size(); ++k) {
+        const JsonValue& state = f["states"].items[k];
+        EXPECT_EQ(table.states[k], state["name"].text);
+        EXPECT_EQ(static_cast<double>(table.reached[k]), state["reached"].number);
+        EXPECT_EQ(table.median.lower[k], state["median"]["lower"].number);
+        EXPECT_EQ(table.dispersion.value[k], state["dispersion"]["value"].number);
+        for (std::size_t j = 0; j < 5; ++j)
+            EXPECT_EQ(table.share.upper[5 * k + j], state["stripes"].items[j]["upper"].number);
+        const std::size_t points = table.grid.size();
+        ASSERT_EQ(table.curve.value.size(), points * table.states.size());
+        for (std::size_t i = 0; i < points; ++i) { // the lognormal curve of these two numbers
+            const double z = std::log(table.grid[i] / table.median.value[k]) / table.dispersion.value[k];
+            EXPECT_NEAR(table.curve.value[k * points + i], std::erfc(-z / std::sqrt(2)) / 2, 1e-9);
+        }
+    }
+    ASSERT_EQ(run(std::vector<std::string>{"export", "f.h5", "--to", "csv"}).status, 0);
+    const std::string csv = bytes("f_csv/realizations.csv");
+    EXPECT_NE(csv.substr(0, csv.find('\n')).find(",pga_m_s2,motion,motion_name,intensity_pgv_m_s,"), std::string::npos);
+    EXPECT_EQ(csv.find(",-1,-1,-1"), std::string::npos) << "a time that never came is nan";
+    EXPECT_NE(csv.find(",nan,"), std::string::npos);
 
     EXPECT_EQ(run(std::vector<std::string>{"export", "f.h5", "--to", "png"}).status, 0);
     EXPECT_TRUE(fs::exists(folder / "f_fragility.png"));

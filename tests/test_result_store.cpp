@@ -189,7 +189,9 @@ struct Plain {
         const hid_t space = H5Dget_space(dataset);
         const std::map<H5T_class_t, std::string> kinds = {
             {H5T_INTEGER, "int"}, {H5T_FLOAT, "float"}, {H5T_ENUM, "enum"}};
-        std::string text = kinds.at(H5Tget_class(type)) + std::to_string(8 * H5Tget_size(type)) + " (";
+        const bool is_unsigned = H5Tget_class(type) == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_NONE;
+        std::string text =
+            (is_unsigned ? "u" : "") + kinds.at(H5Tget_class(type)) + std::to_string(8 * H5Tget_size(type)) + " (";
         hsize_t dims[4] = {};
         const int rank = H5Sget_simple_extent_dims(space, dims, nullptr);
         for (int i = 0; i < rank; ++i)
@@ -266,7 +268,7 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     EXPECT_EQ(plain.attribute("/trajectories/3", "blocks"), "drum 0\nthe second, \"epistyle\"\n3");
 
     const std::map<std::string, std::string> want = {
-        {"index", "int64 (300)"},
+        {"index", "uint64 (300)"},
         {"cell", "int64 (300)"},
         {"frequency_hz", "float64 (300) Hz"},
         {"pga_m_s2", "float64 (300) m/s2"},
@@ -301,15 +303,19 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
         {"outcome/energy_residual", "float64 (300)"},
         {"outcome/end_time_s", "float64 (300) s"},
         {"outcome/step_s", "float64 (300) s"},
-        {"outcome/steps", "int64 (300)"},
-        {"chunk_checksum", "int64 (2)"},
+        {"outcome/steps", "uint64 (300)"},
+        {"chunk_checksum", "uint64 (2)"},
     };
     for (const auto& [name, description] : want)
         EXPECT_EQ(plain.describe("/realizations/" + name), description) << name;
+    for (const char* time : {"collapse_time_s", "unseating_time_s", "total_collapse_time_s", "fall_time_s"})
+        EXPECT_EQ(plain.attribute(std::string("/realizations/outcome/") + time, "none"), "NaN: it did not happen");
+    for (const char* number : {"first_collapse_block", "unseated_block"})
+        EXPECT_EQ(plain.attribute(std::string("/realizations/outcome/") + number, "none"), "-1: no block");
     EXPECT_EQ(plain.describe("/surface/frequency_hz"), "float64 (3) Hz");
     EXPECT_EQ(plain.describe("/surface/pga_m_s2"), "float64 (2) m/s2");
-    EXPECT_EQ(plain.describe("/surface/trials"), "int64 (3 x 2)");
-    EXPECT_EQ(plain.describe("/surface/collapses"), "int64 (3 x 2)");
+    EXPECT_EQ(plain.describe("/surface/trials"), "uint64 (3 x 2)");
+    EXPECT_EQ(plain.describe("/surface/collapses"), "uint64 (3 x 2)");
     for (const char* name : {"probability", "lower", "upper"})
         EXPECT_EQ(plain.describe(std::string("/surface/") + name), "float64 (3 x 2)");
     EXPECT_EQ(plain.describe("/trajectories/3/time_s"), "float64 (4) s");
@@ -343,7 +349,8 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
                       std::bit_cast<std::uint64_t>(row.inputs[1 + k]));
         EXPECT_EQ(bits({falls.begin() + static_cast<std::ptrdiff_t>(3 * i),
                         falls.begin() + static_cast<std::ptrdiff_t>(3 * i + 3)}),
-                  bits(row.outcome.fall_time_s));
+                  bits({time_in_file(row.outcome.fall_time_s[0]), time_in_file(row.outcome.fall_time_s[1]),
+                        time_in_file(row.outcome.fall_time_s[2])}));
         char name[32] = {};
         H5Tenum_nameof(names, &state[i], name, sizeof name);
         EXPECT_STREQ(name, to_string(row.outcome.state));
@@ -382,36 +389,24 @@ TEST_F(ResultStore, ChecksumIsTheDocumentedOne)
     column([&](const ResultRow& r) { append(r.pga_m_s2); });
     column([&](const ResultRow& r) { append(r.outcome.state); });
     column([&](const ResultRow& r) { append(r.outcome.invalid_reason); });
-    column([&](const ResultRow& r) { append(r.outcome.collapse_time_s); });
+    column([&](const ResultRow& r) { append(time_in_file(r.outcome.collapse_time_s)); });
     column([&](const ResultRow& r) { append(r.outcome.first_collapse_block); });
     column([&](const ResultRow& r) { append(r.outcome.fallen_blocks); });
     column([&](const ResultRow& r) { append(r.outcome.unseated_block); });
-    for (double Outcome::*field : {&Outcome::unseating_time_s,
-                                   &Outcome::total_collapse_time_s,
-                                   &Outcome::peak_top_displacement_m,
-                                   &Outcome::residual_top_displacement_m,
-                                   &Outcome::top_path_m,
-                                   &Outcome::total_sliding_m,
-                                   &Outcome::sliding_path_m,
-                                   &Outcome::residual_sliding_m,
-                                   &Outcome::residual_dislocation,
-                                   &Outcome::total_rocking_rad,
-                                   &Outcome::rocking_path_rad,
-                                   &Outcome::max_relative_rotation_rad,
-                                   &Outcome::energy_kinetic_j,
-                                   &Outcome::energy_potential_j,
-                                   &Outcome::energy_spring_j,
-                                   &Outcome::energy_friction_j,
-                                   &Outcome::energy_damping_j,
-                                   &Outcome::energy_base_work_j,
-                                   &Outcome::energy_residual,
-                                   &Outcome::end_time_s,
-                                   &Outcome::step_s})
+    column([&](const ResultRow& r) { append(time_in_file(r.outcome.unseating_time_s)); });
+    column([&](const ResultRow& r) { append(time_in_file(r.outcome.total_collapse_time_s)); });
+    for (double Outcome::*field :
+         {&Outcome::peak_top_displacement_m, &Outcome::residual_top_displacement_m, &Outcome::top_path_m,
+          &Outcome::total_sliding_m, &Outcome::sliding_path_m, &Outcome::residual_sliding_m,
+          &Outcome::residual_dislocation, &Outcome::total_rocking_rad, &Outcome::rocking_path_rad,
+          &Outcome::max_relative_rotation_rad, &Outcome::energy_kinetic_j, &Outcome::energy_potential_j,
+          &Outcome::energy_spring_j, &Outcome::energy_friction_j, &Outcome::energy_damping_j,
+          &Outcome::energy_base_work_j, &Outcome::energy_residual, &Outcome::end_time_s, &Outcome::step_s})
         column([&](const ResultRow& r) { append(r.outcome.*field); });
     column([&](const ResultRow& r) { append(r.outcome.steps); });
     column([&](const ResultRow& r) {
         for (const double time : r.outcome.fall_time_s)
-            append(time);
+            append(time_in_file(time));
     });
     column([&](const ResultRow& r) { append(r.inputs[0]); });
     column([&](const ResultRow& r) {

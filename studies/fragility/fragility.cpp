@@ -50,12 +50,15 @@ public:
         out_.motions = header_.motions.names.size();
         out_.structures = study_.realizations;
         for (ResultRow& row : results.rows()) {
+            const Place at = place(row);
+            out_.motion.push_back(static_cast<std::int32_t>(at.motion));
+            out_.intensity.push_back(intensity(at, out_.measure));
             if (row.outcome.state == State::invalid) {
                 ++out_.invalid;
                 continue;
             }
             ++out_.valid;
-            places_.push_back(place(row));
+            places_.push_back(at);
             outcomes_.push_back(std::move(row.outcome));
         }
     }
@@ -334,6 +337,42 @@ Fragility fragility_of(const ResultReader& results, const std::string& file)
     if (results.header().kind != "fragility")
         throw InputError(fmt::format("{}: a result of kind '{}' is no fragility study", file, results.header().kind));
     return Analysis(results, file).run();
+}
+
+FragilityTable fragility_table(const Fragility& f)
+{
+    FragilityTable table;
+    table.measure = f.measure;
+    table.motion = f.motion;
+    table.intensity = f.intensity;
+    table.grid = f.grid;
+    const auto add = [](IntervalArray& to, double value, const Limits& limits) {
+        to.add(value, limits.lower, limits.upper);
+    };
+    const auto none = std::numeric_limits<double>::quiet_NaN();
+    for (const StateFragility& s : f.states) {
+        table.states.push_back(s.state.name);
+        table.meanings.push_back(s.state.describe);
+        table.trials.push_back(static_cast<std::uint64_t>(s.curve.trials));
+        table.reached.push_back(static_cast<std::uint64_t>(s.curve.reached));
+        add(table.median, s.curve.median.value, s.curve.median.records);
+        add(table.dispersion, s.curve.dispersion.value, s.curve.dispersion.records);
+        for (std::size_t i = 0; i < f.grid.size(); ++i)
+            if (i < s.curve.at.size())
+                add(table.curve, s.curve.at[i].probability.value, s.curve.at[i].probability.records);
+            else // the data bore no curve at all
+                add(table.curve, none, {none, none});
+        if (s.stripes && table.stripe.empty())
+            for (const StripeShare& share : s.stripes->stripes)
+                table.stripe.push_back(share.intensity);
+    }
+    for (const StateFragility& s : f.states)
+        for (std::size_t j = 0; j < table.stripe.size(); ++j)
+            if (s.stripes)
+                add(table.share, s.stripes->stripes[j].share, s.stripes->stripes[j].limits);
+            else
+                add(table.share, none, {none, none});
+    return table;
 }
 
 std::string describe_measure(const std::string& name)

@@ -42,7 +42,9 @@ struct Fragility {
     FragilityMethod method = FragilityMethod::stripes;
     std::size_t motions = 0, structures = 0; ///< structures under each motion
     std::uint64_t valid = 0, invalid = 0;
-    std::vector<double> grid; ///< intensities at which curves are given
+    std::vector<std::int32_t> motion; ///< (rows) of each realization
+    std::vector<double> intensity;    ///< (rows) by the measure
+    std::vector<double> grid;         ///< intensities at which curves are given
     std::vector<StateFragility> states;
     std::vector<RankedMeasure> measures; ///< of the collapse, the most efficient first
     std::vector<SequenceShare> sequence; ///< of a study of sequences, by stripes
@@ -51,6 +53,9 @@ struct Fragility {
 
 /// @throws InputError if the results are of another kind of study
 Fragility fragility_of(const ResultReader& results, const std::string& file);
+
+/// What the file keeps of it.
+FragilityTable fragility_table(const Fragility& fragility);
 
 /// "peak ground velocity [m/s]" of "pgv_m_s".
 std::string describe_measure(const std::string& name);

@@ -1,0 +1,14 @@
+#pragma once
+/// /fragility of a results file; for the writer and the reader alone, as `io/hdf5.hpp` is.
+
+#include "io/fragility_table.hpp"
+#include "io/hdf5.hpp"
+
+namespace stylobate {
+
+void write_fragility(hid_t file, const FragilityTable& table);
+
+/// Empty if there is none. @throws hdf5::Error if it is not as it was written
+FragilityTable read_fragility_table(hid_t file);
+
+} // namespace stylobate
