@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -137,9 +138,10 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                                 "linewidth 1.2",
                                 o, b);
         if (script.find(fmt::format("$beyond{} << EOD\nEOD", o)) == std::string::npos)
-            plot += fmt::format(", $beyond{} using 1:2:(0):($3*0.001) with vectors filled head size screen 0.008,25 "
-                                "linecolor rgb '#303030' linewidth 1.2",
-                                o);
+            for (const auto& [sign, triangle] : {std::pair{'>', 9}, {'<', 11}})
+                plot += fmt::format(", $beyond{} using 1:($3 {} 0 ? $2 : NaN) with points pointtype {} pointsize 1.4 "
+                                    "linecolor rgb '#303030'",
+                                    o, sign, triangle);
         script += plot + "\nunset label\n";
     }
     run_gnuplot(script + "unset multiplot\n", PictureSize{}, png);

@@ -347,10 +347,11 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
         for (std::size_t k = 0; k < 3; ++k)
             EXPECT_EQ(std::bit_cast<std::uint64_t>(friction[3 * i + k]),
                       std::bit_cast<std::uint64_t>(row.inputs[1 + k]));
-        EXPECT_EQ(bits({falls.begin() + static_cast<std::ptrdiff_t>(3 * i),
-                        falls.begin() + static_cast<std::ptrdiff_t>(3 * i + 3)}),
-                  bits({time_in_file(row.outcome.fall_time_s[0]), time_in_file(row.outcome.fall_time_s[1]),
-                        time_in_file(row.outcome.fall_time_s[2])}));
+        EXPECT_EQ(
+            bits({falls.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                  falls.begin() + static_cast<std::ptrdiff_t>(3 * i + 3)}),
+            bits(std::vector<double>{time_in_file(row.outcome.fall_time_s[0]), time_in_file(row.outcome.fall_time_s[1]),
+                                     time_in_file(row.outcome.fall_time_s[2])}));
         char name[32] = {};
         H5Tenum_nameof(names, &state[i], name, sizeof name);
         EXPECT_STREQ(name, to_string(row.outcome.state));
