@@ -142,6 +142,9 @@ void LaneSet::store_state(int lane, const Realization& r)
             continue;
         bundle_.at(OfBlock::dt2_per_mass, k, lane) = dt2 / block.mass_kg;
         bundle_.at(OfBlock::dt2_per_inertia, k, lane) = dt2 / block.inertia_kg_m2;
+        const LimitStates& limits = places_[static_cast<std::size_t>(lane)].limits;
+        bundle_.at(OfBlock::least_y, k, lane) = limits.lowest_m(block);
+        bundle_.at(OfBlock::most_turn, k, lane) = limits.turn_limit_rad(i);
         const double e = block.extension.eccentricity_m, theta = rest.theta_rad[i];
         bundle_.at(OfBlock::x, k, lane) = rest.x_m[i] - e * (1 - std::cos(theta));
         bundle_.at(OfBlock::y, k, lane) = rest.y_m[i] + e * std::sin(theta);
@@ -357,8 +360,12 @@ void LaneSet::read_motion(int lane)
 {
     Place& place = places_[static_cast<std::size_t>(lane)];
     place.moved.resize(place.realization.blocks.size());
-    for (int k = topology_.fixed; k < topology_.blocks; ++k)
-        place.moved[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = centre(k, lane);
+    place.inside.resize(place.realization.blocks.size(), -1);
+    for (int k = topology_.fixed; k < topology_.blocks; ++k) {
+        const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
+        place.moved[i] = centre(k, lane);
+        place.inside[i] = static_cast<int>(bundle_.at(OfBlock::inside, k, lane));
+    }
 }
 
 /// Not finite? fallen? energy out of balance? at rest, or out of time?
@@ -373,7 +380,7 @@ void LaneSet::look(int lane)
     if (!is_finite(topology_, bundle_, lane))
         return end(lane, State::invalid, InvalidReason::not_finite);
 
-    place.limits.look(place.realization, w.steps, place.moved);
+    place.limits.look(place.realization, w.steps, place.moved, place.inside);
     w.undecided = place.limits.undecided();
     w.seated = !place.limits.unseated();
     if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)

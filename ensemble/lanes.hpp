@@ -109,6 +109,7 @@ private:
         Watch watch;
         LimitStates limits;
         std::vector<BlockMotion> moved;     ///< (blocks) at the last look
+        std::vector<int> inside;            ///< (blocks) `OfBlock::inside` of its chunk
         std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
         double start_top_x_m = 0;
     };
@@ -126,7 +127,7 @@ private:
     void fill_extension(int lane);
     /// Displacement of a (kernel's) block's geometric centre.
     BlockMotion centre(int k, int lane) const;
-    /// Where the blocks are, into `Place::moved`.
+    /// Where the blocks are, and when they were inside their limits last: into `Place::moved` and `Place::inside`.
     void read_motion(int lane);
     void end(int lane, State state, InvalidReason reason);
 

@@ -1,5 +1,7 @@
 #include "ensemble/limit_states.hpp"
 
+#include "kernels/bundle.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,20 +16,28 @@ double face_offset(const Block& lower, const BlockMotion& l, const Block& upper,
 
 LimitStates::LimitStates(const Realization& r, const OutcomeSpec& outcome, double base_top_m, std::uint64_t fall_steps)
     : height_fraction_(outcome.collapse_height_fraction), base_top_m_(base_top_m), fall_steps_(fall_steps),
-      turned_since_(r.blocks.size(), never), fallen_since_(r.blocks.size(), never)
+      seen_since_(r.blocks.size(), never), turned_since_(r.blocks.size(), never), fallen_since_(r.blocks.size(), never)
 {
     for (const Block& block : r.blocks)
         turn_limit_rad_.push_back(std::atan(block.half_width_m / block.half_height_m));
+}
+
+void LimitStates::unseat(std::size_t block, std::uint64_t look)
+{
+    const int epistyle = static_cast<int>(block);
+    if (look < unseated_since_)
+        unseated_block_ = epistyle;
+    else if (look == unseated_since_ && unseated_block_ != epistyle)
+        unseated_block_ = several_blocks;
+    unseated_since_ = std::min(unseated_since_, look);
 }
 
 void LimitStates::fall(const Realization& r, std::size_t block, std::uint64_t since)
 {
     fallen_since_[block] = since;
     ++fallen_blocks_;
-    if (r.blocks[block].role == BlockRole::epistyle && since < unseated_since_) {
-        unseated_since_ = since;
-        unseated_block_ = static_cast<int>(block);
-    }
+    if (r.blocks[block].role == BlockRole::epistyle)
+        unseat(block, seen_since_[block]);
     // total when every column and every epistyle has fallen: at the latest of their first falls
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {
@@ -44,7 +54,8 @@ void LimitStates::fall(const Realization& r, std::size_t block, std::uint64_t si
     total_since_ = total;
 }
 
-void LimitStates::look(const Realization& r, std::uint64_t steps, const std::vector<BlockMotion>& moved)
+void LimitStates::look(const Realization& r, std::uint64_t steps, const std::vector<BlockMotion>& moved,
+                       const std::vector<int>& inside)
 {
     undecided_ = false;
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {
@@ -54,26 +65,29 @@ void LimitStates::look(const Realization& r, std::uint64_t steps, const std::vec
         const bool low = rest + moved[i].y_m < height_fraction_ * rest;
         const bool turned = std::fabs(moved[i].theta_rad) > turn_limit_rad_[i];
         if (!low && !turned) {
-            turned_since_[i] = never;
+            seen_since_[i] = turned_since_[i] = never;
             continue;
         }
-        turned_since_[i] = std::min(turned_since_[i], steps);
-        if (low || steps - turned_since_[i] >= fall_steps_)
+        if (seen_since_[i] == never) {
+            seen_since_[i] = steps;
+            // (by the rounding of a limit the steps may still have it inside: then it is the last one)
+            const int left = std::min(inside[i] + 1, chunk_steps - 1);
+            turned_since_[i] = steps - static_cast<std::uint64_t>(chunk_steps - 1 - left);
+        }
+        if (low || steps - seen_since_[i] >= fall_steps_)
             fall(r, i, turned_since_[i]);
         else
             undecided_ = true;
     }
-    for (int j = 0; j < r.beds() && unseated_since_ == never; ++j) {
+    for (int j = 0; j < r.beds() && unseated_since_ >= steps; ++j) {
         const Joint& joint = r.joints[static_cast<std::size_t>(j)];
         const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
         if (r.blocks[u].role != BlockRole::epistyle)
             continue;
         const double turn = moved[u].theta_rad - moved[l].theta_rad;
         const double reach = r.blocks[l].half_width_m + r.blocks[u].half_width_m * std::fabs(std::cos(turn));
-        if (std::fabs(face_offset(r.blocks[l], moved[l], r.blocks[u], moved[u])) > reach) {
-            unseated_since_ = steps;
-            unseated_block_ = joint.upper;
-        }
+        if (std::fabs(face_offset(r.blocks[l], moved[l], r.blocks[u], moved[u])) > reach)
+            unseat(u, steps);
     }
 }
 
@@ -96,6 +110,8 @@ void LimitStates::write(const Realization& r, Outcome& o) const
         if (fallen_since_[i] < first) {
             first = fallen_since_[i];
             o.first_collapse_block = static_cast<std::int32_t>(i);
+        } else if (first != never && fallen_since_[i] == first) {
+            o.first_collapse_block = several_blocks;
         }
     }
     o.collapse_time_s = time(first);

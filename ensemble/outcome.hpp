@@ -9,6 +9,10 @@ namespace stylobate {
 enum class State : std::uint8_t { stood = 0, rocked = 1, slid = 2, collapsed = 3, invalid = 4 };
 enum class InvalidReason : std::uint8_t { none = 0, not_finite = 1, energy = 2 };
 
+/// `Outcome::first_collapse_block` where several blocks met the collapse criterion at the same step: they fell
+/// together.
+inline constexpr std::int32_t several_blocks = -2;
+
 const char* to_string(State state);
 const char* to_string(InvalidReason reason);
 
@@ -16,10 +20,10 @@ struct Outcome {
     State state = State::stood;
     InvalidReason invalid_reason = InvalidReason::none;
     double collapse_time_s = -1;            ///< first time of the collapse; -1 = none
-    std::int32_t first_collapse_block = -1; ///< block that met the collapse criterion first; -1 = none
+    std::int32_t first_collapse_block = -1; ///< that met the collapse criterion first; -1 = none; `several_blocks`
     std::int32_t fallen_blocks = 0;         ///< how many have met it by the end
-    std::int32_t unseated_block = -1;       ///< epistyle that lost a seat first; -1 = none
-    double unseating_time_s = -1;           ///< when; -1 = never
+    std::int32_t unseated_block = -1;       ///< epistyle that lost a seat first; -1 = none; `several_blocks`
+    double unseating_time_s = -1;           ///< when, as a look found it (every `chunk_steps` steps); -1 = never
     double total_collapse_time_s = -1;      ///< when every column and every epistyle had fallen; -1 = not so
     double peak_top_displacement_m = 0; ///< largest |x| of the top block's centre from its place in the reference stack
     double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, from its rest at the start
@@ -41,7 +45,8 @@ struct Outcome {
     double end_time_s = 0;                  ///< simulated time
     double step_s = 0;                      ///< time step
     std::uint64_t steps = 0;
-    std::vector<double> fall_time_s; ///< (blocks but the ground) when each met the collapse criterion; -1 = never
+    std::vector<double> fall_time_s; ///< (blocks but the ground) when each met the collapse criterion, exact to a step;
+                                     ///< -1 = never. Equal times: together
 };
 
 } // namespace stylobate

@@ -82,6 +82,9 @@ void SingleBundle::give(bool whole_chunk) const
             for (int lane = 0; lane < lanes; ++lane)
                 to[lane] = static_cast<double>(value[lane]) + rest[lane];
         }
+    for (int block = topology_.fixed; block < topology_.blocks; ++block)
+        for (int lane = 0; lane < lanes; ++lane)
+            host_.at(OfBlock::inside, block, lane) = own_.at(OfBlock::inside, block, lane);
     for (int joint = 0; joint < topology_.joints; ++joint)
         for (const auto field : joint_fields) {
             const float* const value = &own_.at(field, joint, 0);

@@ -218,6 +218,7 @@ std::string counts_text(const ResultHeader& header, const Tally& tally)
             line << name;
         for (std::size_t i = 0; i < tally.blocks; ++i)
             line << fmt::format("first_fallen[{}]", i);
+        line << "first_together";
     }
     for (std::size_t cell = 0; cell < tally.cells(); ++cell) {
         Line line(text);
@@ -227,6 +228,7 @@ std::string counts_text(const ResultHeader& header, const Tally& tally)
             line << tally.reached[cell * tally.limit_states + i];
         for (std::size_t i = 0; i < tally.blocks; ++i)
             line << tally.first[cell * tally.blocks + i];
+        line << tally.first_together[cell];
     }
     return text;
 }

@@ -22,7 +22,7 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
 
 /// The same of a result that keeps no rows: `counts.csv` instead of `realizations.csv`, one line per cell: its trials,
 /// its invalid realizations, how many reached each limit state, and how often each block fell first
-/// ("first_fallen[i]").
+/// ("first_fallen[i]"), or several at the same step ("first_together").
 void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
                       const SurfaceTable& surface);
 

@@ -25,6 +25,7 @@ struct FallOrder {
     std::vector<Place> places; ///< of the blocks; empty: not known
     std::uint64_t trials = 0;  ///< valid realizations
     double end_time_s = 0;     ///< of the longest of them
+    std::uint64_t together = 0; ///< realizations in which several blocks fell first, at the same step
     std::string interval;      ///< name of the interval and its level, for example "jeffreys 0.95"
 };
 

@@ -496,7 +496,9 @@ std::string falls_script(const Panel& panel, const Page& page, const Trajectory&
     const bool late = first - t.time_s.front() > 0.5 * (last_s - t.time_s.front());
     script +=
         fmt::format("set label {} at first {}, graph {} right font ',19' textcolor rgb '#c0271b' front offset -1,0\n",
-                    gnuplot_text(fmt::format("first: {}, {:.2f} s", t.name[falls.front()], first)),
+                    gnuplot_text(falls.size() > 1 && fall_time_s[falls[1]] == first
+                                     ? fmt::format("first: several together, {:.2f} s", first)
+                                     : fmt::format("first: {}, {:.2f} s", t.name[falls.front()], first)),
                     late ? first : last_s, late ? 0.72 : 0.2);
     script += "plot $count with steps linecolor rgb '#c0271b' linewidth 1, $each with points pointtype 7 pointsize 1.0 "
               "linecolor rgb '#c0271b'\n";

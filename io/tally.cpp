@@ -10,7 +10,7 @@ namespace stylobate {
 
 Tally::Tally(std::size_t cells, std::size_t number_of_limit_states, std::size_t number_of_blocks)
     : limit_states(number_of_limit_states), blocks(number_of_blocks), trials(cells), invalid(cells),
-      reached(cells * limit_states), first(cells * blocks)
+      reached(cells * limit_states), first(cells * blocks), first_together(cells)
 {
 }
 
@@ -48,6 +48,7 @@ void Tally::add(const TallyEntry& entry)
         reached[entry.cell * limit_states + limit] += (entry.reached >> limit) & 1;
     if (entry.first_block >= 0)
         ++first[entry.cell * blocks + static_cast<std::size_t>(entry.first_block)];
+    first_together[entry.cell] += entry.first_block == several_blocks;
     if (entry.collapse_time_s >= 0)
         collapse_time_s.add(entry.collapse_time_s);
     if (entry.total_collapse_time_s >= 0)

@@ -16,7 +16,7 @@ struct TallyEntry {
     std::uint64_t cell = 0;
     InvalidReason invalid = InvalidReason::none; ///< else it is no trial, and nothing below counts
     std::uint32_t reached = 0;                   ///< bit k: limit state k of `ResultHeader::limit_states`
-    std::int32_t first_block = -1;               ///< that fell first; -1: none
+    std::int32_t first_block = -1;               ///< as `Outcome::first_collapse_block`
     double collapse_time_s = -1;                 ///< -1: none
     double total_collapse_time_s = -1;           ///< -1: none
     double energy_residual = 0;
@@ -35,7 +35,8 @@ struct Tally {
     std::vector<std::uint64_t> trials;                    ///< (cells) valid realizations
     std::vector<std::uint64_t> invalid;                   ///< (cells)
     std::vector<std::uint64_t> reached;                   ///< (cells x limit states) of the valid ones
-    std::vector<std::uint64_t> first;                     ///< (cells x blocks) how often each fell first
+    std::vector<std::uint64_t> first;                     ///< (cells x blocks) how often each fell before all others
+    std::vector<std::uint64_t> first_together;            ///< (cells) how often several fell first, at the same step
     TimeCounts collapse_time_s, total_collapse_time_s;    ///< over all cells
     std::map<std::uint64_t, InvalidReason> first_invalid; ///< by index
     double energy_residual = 0;                           ///< of the valid ones that of the greatest magnitude,

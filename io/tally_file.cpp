@@ -101,6 +101,7 @@ void write_tally(hid_t file, const ResultHeader& header, const TallyFile& counte
     hdf5::write_array(file, in_tally("invalid"), tally.invalid, cells, "");
     hdf5::write_array(file, in_tally("reached"), tally.reached, by(tally.limit_states), "");
     hdf5::write_array(file, in_tally("first_fallen"), tally.first, by(tally.blocks), "");
+    hdf5::write_array(file, in_tally("first_together"), tally.first_together, cells, "");
     write_times(file, "collapse_time", tally.collapse_time_s);
     write_times(file, "total_collapse_time", tally.total_collapse_time_s);
 
@@ -136,6 +137,7 @@ TallyFile read_tally(hid_t file, const ResultHeader& header)
     tally.invalid = hdf5::read_counts(file, in_tally("invalid"), cells);
     tally.reached = hdf5::read_counts(file, in_tally("reached"), by(tally.limit_states));
     tally.first = hdf5::read_counts(file, in_tally("first_fallen"), by(tally.blocks));
+    tally.first_together = hdf5::read_counts(file, in_tally("first_together"), cells);
     tally.collapse_time_s = read_times(file, "collapse_time", header.total);
     tally.total_collapse_time_s = read_times(file, "total_collapse_time", header.total);
 

@@ -34,6 +34,9 @@ struct OfBlock {
         inertia,         ///< [kg m2]
         dt2_per_mass,    ///< dt2 / m [s2/kg]
         dt2_per_inertia, ///< dt2 / I [s2/(kg m2)]
+        least_y,         ///< of its geometric centre: lower, it may have fallen [m]
+        most_turn,       ///< |theta| beyond which it may have [rad]
+        inside,          ///< last step of the chunk after which it was within both; -1: none. step
         count
     };
 };

@@ -46,8 +46,11 @@ public:
         Scratch scratch[joint_group];
         const int beds = topology_.beds();
         [[maybe_unused]] int close = -1;
-        for (int i = topology_.fixed; i < topology_.blocks; ++i)
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             turn(i, get(OfBlock::theta, i));
+            if (first == 0)
+                put(OfBlock::inside, i, Real(-1.0));
+        }
         for (int step = first; step < last; ++step) {
             const bool audit = step + 1 == last;
             if constexpr (others)
@@ -507,6 +510,7 @@ private:
             else
                 return 0;
         }();
+        const Real now(static_cast<NumberOf<Real>>(step));
         Real kinetic(0.0), potential(0.0), momentum(0.0);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             const Planar<Real> force = sum(i);
@@ -542,6 +546,8 @@ private:
             const Real theta = add(OfRemainder::theta, i, get(OfBlock::theta, i), e.theta);
             put(OfBlock::theta, i, theta);
             turn(i, theta);
+            const auto out = (abs_of(theta) > get(OfBlock::most_turn, i)) | (centre_y(i) < get(OfBlock::least_y, i));
+            put(OfBlock::inside, i, select(out, get(OfBlock::inside, i), now));
         }
         const Real both = get(OfRealization::base_step) + base;
         Real base_energy = fnma(both, momentum, get(OfRealization::base_energy));

@@ -54,7 +54,7 @@ bool reached(LimitState limit, const Outcome& outcome)
     case LimitState::total:
         return outcome.total_collapse_time_s >= 0;
     case LimitState::unseated:
-        return outcome.unseated_block >= 0;
+        return outcome.unseating_time_s >= 0;
     case LimitState::rocked:
         return outcome.state == State::rocked;
     case LimitState::slid:
@@ -111,6 +111,10 @@ void LimitCounts::add(const ResultRow& row)
             count(reached_, m.reached, limit);
     if (fell && o.first_collapse_block >= 0 && static_cast<std::size_t>(o.first_collapse_block) < first_.size())
         count(first_, m.first, static_cast<std::size_t>(o.first_collapse_block));
+    if (fell && o.first_collapse_block == several_blocks) {
+        ++first_together_;
+        ++m.first_together;
+    }
     for (std::size_t i = 0; i < std::min(fallen_.size(), o.fall_time_s.size()); ++i)
         if (o.fall_time_s[i] >= 0)
             count(fallen_, m.fallen, i);
@@ -126,6 +130,8 @@ LimitCounts::LimitCounts(const Tally& tally)
         reached_[limit] = tally.all_reached(limit);
     for (std::size_t i = 0; i < tally.first.size(); ++i)
         first_[i % tally.blocks] += tally.first[i];
+    for (const std::uint64_t together : tally.first_together)
+        first_together_ += together;
 }
 
 Share LimitCounts::share(std::uint64_t count, const std::function<std::uint64_t(const OfMotion&)>& of_motion) const
@@ -153,6 +159,11 @@ Share LimitCounts::share_first(std::size_t block) const
     return share(first_[block], [block](const OfMotion& m) { return m.first[block]; });
 }
 
+Share LimitCounts::share_first_together() const
+{
+    return share(first_together_, [](const OfMotion& m) { return m.first_together; });
+}
+
 Share LimitCounts::share_fallen(std::size_t block) const
 {
     return share(fallen_[block], [block](const OfMotion& m) { return m.fallen[block]; });
@@ -162,7 +173,7 @@ LimitCounts::OfMotion& LimitCounts::of_motion(std::size_t motion)
 {
     while (motions_.size() <= motion)
         motions_.push_back({0, std::vector<std::uint64_t>(reached_.size()), std::vector<std::uint64_t>(first_.size()),
-                            std::vector<std::uint64_t>(fallen_.size())});
+                            std::vector<std::uint64_t>(fallen_.size()), 0});
     return motions_[motion];
 }
 
@@ -204,6 +215,7 @@ FallOrder fall_order(const std::vector<std::string>& names, const std::vector<Re
                 order.blocks[i].fall_time_s.push_back(row.outcome.fall_time_s[i]);
     }
     order.trials = counts.trials();
+    order.together = counts.first_together();
     for (std::size_t i = 0; i < names.size(); ++i) {
         FallOrder::Block& block = order.blocks[i];
         std::sort(block.fall_time_s.begin(), block.fall_time_s.end());

@@ -62,14 +62,18 @@ public:
     void add(const ResultRow& row);
 
     Share share(LimitState limit) const;
-    /// That a block was the first to fall.
+    /// That a block was the first to fall, by itself.
     Share share_first(std::size_t block) const;
+    /// That several were, at the same step.
+    Share share_first_together() const;
     /// That a block fell at all, of rows.
     Share share_fallen(std::size_t block) const;
     /// Name of the intervals of these shares: "jeffreys 0.95", or "motions 0.95".
     std::string interval() const;
     /// How often each block fell before all others. (blocks)
     const std::vector<std::uint64_t>& first() const { return first_; }
+    /// How often several blocks fell before all others, at the same step.
+    std::uint64_t first_together() const { return first_together_; }
     std::uint64_t trials() const { return trials_; }
     /// Median over the realizations that collapsed [s]; NaN if there is none. (As exact as `TimeCounts`.)
     double median_collapse_time_s() const;
@@ -81,6 +85,7 @@ private:
     struct OfMotion {
         std::uint64_t trials = 0;
         std::vector<std::uint64_t> reached, first, fallen;
+        std::uint64_t first_together = 0;
     };
     OfMotion& of_motion(std::size_t motion);
     Share share(std::uint64_t count, const std::function<std::uint64_t(const OfMotion&)>& of_motion) const;
@@ -90,6 +95,7 @@ private:
     std::uint64_t trials_ = 0;
     std::vector<std::uint64_t> reached_ = std::vector<std::uint64_t>(limit_state_names().size());
     std::vector<std::uint64_t> first_, fallen_;
+    std::uint64_t first_together_ = 0;
     TimeCounts collapse_time_s_, total_collapse_time_s_;
 };
 

@@ -45,6 +45,23 @@ Json falls_json(const std::vector<std::size_t>& sequence, const std::vector<std:
     return list;
 }
 
+/// "A 1.2000 s, B and C together 1.3000 s".
+std::string falls_text(const std::vector<std::size_t>& sequence, const std::vector<std::string>& names,
+                       const std::vector<double>& fall_time_s)
+{
+    std::string text;
+    for (std::size_t k = 0; k < sequence.size();) {
+        const double time_s = fall_time_s[sequence[k]];
+        text += (k > 0 ? ", " : "") + names[sequence[k]];
+        std::size_t end = k + 1;
+        for (; end < sequence.size() && fall_time_s[sequence[end]] == time_s; ++end)
+            text += " and " + names[sequence[end]];
+        text += fmt::format("{} {:.4f} s", end > k + 1 ? " together" : "", time_s);
+        k = end;
+    }
+    return text;
+}
+
 /// When all had collapsed, -1 if never. NaN where that is not known: of a run that ended at its first fall, unless
 /// nothing else was there to fall.
 double total_collapse_s(const Study& study, const FollowedRealization& f)
@@ -140,9 +157,13 @@ int replay_command(const CommonOptions& options, const std::string& results, con
         fmt::print("realization {} at {:.4g} Hz, {:.4g} m/s2: {}", index, row.frequency_hz, row.pga_m_s2,
                    to_string(o.state));
         if (o.state == State::collapsed)
-            fmt::print(" at {:.4f} s, {} first", o.collapse_time_s, name(o.first_collapse_block));
-        if (o.unseated_block >= 0)
-            fmt::print("; {} unseated at {:.4f} s", name(o.unseated_block), o.unseating_time_s);
+            fmt::print(" at {:.4f} s, {} first", o.collapse_time_s,
+                       o.first_collapse_block == several_blocks ? "several blocks together"
+                                                                : name(o.first_collapse_block));
+        if (o.unseating_time_s >= 0)
+            fmt::print("; {} unseated at {:.4f} s",
+                       o.unseated_block == several_blocks ? "several epistyles" : name(o.unseated_block),
+                       o.unseating_time_s);
         if (o.state == State::invalid)
             fmt::print(" ({})", to_string(o.invalid_reason));
         if (!chosen.words.empty())
@@ -151,11 +172,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
                    "rocking {:.4g} rad\n",
                    o.peak_top_displacement_m, o.residual_top_displacement_m, o.total_sliding_m, o.total_rocking_rad);
         if (falls.size() > 1) {
-            std::string list;
-            for (const std::size_t block : falls)
-                list += fmt::format("{}{} {:.4f} s", list.empty() ? "" : ", ", names[block],
-                                    row.outcome.fall_time_s[block]);
-            fmt::print("  {} of {} blocks fell: {}\n", falls.size(), names.size(), list);
+            fmt::print("  {} of {} blocks fell: {}\n", falls.size(), names.size(),
+                       falls_text(falls, names, row.outcome.fall_time_s));
         }
         if (total_s >= 0)
             fmt::print("  total collapse at {:.4f} s: every column and every epistyle has fallen\n", total_s);

@@ -358,6 +358,7 @@ private:
                                   number(quantile(block.fall_time_s, 0.5)), fmt::format("{}", block.first)});
         }
         page_.table(table);
+        together();
         if (study_.outcome.follow != Follow::rest)
             page_.note("Each realization was followed until its first fall only.");
     }
@@ -372,10 +373,19 @@ private:
                 table.rows.push_back({header_.block_names[i], fmt::format("{} of {}", share.count, share.trials),
                                       percent(share.probability), interval_text(share)});
             }
-        if (table.rows.empty())
+        if (table.rows.empty() && counts_.first_together() == 0)
             return;
         page_.section("First to fall");
         page_.table(table);
+        together();
+    }
+
+    void together()
+    {
+        if (counts_.first_together() > 0)
+            page_.note(fmt::format("In {} realizations several blocks fell first, at the same time step: together. "
+                                   "There none of them counts as the first.",
+                                   counts_.first_together()));
     }
 
     void motions()

@@ -184,8 +184,10 @@ void order_picture(const ResultReader& reader, const std::string& results, long 
     FallOrder falls = fall_order(header.block_names, rows, cells_of_motion(study));
     for (const PlacedBlock& block : lay_out(study.structure).blocks)
         falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
-    const std::string note =
+    std::string note =
         followed_to_rest(reader, results) ? "" : "each realization was followed until its first fall only";
+    if (falls.together > 0)
+        note += fmt::format("{}in {} several fell first, together", note.empty() ? "" : " · ", falls.together);
     plot_order(falls, given_title.empty() ? title : given_title, note, file);
 }
 

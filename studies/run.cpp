@@ -165,7 +165,9 @@ Json limits_json(const LimitCounts& counts, const std::vector<std::string>& name
     for (std::size_t i = 0; i < limit_state_names().size(); ++i)
         if (const auto limit = static_cast<LimitState>(i); limit != LimitState::total || to_rest)
             json.member(limit_state_names()[i], share_json(counts.share(limit)));
-    json.member("first_fallen", first).member("median_collapse_time_s", counts.median_collapse_time_s());
+    json.member("first_fallen", first)
+        .member("first_fallen_together", share_json(counts.share_first_together()))
+        .member("median_collapse_time_s", counts.median_collapse_time_s());
     if (to_rest)
         json.member("median_total_collapse_time_s", counts.median_total_collapse_time_s());
     return json;
@@ -193,6 +195,9 @@ void print_limits(const LimitCounts& counts, const std::vector<std::string>& nam
         list += fmt::format("{}{}: {}", k > 0 ? ", " : "", names[first[k]], share_text(counts.share_first(first[k])));
     if (first.size() > most)
         list += fmt::format(" and {} others", first.size() - most);
+    if (counts.first_together() > 0)
+        list += fmt::format("{}several at the same step: {}", list.empty() ? "" : "; ",
+                            share_text(counts.share_first_together()));
     if (!list.empty())
         fmt::print("  first to fall: {}\n", list);
 }

@@ -26,9 +26,11 @@ ResultRow row_of(State state, const std::vector<double>& fall_time_s)
         if (time < 0)
             continue;
         ++o.fallen_blocks;
-        if (o.first_collapse_block < 0 || time < o.collapse_time_s) {
+        if (o.first_collapse_block == -1 || time < o.collapse_time_s) {
             o.first_collapse_block = static_cast<std::int32_t>(i);
             o.collapse_time_s = time;
+        } else if (time == o.collapse_time_s) {
+            o.first_collapse_block = several_blocks;
         }
     }
     return row;
@@ -77,6 +79,30 @@ TEST(LimitState, CountsByHand)
     EXPECT_EQ(counts.median_total_collapse_time_s(), 9);
     counts.add(row_of(State::collapsed, {-1, 4.75, -1, -1, -1}));
     EXPECT_EQ(counts.median_collapse_time_s(), 4.75); // of 2, 4, 4.75, 5, 6
+}
+
+/// Blocks that fell first at the same step did so together: none of them is the first, whatever its number.
+TEST(LimitState, NoBlockIsTheFirstOfATie)
+{
+    LimitCounts counts(5);
+    Tally tally(1, limit_state_names().size(), 5);
+    std::vector<ResultRow> rows = {
+        row_of(State::collapsed, {2, -1, 2, -1, 3}), row_of(State::collapsed, {4, -1, 2, -1, 3}),
+        row_of(State::collapsed, {1, 1, 1, 1, 1}), row_of(State::stood, {-1, -1, -1, -1, -1})};
+    for (const ResultRow& row : rows) {
+        counts.add(row);
+        tally.add(tally_entry(row));
+    }
+    for (const LimitCounts& all : {counts, LimitCounts(tally)}) {
+        EXPECT_EQ(all.first(), (std::vector<std::uint64_t>{0, 0, 1, 0, 0}));
+        EXPECT_EQ(all.first_together(), 2U);
+        EXPECT_EQ(all.share_first_together().probability, 0.5);
+        EXPECT_EQ(all.share_first_together().lower, share_of(4, 2).lower);
+    }
+    const FallOrder order = fall_order(five_blocks, rows);
+    EXPECT_EQ(order.together, 2U);
+    EXPECT_EQ(order.blocks[2].first, 1U);
+    EXPECT_EQ(order.blocks[0].first, 0U);
 }
 
 TEST(LimitState, IntervalsAreJeffreys)
@@ -179,7 +205,8 @@ TEST_F(Falls, RunTellsLimitStates)
     for (const ResultRow& row : reader.rows())
         if (row.outcome.state == State::collapsed) {
             ++collapsed;
-            ++first.at(static_cast<std::size_t>(row.outcome.first_collapse_block));
+            if (row.outcome.first_collapse_block != several_blocks)
+                ++first.at(static_cast<std::size_t>(row.outcome.first_collapse_block));
             times.push_back(row.outcome.collapse_time_s);
         }
     ASSERT_GT(collapsed, 0U) << "the study is not what it should be";
@@ -284,7 +311,7 @@ TEST_F(Falls, ReplayNamesItsBlocks)
     const ResultReader reader(folder / "a.h5");
     const std::vector<ResultRow> rows = reader.rows();
     const auto collapsed = std::find_if(rows.begin(), rows.end(),
-                                        [](const ResultRow& row) { return row.outcome.state == State::collapsed; });
+                                        [](const ResultRow& row) { return row.outcome.first_collapse_block >= 0; });
     ASSERT_NE(collapsed, rows.end());
     const std::string index = std::to_string(collapsed->index);
     const Ended ended = run({"replay", "a.h5", "--realization", index, "-o", "one.h5"});

@@ -302,7 +302,8 @@ TEST_F(Verbs, ReplayKeepsATrajectory)
             // the block that fell first has lost its height or turned past its corner, or is within a millisecond of it
             EXPECT_NEAR(residual, o.residual_top_displacement_m, 5e-3);
             EXPECT_LE(o.collapse_time_s, o.end_time_s);
-            const auto block = static_cast<std::size_t>(o.first_collapse_block);
+            const auto block = static_cast<std::size_t>(
+                std::find(o.fall_time_s.begin(), o.fall_time_s.end(), o.collapse_time_s) - o.fall_time_s.begin());
             const std::size_t last = (nt - 1) * nb + block;
             const double corner = std::atan(t.half_width_m[block] / t.half_height_m[block]);
             const double face = t.y_m[0] + t.half_height_m[0]; // of the fixed drum: heights count from there

@@ -134,7 +134,7 @@ Observation observe(const Study& study, const Realization& realization, const Mo
     seen.collapsed = o.state == State::collapsed;
     seen.rocked = seen.collapsed || o.max_relative_rotation_rad > study.outcome.rocking_threshold_rad;
     seen.slid = o.total_sliding_m > study.outcome.sliding_threshold * scales_of(realization).width_m;
-    seen.unseated = o.unseated_block >= 0;
+    seen.unseated = o.unseating_time_s >= 0;
     seen.cycles_to_collapse =
         seen.collapsed
             ? (o.collapse_time_s - strong_start_s(study.excitation, realization, record)) * realization.frequency_hz

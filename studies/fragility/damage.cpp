@@ -39,7 +39,7 @@ bool reached(const DamageState& state, const Outcome& outcome, double base_width
     case DamageState::Kind::residual:
         return collapsed || outcome.residual_dislocation > state.limit;
     case DamageState::Kind::unseated:
-        return collapsed || outcome.unseated_block >= 0;
+        return collapsed || outcome.unseating_time_s >= 0;
     case DamageState::Kind::collapse:
         return collapsed && outcome.collapse_time_s <= until_s;
     case DamageState::Kind::total:
