@@ -28,8 +28,9 @@ double face_offset(const Block& lower, const BlockMotion& lower_moved, const Blo
 /// has is decided look by look; its time is the beginning of that, exact to a step: the first step after which the
 /// block was outside and stayed so until the look (the steps note when it was inside last, `OfBlock::inside`). Blocks
 /// that fell at the same step fell together. An epistyle has lost a seat when its bottom face no longer reaches over
-/// the top face of a block on which it lay (or when it has fallen); its time is that of the look that found it. A column has fallen when one of its drums has; the
-/// collapse is total when every column that has a free drum and every epistyle have fallen.
+/// the top face of a block on which it lay (or when it has fallen); its time is that of the look that found it. A
+/// column has fallen when one of its drums has; the collapse is total when every column that has a free drum and every
+/// epistyle have fallen.
 class LimitStates {
 public:
     LimitStates() = default;

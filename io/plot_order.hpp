@@ -21,12 +21,12 @@ struct FallOrder {
     struct Place {
         double left = 0, right = 0, bottom = 0, top = 0;
     };
-    std::vector<Block> blocks; ///< in layout order
-    std::vector<Place> places; ///< of the blocks; empty: not known
-    std::uint64_t trials = 0;  ///< valid realizations
-    double end_time_s = 0;     ///< of the longest of them
+    std::vector<Block> blocks;  ///< in layout order
+    std::vector<Place> places;  ///< of the blocks; empty: not known
+    std::uint64_t trials = 0;   ///< valid realizations
+    double end_time_s = 0;      ///< of the longest of them
     std::uint64_t together = 0; ///< realizations in which several blocks fell first, at the same step
-    std::string interval;      ///< name of the interval and its level, for example "jeffreys 0.95"
+    std::string interval;       ///< name of the interval and its level, for example "jeffreys 0.95"
 };
 
 /// Draws, for every block that fell in any realization, the share of the realizations in which it had fallen by then,

@@ -67,7 +67,7 @@ TEST_F(Counted, TheSameTablesAsWithRows)
     ASSERT_EQ(table.size(), 17U);
     std::uint64_t first_falls = 0;
     for (std::size_t cell = 0; cell < 16; ++cell) {
-        std::vector<std::uint64_t> want(2 + limit_state_names().size() + 4);
+        std::vector<std::uint64_t> want(2 + limit_state_names().size() + 5); // four blocks, and several
         for (const ResultRow& row : reader.rows()) {
             if (row.cell != cell)
                 continue;
