@@ -1,5 +1,9 @@
 #include "ensemble/nominal.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace stylobate {
 namespace {
 
@@ -55,6 +59,19 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
         return {study.excitation.gamma};
     }
     return {0};
+}
+
+double nominal_tail_s(const StructureSpec& structure)
+{
+    double top = -std::numeric_limits<double>::infinity(), bottom = -top, half_width = 0;
+    for (const PlacedBlock& block : lay_out(structure).blocks) {
+        if (block.fixed || block.role != BlockRole::drum)
+            continue;
+        top = std::max(top, block.top());
+        bottom = std::min(bottom, block.bottom());
+        half_width = std::max(half_width, block.width_m / 2);
+    }
+    return 12 / std::sqrt(0.75 * structure.gravity_m_s2 / std::hypot(half_width, 0.5 * (top - bottom)));
 }
 
 } // namespace stylobate

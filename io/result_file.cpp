@@ -33,6 +33,8 @@ ResultHeader read_header(hid_t file)
     header.total = hdf5::read_number(file, "realizations");
     header.first = hdf5::read_number(file, "first_realization");
     header.selected = hdf5::has_attribute(file, names::selected);
+    if (hdf5::has_attribute(file, names::warnings))
+        header.warnings = split_names(hdf5::read_text(file, names::warnings));
     const bool counted = hdf5::exists(file, names::tally);
     const hdf5::Handle input = hdf5::open_group(file, counted ? names::tally : names::input);
     std::istringstream order(hdf5::read_text(input.id(), names::input_order));
@@ -121,6 +123,8 @@ void write_header(hid_t file, const ResultHeader& header, bool complete)
     hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
     if (header.selected)
         hdf5::write_number(file, names::selected, H5T_STD_U8LE, 1);
+    if (!header.warnings.empty())
+        hdf5::write_text(file, names::warnings, joined_names(header.warnings));
     hdf5::write_number(file, "complete", H5T_STD_U8LE, complete);
     if (!header.frequency_hz.empty()) {
         hdf5::create_group(file, names::surface);

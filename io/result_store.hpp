@@ -47,6 +47,7 @@ struct ResultHeader {
     std::vector<double> frequency_hz;      ///< surface axis (nf), empty for other kinds
     std::vector<double> pga_m_s2;          ///< surface axis (np)
     MotionTable motions;                   ///< of a fragility study, else empty
+    std::vector<std::string> warnings;     ///< what is doubtful about the study, a sentence or several in each
     std::vector<std::string> limit_states; ///< that are counted where no rows are kept (`TallyWriter`), else empty
     /// Whether there is a row of each realization.
     bool has_rows() const { return limit_states.empty(); }

@@ -223,7 +223,9 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
         e.run = keys.text_or_empty("run");
         break;
     }
-    e.tail_s = keys.maybe_number("tail_s", tail_range);
+    if (const TomlValue* tail = keys.find("tail_s");
+        tail == nullptr || tail->type != TomlValue::Type::string || tail->text != tail_of_structure)
+        e.tail_s = keys.maybe_number("tail_s", tail_range);
     return e;
 }
 

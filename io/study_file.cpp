@@ -1,6 +1,7 @@
 #include "io/study_file.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "ensemble/plausible.hpp"
 #include "io/key_reader.hpp"
 #include "io/study_axis.hpp"
 #include "io/study_excitation.hpp"
@@ -12,6 +13,7 @@
 #include "io/study_sensitivity.hpp"
 #include "io/study_structure.hpp"
 #include "io/study_twins.hpp"
+#include "io/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -126,13 +128,64 @@ OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
     return o;
 }
 
-/// @param study its kind and surface must be read
+/// How many trajectories a single study keeps; others keep none.
+void read_trajectories(const KeyReader& keys, StudyKind kind, OutputSpec& output)
+{
+    if (kind != StudyKind::single) {
+        for (const char* key : {"trajectories", "most_mb"})
+            if (keys.has(key))
+                keys.refuse(key, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, kind)),
+                            "Remove it: only single studies keep trajectories. `stylobate replay` makes that of any "
+                            "realization.");
+        return;
+    }
+    output.most_mb = keys.number_or("most_mb", {0, 1e6, true, "The trajectories of a results file, in 1e6 bytes.", 0},
+                                    output.most_mb);
+    if (const TomlValue* kept = keys.find("trajectories"); kept && kept->type == TomlValue::Type::string) {
+        if (keys.word_index("trajectories", {trajectories_fit, trajectories_all}) == 1)
+            output.trajectories = OutputSpec::all;
+    } else if (kept) {
+        output.trajectories =
+            keys.whole("trajectories", 0, most_realizations,
+                       "Of the first so many realizations; or \"all\", or \"fit\": as many as most_mb holds.");
+    }
+}
+
+/// The checks that the study is meant to fail, in the order of the checks.
+std::vector<std::string> read_allow(const KeyReader& keys)
+{
+    std::vector<std::string> allow;
+    const TomlValue* list = keys.find("allow");
+    if (!list)
+        return allow;
+    const std::vector<std::string> known = check_names();
+    std::string names;
+    for (const std::string& name : known)
+        names += (names.empty() ? "" : ", ") + toml_quoted(name);
+    const std::string todo = fmt::format("Give names of checks: allow = [\"{}\"]. They are {}.", known.front(), names);
+    if (list->type != TomlValue::Type::array)
+        keys.refuse("allow", fmt::format("is {}, not a list", list->type_name()), todo);
+    for (const TomlValue& entry : list->entries)
+        if (entry.type != TomlValue::Type::string || std::find(known.begin(), known.end(), entry.text) == known.end()) {
+            const std::string meant = nearest_word(entry.text, known);
+            keys.refuse("allow", fmt::format("has {} in it, which is no check", entry.shown()),
+                        meant.empty() ? todo : fmt::format("Did you mean {}?", toml_quoted(meant)));
+        }
+    for (const std::string& name : known)
+        if (std::any_of(list->entries.begin(), list->entries.end(),
+                        [&](const TomlValue& entry) { return entry.text == name; }))
+            allow.push_back(name);
+    return allow;
+}
+
+/// @param study its kind, structure, excitation and surface must be read
 void read_output(const KeyReader& keys, Study& study)
 {
-    keys.allow_only({"trajectory_rate_hz", "realizations"});
+    keys.allow_only({"trajectory_rate_hz", "realizations", "trajectories", "most_mb"});
     OutputSpec& output = study.output;
     output.trajectory_rate_hz =
-        keys.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0}, output.trajectory_rate_hz);
+        keys.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0}, usual_trajectory_rate_hz(study));
+    read_trajectories(keys, study.kind, output);
     study.kept = keys.choice_or("realizations", kept_realizations_names, study.kept);
     const auto refuse = [&](const std::string& why) {
         keys.refuse("realizations", "= \"none\" does not go with " + why,
@@ -202,7 +255,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 
     Study study;
     const KeyReader keys = top.table("study");
-    keys.allow_only({"kind", "title", "seed", "realizations", "sampling"});
+    keys.allow_only({"kind", "title", "seed", "realizations", "sampling", "allow"});
     study.kind = keys.choice("kind", study_kind_names);
     study.title = keys.text_or_empty("title");
     if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
@@ -222,6 +275,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
                                                      "Structures under each motion in each stripe.")
                                         : keys.whole_or("realizations", 1, most_realizations, study.realizations);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
+    study.allow = read_allow(keys);
     if (is_rare && study.sampling != Sampling::independent)
         keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains draw their own numbers.");
 

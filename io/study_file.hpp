@@ -20,10 +20,10 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 /// A relative `excitation.file` is left as it is.
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
 
-/// The canonical TOML text of a study, written from its values: every key with its default (but `run.precision`, which
-/// is there only where it is single: before it could be chosen a study was the same; and `study.title`, which is there
-/// only where it is given), one order, numbers that read back to the same bits. `parse_study` of it gives the same
-/// study, with the same text. Two studies are the same if their texts are, but for the title.
+/// The canonical TOML text of a study, written from its values: every key with its default, in one order, numbers
+/// that read back to the same bits. Left out is what has no default (a title, a record's component, a corner, a
+/// perturbation) and what another key says in its place (a damping ratio beside a coefficient). `parse_study` of it
+/// gives the same study, with the same text. Two studies are the same if their texts are, but for the title.
 std::string study_text(const Study& study);
 
 /// For what compares extensions of the model.

@@ -61,6 +61,9 @@ inline constexpr std::array spacing_names = {Name<Spacing>{"linear", Spacing::li
                                              Name<Spacing>{"log", Spacing::log}};
 inline constexpr std::array kept_realizations_names = {Name<KeptRealizations>{"all", KeptRealizations::all},
                                                        Name<KeptRealizations>{"none", KeptRealizations::none}};
+inline constexpr const char* trajectories_fit = "fit"; ///< as many as most_mb holds
+inline constexpr const char* trajectories_all = "all";
+inline constexpr const char* tail_of_structure = "structure"; ///< the default of tail_s, by name
 inline constexpr std::array distribution_names = {Name<DistributionKind>{"normal", DistributionKind::normal},
                                                   Name<DistributionKind>{"lognormal", DistributionKind::lognormal},
                                                   Name<DistributionKind>{"uniform", DistributionKind::uniform},

@@ -34,7 +34,7 @@ inline const Range gamma_range{1, 20, false, "The cycles under a pulse's bell; n
 inline const Range taper_range{1, 5000, false, "A shorter one is a jerk, not a start.", 0};
 inline const Range cycles_range{0, 10000, true, "", 0};
 inline const Range duration_range{0, 10000, true, "Times are in seconds.", 0};
-inline const Range tail_range{0, 10000, false, "Times are in seconds.", 0};
+inline const Range tail_range{0, 10000, false, "Times are in seconds; the default is \"structure\", 12 / p.", 0};
 inline const Range time_scale_range{0.001, 1000, false, "2 makes the record twice as long.", 0};
 inline const Range phase_range{-100, 100, false, "Angles are in radians.", degree};
 inline const Range tilt_range{-0.5, 0.5, false, "Angles are in radians.", degree};

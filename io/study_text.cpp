@@ -1,5 +1,6 @@
 /// The canonical text of a study: every value, in one order, with numbers that read back to the same bits.
 
+#include "ensemble/nominal.hpp"
 #include "io/study_file.hpp"
 #include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
@@ -185,7 +186,7 @@ void write(Writer& out, const ContactSpec& contact)
 /// @param kind in a surface frequency and PGA come from the cells, in a fragility study the motions from elsewhere:
 /// they
 ///        are not the excitation's
-void write(Writer& out, const ExcitationSpec& excitation, StudyKind kind)
+void write(Writer& out, const ExcitationSpec& excitation, StudyKind kind, const StructureSpec& structure)
 {
     const bool in_surface = kind == StudyKind::surface, in_fragility = kind == StudyKind::fragility;
     out.section("excitation");
@@ -248,7 +249,11 @@ void write(Writer& out, const ExcitationSpec& excitation, StudyKind kind)
         out.number("strong_s", excitation.strong_s);
         out.number("decay_s", excitation.decay_s);
     }
-    out.number("tail_s", excitation.tail_s);
+    if (excitation.tail_s)
+        out.number("tail_s", excitation.tail_s);
+    else // each realization has its own
+        out.line("tail_s", fmt::format("{} # 12 / p of each realization; of the structure as given {:.4g} s",
+                                       toml_quoted(tail_of_structure), nominal_tail_s(structure)));
 }
 
 void add_axis(Entries& entries, const Axis& axis)
@@ -296,6 +301,14 @@ std::string numbers(const std::vector<double>& values)
     std::string text;
     for (const double value : values)
         text += (text.empty() ? "" : ", ") + toml_number(value);
+    return "[" + text + "]";
+}
+
+std::string words(const std::vector<std::string>& values)
+{
+    std::string text;
+    for (const std::string& value : values)
+        text += (text.empty() ? "" : ", ") + toml_quoted(value);
     return "[" + text + "]";
 }
 
@@ -372,9 +385,10 @@ std::string study_text(const Study& study)
     if (!study.sensitivity && !study.rare)
         out.whole("realizations", study.realizations);
     out.word("sampling", word_for(sampling_names, study.sampling));
+    out.line("allow", words(study.allow));
     write(out, study.structure);
     write(out, study.contact);
-    write(out, study.excitation, study.kind);
+    write(out, study.excitation, study.kind, study.structure);
     if (study.surface) {
         out.section("surface");
         out.line("frequency_hz", axis(study.surface->frequency_hz));
@@ -394,10 +408,7 @@ std::string study_text(const Study& study)
         out.word("method", word_for(sensitivity_method_names, sensitivity->method));
         out.whole("samples", sensitivity->samples);
         out.whole("inner", sensitivity->inner);
-        std::string factors;
-        for (const std::string& factor : sensitivity->factors)
-            factors += (factors.empty() ? "" : ", ") + toml_quoted(factor);
-        out.line("factors", "[" + factors + "]");
+        out.line("factors", words(sensitivity->factors));
     }
     if (study.rare) {
         out.section("rare");
@@ -426,23 +437,27 @@ std::string study_text(const Study& study)
     out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));
     out.section("output");
     out.number("trajectory_rate_hz", study.output.trajectory_rate_hz);
-    if (study.kept != KeptRealizations::all) // as with the precision below
-        out.word("realizations", word_for(kept_realizations_names, study.kept));
+    out.word("realizations", word_for(kept_realizations_names, study.kept));
+    if (study.kind == StudyKind::single) {
+        const std::optional<std::uint64_t>& kept = study.output.trajectories;
+        if (kept && *kept != OutputSpec::all)
+            out.whole("trajectories", *kept);
+        else
+            out.word("trajectories", kept ? trajectories_all : trajectories_fit);
+        out.number("most_mb", study.output.most_mb);
+    }
     out.section("outcome");
     out.word("follow", word_for(follow_names, study.outcome.follow));
     out.line("collapse", inline_table({{"height_fraction", toml_number(study.outcome.collapse_height_fraction)}}));
     out.number("rocking_threshold_rad", study.outcome.rocking_threshold_rad);
     out.number("sliding_threshold", study.outcome.sliding_threshold);
     out.section("run");
-    if (study.run.precision !=
-        Precision::double_) // the others are the studies that they were before it could be chosen
-        out.word("precision", word_for(precision_names, study.run.precision));
+    out.word("precision", word_for(precision_names, study.run.precision));
     if (study.run.step_s)
         out.number("step_s", *study.run.step_s);
     else
         out.number("step_fraction", study.run.step_fraction);
-    if (study.run.step_bound != StepBasis::block) // results of before there was a choice go on
-        out.word("step_bound", word_for(step_basis_names, study.run.step_bound));
+    out.word("step_bound", word_for(step_basis_names, study.run.step_bound));
     out.boolean("allow_step_above_bound", study.run.allow_step_above_bound);
     out.number("max_invalid_fraction", study.run.max_invalid_fraction);
     return out.text();

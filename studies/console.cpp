@@ -79,9 +79,16 @@ std::string duration_text(double seconds)
     return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
+std::string rate_text(double rate)
+{
+    return rate >= 10 ? fmt::format("{:.0f}", rate) : fmt::format("{:.2g}", rate);
+}
+
 std::string progress_line(const Progress& p)
 {
-    std::string line = fmt::format("{} of {} realizations, {:.0f}/s", p.done, p.total, p.rate);
+    std::string line = fmt::format("{} of {} realizations", p.done, p.total);
+    if (p.rate > 0)
+        line += ", " + rate_text(p.rate) + "/s";
     if (p.rate > 0 && p.done < p.total)
         line += fmt::format(", {} left", duration_text(static_cast<double>(p.total - p.done) / p.rate));
     const std::uint64_t valid = p.done - p.invalid;

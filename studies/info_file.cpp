@@ -3,6 +3,7 @@
 #include "studies/info_file.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "ensemble/plausible.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_outcomes.hpp"
 #include "io/record.hpp"
@@ -99,6 +100,17 @@ void tell_outcomes(const std::string& file, Told& told)
                             motions.size(), fell, table.rows.size() - fell, text_of(table.findings));
 }
 
+/// What of a study can hardly be meant.
+void add_warnings(const std::vector<std::string>& warnings, Told& told)
+{
+    Json list = Json::list();
+    for (const std::string& warning : warnings) {
+        list.item(warning);
+        told.text += "warning: " + warning + "\n";
+    }
+    told.json.member("warnings", list);
+}
+
 void tell_result(const std::string& file, Told& told)
 {
     const ResultReader reader(file);
@@ -120,6 +132,7 @@ void tell_result(const std::string& file, Told& told)
     if (!reader.complete())
         told.text +=
             fmt::format("stylobate run STUDY.toml -o {}: continues it, with the study that it was begun with\n", file);
+    add_warnings(header.warnings, told);
 }
 
 void tell_diagnosis(const std::string& file, Told& told)
@@ -185,6 +198,10 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         told.json.member(key, is);
         told.text += fmt::format("  {}: {}\n", what, is);
     }
+    std::vector<std::string> warnings;
+    for (const Doubt& doubt : doubts(study))
+        warnings.push_back(doubt.text);
+    add_warnings(warnings, told);
 }
 
 void tell_record(const std::string& file, const RecognisedFile& known, Told& told)

@@ -4,6 +4,7 @@
 #include "io/base_table.hpp"
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"
+#include "io/result_layout.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
 #include "studies/block_names.hpp"
@@ -113,6 +114,32 @@ LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::str
 }
 
 ResultHeader LoadedStudy::result_header() const
+{
+    ResultHeader header = plain_header();
+    for (const Doubt& doubt : doubts())
+        header.warnings.push_back(doubt.text);
+    return header;
+}
+
+std::vector<Doubt> LoadedStudy::doubts() const
+{
+    const ResultHeader header = plain_header();
+    StudyFacts facts;
+    if (motion_) {
+        facts.pga_m_s2 = motion_->pga_m_s2;
+        facts.motion_frequency_hz = motion_->predominant_frequency_hz;
+    }
+    const std::size_t measures = motions_.measures.size();
+    for (std::size_t k = 0; k < measures; ++k)
+        if (motions_.measures[k] == "pga_m_s2")
+            for (std::size_t i = 0; i < motions_.names.size(); ++i)
+                facts.pga_m_s2 = std::max(facts.pga_m_s2, motions_.value[i * measures + k]);
+    if (header.has_rows())
+        facts.file_bytes = static_cast<double>(header.total) * static_cast<double>(ResultLayout(header).row_bytes());
+    return stylobate::doubts(*study_, facts);
+}
+
+ResultHeader LoadedStudy::plain_header() const
 {
     ResultHeader header;
     header.kind = word_for(study_kind_names, study_->kind);

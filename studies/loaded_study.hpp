@@ -2,6 +2,7 @@
 /// A study with all that running it needs: its record, its sampler, and the header of its results.
 
 #include "ensemble/motion.hpp"
+#include "ensemble/plausible.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/study.hpp"
 #include "io/result_store.hpp"
@@ -32,7 +33,12 @@ public:
     /// record by its samples, so that another record under the same name is another study.
     ResultHeader result_header() const;
 
+    /// What of the study can hardly be meant, and what it does not allow itself (plausible.hpp).
+    std::vector<Doubt> doubts() const;
+
 private:
+    /// All of the header but its warnings.
+    ResultHeader plain_header() const;
     explicit LoadedStudy(Study study);
 
     std::unique_ptr<Study> study_;

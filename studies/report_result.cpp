@@ -205,6 +205,8 @@ private:
         const bool replayed = header_.kind == "replay" && rows_.size() == 1;
         const auto facts = study_facts(study_, replayed ? &rows_.front() : nullptr, header_.input_names);
         page_.facts({facts.begin(), facts.end()});
+        for (const std::string& warning : header_.warnings)
+            page_.box("warn", "Doubtful", warning);
         page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
     }
 

@@ -11,6 +11,7 @@
 #include "studies/file_kind.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/json.hpp"
+#include "studies/kept_trajectories.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/run_adaptive.hpp"
@@ -27,6 +28,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 namespace stylobate {
@@ -83,18 +85,32 @@ void count_done(const std::string& results, Counts& counts, CellOutcomes* outcom
     });
 }
 
-Progress run_single(const LoadedStudy& loaded, Isa isa, ResultWriter& writer, Counts& counts, Observer& observer)
+std::uint64_t free_blocks(const Realization& realization)
+{
+    return static_cast<std::uint64_t>(std::count_if(realization.blocks.begin(), realization.blocks.end(),
+                                                    [](const Block& block) { return !block.fixed; }));
+}
+
+/// @param kept the trajectories of the first so many are kept
+Progress run_single(const LoadedStudy& loaded, Isa isa, std::uint64_t kept, ResultWriter& writer, Counts& counts,
+                    Observer& observer)
 {
     // trajectories are written with the end of the file: an unfinished one is run again as a whole
+    const auto begin = std::chrono::steady_clock::now();
     Progress progress;
     progress.total = loaded.study().total();
+    progress.occupancy = 1.0 / kernels(isa).lanes; // followed one by one
     for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
         const FollowedRealization f = follow(loaded, index, isa);
         const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
         writer.add(row);
-        writer.add(f.trajectory);
+        if (index < kept)
+            writer.add(f.trajectory);
         counts.add(row);
         ++progress.done;
+        progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
+        progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        progress.rate = static_cast<double>(progress.done) / progress.seconds;
         progress.collapsed += f.outcome.state == State::collapsed;
         progress.invalid += f.outcome.state == State::invalid;
         observer.progress(progress);
@@ -265,9 +281,9 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
         fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
                    p.invalid);
         if (p.seconds > 0)
-            fmt::print("; {} with {} threads of {}, {:.0f} realizations/s", duration_text(p.seconds), run.threads,
+            fmt::print("; {} with {} threads of {}, {} realizations/s", duration_text(p.seconds), run.threads,
                        run.devices.empty() ? to_string(run.isa) : "the host and " + run.devices.front()->name(),
-                       p.rate);
+                       rate_text(p.rate));
         fmt::print("\n");
         if (found.adaptive)
             fmt::print("  {}\n", describe_adaptive(*found.adaptive));
@@ -285,6 +301,25 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
         if (!complete)
             fmt::print("Interrupted. The same command continues where this one stopped.\n");
     }
+}
+
+/// What to add to a study that is meant as it stands.
+std::string allow_text(const std::string& check)
+{
+    return fmt::format("study.allow = [\"{}\"]", check);
+}
+
+/// What is doubtful about a study, as sentences.
+/// @throws InputError with the reason if it is too far from what can be meant
+std::vector<std::string> warnings_of(const LoadedStudy& loaded, const std::string& file)
+{
+    std::vector<std::string> warnings;
+    for (const Doubt& doubt : loaded.doubts()) {
+        if (doubt.refused)
+            throw InputError(fmt::format("{}: {}\n  If it is meant: {}.", file, doubt.text, allow_text(doubt.check)));
+        warnings.push_back(fmt::format("{} If it is meant: {}.", doubt.text, allow_text(doubt.check)));
+    }
+    return warnings;
 }
 
 /// @throws InputError for a study that no device runs
@@ -312,6 +347,9 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
     if (options.backend == "cuda")
         demand_of_device(loaded.study(), study);
+    const std::vector<std::string> warnings = warnings_of(loaded, study);
+    const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
+    const KeptTrajectories trajectories = is_single ? plan_trajectories(loaded, study) : KeptTrajectories{};
     const RunOptions run = options.run_options();
     const bool found = std::filesystem::exists(results);
     if (!found) // else it has been done before the file was made
@@ -319,7 +357,6 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const ResultHeader header = loaded.result_header();
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2),
                   LimitCounts(header.block_names.size(), cells_of_motion(loaded.study())), loaded.study().originals()};
-    const bool is_single = loaded.study().kind == StudyKind::single, is_surface = loaded.study().surface.has_value();
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
     std::optional<SensitivityOutcomes> of_factors;
@@ -338,6 +375,10 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
         if (header.has_rows())
             writer = found ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
+        for (const std::string& warning : warnings) // now that nothing is refused any more
+            console.warn(warning);
+        if (!options.quiet && !trajectories.words.empty())
+            fmt::print(stderr, "{}\n", trajectories.words);
         if (writer && found && !is_single) // the file is ours now: no other run adds to it in between
             count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity,
                        is_rare ? &rare_outcomes : nullptr);
@@ -369,7 +410,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
             table = std::move(ran.table);
             complete = ran.complete;
         } else {
-            progress = is_single ? run_single(loaded, run.isa, *writer, counts, console)
+            progress = is_single ? run_single(loaded, run.isa, trajectories.count, *writer, counts, console)
                                  : run_many(loaded, run, *writer, counts, sensitivity, console);
             complete = progress.done == progress.total;
             if (complete && is_surface)

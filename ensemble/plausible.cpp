@@ -1,0 +1,441 @@
+#include "ensemble/plausible.hpp"
+
+#include "ensemble/sampler.hpp"
+#include "ensemble/step_bound.hpp"
+#include "ensemble/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace stylobate {
+namespace {
+
+/// Largest accelerations that were recorded: 40.2 m/s2 as the vector of three components, 14.3 m/s2 of a horizontal
+/// one (IWTH25, Iwate-Miyagi Nairiku 2008), 27.0 m/s2 of a horizontal one (MYG004, Tohoku 2011); K-NET and KiK-net.
+constexpr double strongest_record_m_s2 = 30, no_record_m_s2 = 100;
+/// Largest horizontal velocities near faults are 3 to 4 m/s (Chi-Chi 1999, TCU068); the fastest shaking tables reach 2.
+constexpr double fastest_ground_m_s = 5, no_ground_m_s = 50;
+/// Spectral accelerations are about 2.5 times the peak of the ground (the plateau of the spectra of building codes).
+constexpr double spectral_amplification = 2.5;
+
+using Finding = std::optional<Doubt>;
+struct Subject {
+    const Study& study;
+    const StudyFacts& facts;
+};
+
+Doubt doubt(bool refused, std::string text)
+{
+    return {"", refused, std::move(text)};
+}
+
+/// Motions of one frequency, whose velocity says whether a table or the ground can do it; a small structure is shaken
+/// harder and faster than a large one.
+bool is_sine(ExcitationKind kind)
+{
+    return kind == ExcitationKind::harmonic || kind == ExcitationKind::half_sine || kind == ExcitationKind::full_sine ||
+           kind == ExcitationKind::tapered || kind == ExcitationKind::sweep;
+}
+
+/// The range of an axis, or of what is given in its place.
+struct Extent {
+    double low = 0, high = 0;
+};
+
+Extent extent(const Axis& axis)
+{
+    return {std::min(axis.from, axis.to), std::max(axis.from, axis.to)};
+}
+
+/// Frequencies of the shaking; zeros where there are none or they are not known.
+Extent shaking_hz(const Subject& s)
+{
+    const ExcitationSpec& e = s.study.excitation;
+    const double sweep_low = std::min(e.from_hz, e.to_hz), sweep_high = std::max(e.from_hz, e.to_hz);
+    if (s.study.surface) {
+        const Extent axis = extent(s.study.surface->frequency_hz);
+        if (e.kind != ExcitationKind::sweep)
+            return axis;
+        const double central = e.central_frequency_hz(); // to which the axis stretches it
+        return {axis.low * sweep_low / central, axis.high * sweep_high / central};
+    }
+    if (e.kind == ExcitationKind::sweep)
+        return {sweep_low, sweep_high};
+    if (e.frequency_hz > 0)
+        return {e.frequency_hz, e.frequency_hz};
+    const double stretched = s.facts.motion_frequency_hz / e.time_scale;
+    return {stretched, stretched};
+}
+
+/// The strongest of the shaking [m/s2]; 0: not known.
+double strongest_m_s2(const Subject& s)
+{
+    if (s.study.surface)
+        return extent(s.study.surface->pga_m_s2).high;
+    if (const std::optional<FragilitySpec>& f = s.study.fragility) {
+        const double intensity = extent(f->intensity).high;
+        if (f->method == FragilityMethod::cloud)
+            return f->scale * s.facts.pga_m_s2;
+        return f->measure == IntensityMeasure::pga  ? intensity
+               : f->measure == IntensityMeasure::sa ? intensity / spectral_amplification
+                                                    : 0;
+    }
+    return s.study.excitation.pga_m_s2 > 0 ? s.study.excitation.pga_m_s2 : s.facts.pga_m_s2;
+}
+
+Finding check_pga(const Subject& s)
+{
+    const double pga = strongest_m_s2(s);
+    const ExcitationKind kind = s.study.excitation.kind;
+    if (const std::optional<FragilitySpec>& f = s.study.fragility; f && f->measure == IntensityMeasure::pgv) {
+        const double pgv = extent(f->intensity).high;
+        if (f->method == FragilityMethod::cloud || pgv <= fastest_ground_m_s)
+            return std::nullopt;
+        return doubt(
+            pgv > no_ground_m_s,
+            fmt::format("The motions have velocities up to {:.4g} m/s, and no record has more than about 4 m/s. "
+                        "Did you mean cm/s ({:.4g} m/s)?",
+                        pgv, pgv / 100));
+    }
+    if (pga <= strongest_record_m_s2)
+        return std::nullopt;
+    if (!is_sine(kind))
+        return doubt(
+            pga > no_record_m_s2,
+            fmt::format("The shaking has up to {:.4g} m/s2, and the strongest record of a horizontal component "
+                        "has 27 m/s2. Did you mean cm/s2 ({:.4g} m/s2)?",
+                        pga, pga / 100));
+    const double hz = shaking_hz(s).low;
+    const double omega = 2 * std::numbers::pi * hz;
+    if (!(hz > 0) || pga / omega <= fastest_ground_m_s)
+        return std::nullopt;
+    return doubt(
+        pga / omega > no_ground_m_s,
+        fmt::format("{:.4g} m/s2 at {:.4g} Hz is a velocity of {:.3g} m/s and an amplitude of {:.3g} m: no ground "
+                    "and no shaking table is faster than about 4 m/s. Did you mean cm/s2 ({:.4g} m/s2)?",
+                    pga, hz, pga / omega, pga / omega / omega, pga / 100));
+}
+
+/// Beds that are pressed in by a good part of a block have nothing of stone: a column on cushions.
+Finding check_sinkage(const Subject& s)
+{
+    constexpr double much = 2e-3, absurd = 2e-2;
+    const Layout layout = lay_out(s.study.structure);
+    const std::vector<double> sinkage = static_sinkage_m(s.study);
+    double worst = 0;
+    std::size_t bed = 0;
+    for (std::size_t i = 0; i < sinkage.size(); ++i) {
+        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(layout.beds[i].upper)];
+        const double part = sinkage[i] / std::min(upper.width_m, upper.height_m);
+        if (part > worst) {
+            worst = part;
+            bed = i;
+        }
+    }
+    if (worst <= much)
+        return std::nullopt;
+    const double K_N = layout.beds[bed].bed.normal_stiffness_n_m2.value_or(s.study.contact.normal_stiffness_n_m2);
+    return doubt(worst > absurd,
+                 fmt::format("The own weight presses {} {:.3g} mm into what it stands on, {:.2g} % of its size: "
+                             "normal_stiffness_n_m2 = {:.3g} is {} times softer than what gives 0.01 %. Is it for the "
+                             "whole depth (a bed of stone has 1e9 to 1e10 N/m3, times the depth {:.3g} m)?",
+                             layout.blocks[static_cast<std::size_t>(layout.beds[bed].upper)].name, 1000 * sinkage[bed],
+                             100 * worst, K_N, static_cast<long>(std::lround(worst / 1e-4)),
+                             s.study.structure.depth_m));
+}
+
+Finding check_first_frequency(const Subject& s)
+{
+    const double first = first_frequency_hz(s.study);
+    if (std::isnan(first))
+        return std::nullopt;
+    if (first == 0)
+        return doubt(true, fmt::format("The structure buckles under its own weight on beds of normal_stiffness_n_m2 = "
+                                       "{:.3g}: they are too soft to keep it upright.",
+                                       s.study.contact.normal_stiffness_n_m2));
+    const double fastest = shaking_hz(s).high;
+    if (fastest <= first)
+        return std::nullopt;
+    return doubt(false,
+                 fmt::format("The first natural frequency of the structure on its beds is {:.3g} Hz, and the shaking "
+                             "reaches {:.3g} Hz: there the softness of the beds (normal_stiffness_n_m2 = {:.3g}) "
+                             "decides, more than the rocking of rigid blocks.",
+                             first, fastest, s.study.contact.normal_stiffness_n_m2));
+}
+
+Finding check_shaking_frequency(const Subject& s)
+{
+    constexpr double low = 0.05, high = 100;
+    const Extent hz = shaking_hz(s);
+    if (hz.high <= high && (hz.low >= low || hz.high == 0))
+        return std::nullopt;
+    return doubt(false, fmt::format("The shaking has {:.4g} Hz, and earthquakes and shaking tables have {} to {} Hz.",
+                                    hz.high > high ? hz.high : hz.low, low, high));
+}
+
+Finding check_density(const Subject& s)
+{
+    // pumice to basalt; 100: no solid that is built with; 25000: heavier than any metal
+    constexpr double lightest = 1000, heaviest = 4000, no_solid = 100, no_metal = 25000;
+    const double depth = s.study.structure.depth_m;
+    Finding found;
+    for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
+        const double density = block.mass_kg / (block.width_m * block.height_m * depth);
+        const bool refused = density < no_solid || density > no_metal;
+        if (block.fixed || (density >= lightest && density <= heaviest) || (found && (found->refused || !refused)))
+            continue;
+        const double thousand = density * 1000;
+        const std::string meant = thousand >= lightest && thousand <= heaviest
+                                      ? fmt::format(" Did you mean {:.4g} kg/m3 ({:.4g} g/cm3)?", thousand, density)
+                                      : " Are mass, width, height and depth_m in kg and m?";
+        found =
+            doubt(refused, fmt::format("{} has {:.4g} kg/m3 ({:.4g} kg in {:.4g} x {:.4g} x {:.4g} m), and stone has "
+                                       "{:.0f} to {:.0f}.{}",
+                                       block.name, density, block.mass_kg, block.width_m, block.height_m, depth,
+                                       lightest, heaviest, meant));
+    }
+    return found;
+}
+
+Finding check_friction(const Subject& s)
+{
+    constexpr double low = 0.1, high = 1.2, absurd = 3; // of dry and wet stone 0.36 to 0.84 are measured
+    Extent mu{s.study.contact.friction, s.study.contact.friction};
+    const auto meet = [&mu](double value) { mu = {std::min(mu.low, value), std::max(mu.high, value)}; };
+    for (const PlacedBed& bed : lay_out(s.study.structure).beds)
+        meet(bed.bed.friction.value_or(mu.high));
+    for (const Perturbation& p : s.study.perturbations)
+        if (p.quantity == Quantity::friction &&
+            (p.distribution == DistributionKind::uniform || p.distribution == DistributionKind::log_uniform)) {
+            meet(p.from);
+            meet(p.to);
+        }
+    if (mu.low >= low && mu.high <= high)
+        return std::nullopt;
+    const double worst = mu.high > high ? mu.high : mu.low;
+    return doubt(worst > absurd,
+                 fmt::format("The friction is {:.4g}, and that of stone on stone is 0.4 to 0.8.{}", worst,
+                             worst > high && worst / 100 >= low ? fmt::format(" Did you mean {:.4g}?", worst / 100)
+                                                                : std::string()));
+}
+
+Finding check_damping(const Subject& s)
+{
+    constexpr double most = 0.7;
+    const ContactSpec& c = s.study.contact;
+    double width = 0, mass = std::numeric_limits<double>::infinity();
+    for (const PlacedBlock& block : lay_out(s.study.structure).blocks)
+        if (!block.fixed && block.mass_kg < mass) {
+            mass = block.mass_kg;
+            width = block.width_m;
+        }
+    const double normal = c.normal_damping_n_s_m
+                              ? *c.normal_damping_n_s_m / (2 * std::sqrt(c.normal_stiffness_n_m2 * width * mass))
+                              : c.normal_damping_ratio;
+    const double tangential = c.tangential_damping_n_s_m
+                                  ? *c.tangential_damping_n_s_m / (2 * std::sqrt(c.tangential_stiffness_n_m * mass))
+                                  : c.tangential_damping_ratio;
+    const double ratio = std::max(normal, tangential);
+    if (ratio <= most)
+        return std::nullopt;
+    return doubt(false,
+                 fmt::format("The contacts have {:.3g} of their critical damping ({} direction): impacts of stone "
+                             "have 0.05 to 0.5.",
+                             ratio, normal == ratio ? "normal" : "tangential"));
+}
+
+Finding check_stiffness(const Subject& s)
+{
+    constexpr double softest = 1e7, stiffest = 1e13;
+    const double depth = s.study.structure.depth_m;
+    double worst = s.study.contact.normal_stiffness_n_m2 / depth;
+    for (const PlacedBed& bed : lay_out(s.study.structure).beds)
+        if (const double own = bed.bed.normal_stiffness_n_m2.value_or(s.study.contact.normal_stiffness_n_m2) / depth;
+            own < softest || own > stiffest)
+            worst = own;
+    if (worst >= softest && worst <= stiffest)
+        return std::nullopt;
+    return doubt(false, fmt::format("normal_stiffness_n_m2 over depth_m is {:.3g} N/m3, and beds of stone have 1e9 to "
+                                    "1e10. It is for the whole depth of {:.3g} m.",
+                                    worst, depth));
+}
+
+Finding check_size(const Subject& s)
+{
+    constexpr double smallest = 0.005, tallest = 30, flattest = 20;
+    const double depth = s.study.structure.depth_m;
+    double top = 0;
+    for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
+        const double least = std::min({block.width_m, block.height_m, depth});
+        if (least < smallest)
+            return doubt(false, fmt::format("{} is {:.4g} x {:.4g} m, {:.4g} m deep: a size below {} m is no block of "
+                                            "stone. Lengths are in metres.",
+                                            block.name, block.width_m, block.height_m, depth, smallest));
+        if (const double ratio = depth / block.width_m; ratio > flattest || 1 / ratio > flattest)
+            return doubt(false, fmt::format("{} is {:.4g} m wide and {:.4g} m deep. Is depth_m in metres?", block.name,
+                                            block.width_m, depth));
+        top = std::max(top, block.top());
+    }
+    if (top <= tallest)
+        return std::nullopt;
+    return doubt(false,
+                 fmt::format("The structure is {:.4g} m high, and the highest ancient columns have 20 m. Lengths are "
+                             "in metres.",
+                             top));
+}
+
+/// How far a perturbation spreads, as a part of what it varies about; 0 where it says no such thing.
+double spread_of(const Perturbation& p, double least_width, double least_height)
+{
+    const auto furthest = [&p] {
+        return p.distribution == DistributionKind::normal ? p.sd : std::max(std::abs(p.from), std::abs(p.to)) / 2;
+    };
+    switch (p.quantity) {
+    case Quantity::drum_width:
+    case Quantity::drum_height:
+        if (p.distribution == DistributionKind::normal && p.sd > 0)
+            return p.sd / (p.quantity == Quantity::drum_width ? least_width : least_height);
+        break;
+    case Quantity::drum_offset:
+        if (p.cov == 0)
+            return furthest() / least_width;
+        break;
+    case Quantity::tilt:
+        return 2 * furthest(); // 0.1 rad counts as much as a fifth of a size
+    default:
+        break;
+    }
+    return 0;
+}
+
+Finding check_spread(const Subject& s)
+{
+    constexpr double size_part = 0.2, cov = 0.5, sigma_ln = 1.5;
+    double width = std::numeric_limits<double>::infinity(), height = width;
+    for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
+        width = std::min(width, block.width_m);
+        height = std::min(height, block.height_m);
+    }
+    for (const Perturbation& p : s.study.perturbations) {
+        const double part = spread_of(p, width, height);
+        if (part > size_part)
+            return doubt(false,
+                         p.quantity == Quantity::tilt
+                             ? fmt::format("perturbation.tilt spreads by {:.3g} rad: a base that far out of level "
+                                           "is a ramp. Angles are in radians.",
+                                           part / 2)
+                             : fmt::format("perturbation.{} spreads by {:.3g} of a block's size: masons work to "
+                                           "a hundredth. Lengths are in metres.",
+                                           to_string(p.quantity), part));
+        if (p.distribution == DistributionKind::normal && p.cov > cov)
+            return doubt(false, fmt::format("perturbation.{} has a coefficient of variation of {:.3g}: 10 % is 0.1.",
+                                            to_string(p.quantity), p.cov));
+        if (p.distribution == DistributionKind::lognormal && p.sigma_ln > sigma_ln)
+            return doubt(false,
+                         fmt::format("perturbation.{} has sigma_ln = {:.3g}: one in three realizations is more than "
+                                     "{:.3g} times off.",
+                                     to_string(p.quantity), p.sigma_ln, std::exp(p.sigma_ln)));
+    }
+    return std::nullopt;
+}
+
+Finding check_file_size(const Subject& s)
+{
+    constexpr double large = 4e9, absurd = 1e11;
+    if (s.facts.file_bytes <= large)
+        return std::nullopt;
+    return doubt(s.facts.file_bytes > absurd,
+                 fmt::format("The results of {} realizations take {:.3g} GB. Give fewer, or of a surface "
+                             "output.realizations = \"none\": counts alone.",
+                             s.study.total(), s.facts.file_bytes / 1e9));
+}
+
+struct Check {
+    const char* name;
+    Finding (*find)(const Subject&);
+};
+constexpr std::array checks = {Check{"pga", check_pga},
+                               Check{"shaking_frequency", check_shaking_frequency},
+                               Check{"sinkage", check_sinkage},
+                               Check{"first_frequency", check_first_frequency},
+                               Check{"stiffness", check_stiffness},
+                               Check{"density", check_density},
+                               Check{"size", check_size},
+                               Check{"friction", check_friction},
+                               Check{"damping", check_damping},
+                               Check{"spread", check_spread},
+                               Check{"file_size", check_file_size}};
+
+} // namespace
+
+std::vector<std::string> check_names()
+{
+    std::vector<std::string> names;
+    for (const Check& check : checks)
+        names.emplace_back(check.name);
+    return names;
+}
+
+std::vector<Doubt> doubts(const Study& study, const StudyFacts& facts)
+{
+    std::vector<Doubt> all;
+    for (const Check& check : checks) {
+        if (std::find(study.allow.begin(), study.allow.end(), check.name) != study.allow.end())
+            continue;
+        if (Finding found = check.find({study, facts})) {
+            found->check = check.name;
+            all.push_back(std::move(*found));
+        }
+    }
+    return all;
+}
+
+std::vector<double> static_sinkage_m(const Study& study)
+{
+    const Layout layout = lay_out(study.structure);
+    const double ground = std::numeric_limits<double>::infinity();
+    std::vector<double> carried(layout.blocks.size(), 0.0); // weight on top of each block
+    std::vector<int> seats(layout.blocks.size(), 0);
+    for (const PlacedBed& bed : layout.beds)
+        ++seats[static_cast<std::size_t>(bed.upper)];
+    std::vector<double> sinkage(layout.beds.size());
+    for (std::size_t i = layout.beds.size(); i-- > 0;) { // from the epistyles down
+        const PlacedBed& bed = layout.beds[i];
+        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(bed.upper)];
+        const auto at = static_cast<std::size_t>(bed.upper);
+        const double weight = (upper.mass_kg * study.structure.gravity_m_s2 + carried[at]) / seats[at];
+        double left = -ground, right = ground;
+        if (bed.lower >= 0) {
+            const PlacedBlock& lower = layout.blocks[static_cast<std::size_t>(bed.lower)];
+            carried[static_cast<std::size_t>(bed.lower)] += weight;
+            left = lower.left();
+            right = lower.right();
+        }
+        const double length = std::min(right, upper.right()) - std::max(left, upper.left());
+        sinkage[i] = weight / (bed.bed.normal_stiffness_n_m2.value_or(study.contact.normal_stiffness_n_m2) * length);
+    }
+    return sinkage;
+}
+
+double first_frequency_hz(const Study& study)
+{
+    constexpr std::ptrdiff_t most_blocks = 100;
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    if (std::count_if(blocks.begin(), blocks.end(), [](const PlacedBlock& b) { return !b.fixed; }) > most_blocks)
+        return std::numeric_limits<double>::quiet_NaN();
+    Study still; // the structure alone
+    still.structure = study.structure;
+    still.contact = study.contact;
+    still.excitation.kind = ExcitationKind::none;
+    still.excitation.duration_s = 1;
+    const Realization r = Sampler(still, nullptr).realization(0);
+    return linear_response(r.blocks, r.joints, r.gravity_m_s2, r.watched).frequency_hz.front();
+}
+
+} // namespace stylobate

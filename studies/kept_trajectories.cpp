@@ -1,0 +1,85 @@
+#include "studies/kept_trajectories.hpp"
+
+#include "ensemble/base_motion.hpp"
+#include "ensemble/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+namespace {
+
+/// When a realization ends at the latest.
+double longest_s(const LoadedStudy& loaded, const Realization& r)
+{
+    const ExcitationSpec& excitation = loaded.study().excitation;
+    double end = BaseMotion(excitation, r, loaded.record()).duration_s();
+    if (r.vertical != nullptr)
+        end = std::max(end, BaseMotion::along(r.vertical, r.step_s, r.change.offset_s).duration_s());
+    if (excitation.kind != ExcitationKind::none)
+        end += excitation.tail_s.value_or(tail_after_shaking(r));
+    return end;
+}
+
+} // namespace
+
+std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks)
+{
+    return samples * (2 + 3 * blocks) * sizeof(double);
+}
+
+KeptTrajectories plan_trajectories(const LoadedStudy& loaded, const std::string& file)
+{
+    const Study& study = loaded.study();
+    const OutputSpec& output = study.output;
+    const std::uint64_t total = study.total();
+    constexpr std::uint64_t looked_at = 32;
+    double end_s = 0;
+    std::uint64_t blocks = 0;
+    for (std::uint64_t index = 0; index < std::min(total, looked_at); ++index) {
+        const Realization r = loaded.sampler().realization(index);
+        end_s = std::max(end_s, longest_s(loaded, r));
+        blocks = static_cast<std::uint64_t>(r.drums);
+    }
+    KeptTrajectories kept;
+    const auto samples = static_cast<std::uint64_t>(std::ceil(end_s * output.trajectory_rate_hz)) + 1;
+    kept.each_mb = static_cast<double>(trajectory_bytes(samples, blocks)) / 1e6;
+    const auto size = [&](std::uint64_t count) { return static_cast<double>(count) * kept.each_mb; };
+    const auto refuse = [&](std::uint64_t count, const std::string& otherwise) {
+        throw InputError(
+            file, 0,
+            fmt::format(
+                "the trajectories of {} of {} realizations take about {:.3g} MB at output.trajectory_rate_hz = {}, "
+                "more than output.most_mb = {}.\n  Give output.most_mb = {:.0f}, a lower rate, or {}.",
+                count, total, size(count), output.trajectory_rate_hz, output.most_mb, std::ceil(size(count)),
+                otherwise));
+    };
+    if (output.trajectories) {
+        kept.count = std::min(*output.trajectories, total);
+        if (size(kept.count) > output.most_mb)
+            refuse(kept.count, "output.trajectories = \"fit\": as many as that holds");
+    } else {
+        kept.count = std::min(total, static_cast<std::uint64_t>(output.most_mb / kept.each_mb));
+        if (kept.count == 0)
+            refuse(1, "output.trajectories = 0 for none");
+    }
+    kept.mb = size(kept.count);
+
+    constexpr double worth_saying_mb = 10;
+    if (kept.count < total)
+        kept.words = fmt::format(
+            "Trajectories are kept of the first {} of {} realizations: about {:.3g} of {:.3g} MB at {} Hz. `stylobate "
+            "replay` makes that of any other one.{}",
+            kept.count, total, kept.mb, size(total), output.trajectory_rate_hz,
+            output.trajectories ? std::string()
+                                : fmt::format(" For all: output.trajectories = \"all\", output.most_mb = {:.0f}.",
+                                              std::ceil(size(total))));
+    else if (kept.mb > worth_saying_mb)
+        kept.words = fmt::format("Trajectories of {} realizations at {} Hz: at most about {:.3g} MB.", total,
+                                 output.trajectory_rate_hz, kept.mb);
+    return kept;
+}
+
+} // namespace stylobate
