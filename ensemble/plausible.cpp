@@ -159,14 +159,18 @@ Finding check_first_frequency(const Subject& s)
         return doubt(true, fmt::format("The structure buckles under its own weight on beds of normal_stiffness_n_m2 = "
                                        "{:.3g}: they are too soft to keep it upright.",
                                        s.study.contact.normal_stiffness_n_m2));
-    const double fastest = shaking_hz(s).high;
-    if (fastest <= first)
+    const Extent shaking = shaking_hz(s);
+    if (std::sqrt(shaking.low * shaking.high) <= first)
         return std::nullopt;
     return doubt(false,
-                 fmt::format("The first natural frequency of the structure on its beds is {:.3g} Hz, and the shaking "
-                             "reaches {:.3g} Hz: there the softness of the beds (normal_stiffness_n_m2 = {:.3g}) "
-                             "decides, more than the rocking of rigid blocks.",
-                             first, fastest, s.study.contact.normal_stiffness_n_m2));
+                 fmt::format("The first natural frequency of the structure on its beds is {:.3g} Hz, below {} of the "
+                             "shaking: there the softness of the beds (normal_stiffness_n_m2 = {:.3g}) decides, "
+                             "more than the rocking of rigid blocks.",
+                             first,
+                             shaking.low == shaking.high
+                                 ? fmt::format("the {:.3g} Hz", shaking.low)
+                                 : fmt::format("the middle of the {:.3g} to {:.3g} Hz", shaking.low, shaking.high),
+                             s.study.contact.normal_stiffness_n_m2));
 }
 
 Finding check_shaking_frequency(const Subject& s)

@@ -149,7 +149,8 @@ TEST(Plausible, FirstFrequencyAgainstTheShaking)
     EXPECT_EQ(at("37.0", "1e8"), "warns");
     EXPECT_EQ(at("11.5", "1e7"), "");
     EXPECT_EQ(at("11.7", "1e7"), "warns");
-    EXPECT_EQ(at("0.1", "148400"), "") << "it stands up to 148349";
+    EXPECT_EQ(at("0.1", "150000"), "");
+    EXPECT_EQ(at("0.1", "148360"), "warns") << "it stands down to 148349";
     EXPECT_EQ(at("0.1", "148300"), "refuses") << "and buckles below";
 
     Study record =
@@ -180,9 +181,9 @@ TEST(Plausible, AccelerationOfTheGroundAgainstRecords)
                        "pga");
     };
     EXPECT_EQ(fragility("{ measure = \"pga\", from = 1, to = 30, count = 3 }"), "");
-    EXPECT_EQ(fragility("{ measure = \"pga\", from = 31, to = 1, count = 3 }"), "warns");
-    EXPECT_EQ(fragility("{ measure = \"sa\", from = 1, to = 74, count = 3 }"), "");
-    EXPECT_EQ(fragility("{ measure = \"sa\", from = 1, to = 76, count = 3 }"), "warns");
+    EXPECT_EQ(fragility("{ measure = \"pga\", from = 1, to = 31, count = 3 }"), "warns");
+    EXPECT_EQ(fragility("{ measure = \"sa\", period_s = 1, from = 1, to = 74, count = 3 }"), "");
+    EXPECT_EQ(fragility("{ measure = \"sa\", period_s = 1, from = 1, to = 76, count = 3 }"), "warns");
     EXPECT_EQ(fragility("{ measure = \"pgv\", from = 1, to = 5, count = 3 }"), "");
     EXPECT_EQ(fragility("{ measure = \"pgv\", from = 1, to = 5.1, count = 3 }"), "warns");
     EXPECT_EQ(fragility("{ measure = \"pgv\", from = 20, to = 300, count = 3 }"), "refuses") << "cm/s";
@@ -239,10 +240,9 @@ TEST(Plausible, DensityOfStone)
     const Study gram = read_study(root / "studies/inputs/doric_column.toml", {"structure.density_kg_m3=2.7"});
     EXPECT_EQ(verdict(gram, "density"), "refuses");
     EXPECT_NE(text_of(gram, "density").find("Did you mean 2700 kg/m3"), std::string::npos) << text_of(gram, "density");
-    EXPECT_EQ(
-        verdict(read(sine + drums, {"structure.drum_mass_kg=135.5"}), "density", {}, {"sinkage", "first_frequency"}),
-        "refuses")
-        << "grams";
+    EXPECT_EQ(with(24900), "warns");
+    EXPECT_EQ(with(25100), "refuses") << "and what is above 30000 the reader refuses";
+    EXPECT_EQ(with(99), "refuses");
 }
 
 TEST(Plausible, SizesAndStiffnessPerDepth)
@@ -297,10 +297,10 @@ TEST(Plausible, Spreads)
     const auto spread = [](const std::string& perturbation) {
         return verdict(read(sine + drums, {"perturbation." + perturbation}), "spread");
     };
-    EXPECT_EQ(spread("drum_width={ distribution = \"normal\", sd_m = 0.0095 }"), "") << "0.2 x 48 mm";
-    EXPECT_EQ(spread("drum_width={ distribution = \"normal\", sd_m = 0.0097 }"), "warns");
-    EXPECT_EQ(spread("drum_height={ distribution = \"normal\", sd_m = 0.0057 }"), "") << "0.2 x 29 mm";
-    EXPECT_EQ(spread("drum_height={ distribution = \"normal\", sd_m = 0.0059 }"), "warns");
+    EXPECT_EQ(spread("drum_width={ distribution = \"normal\", sd_m = 0.0095, min = 0.01 }"), "") << "0.2 x 48 mm";
+    EXPECT_EQ(spread("drum_width={ distribution = \"normal\", sd_m = 0.0097, min = 0.01 }"), "warns");
+    EXPECT_EQ(spread("drum_height={ distribution = \"normal\", sd_m = 0.0057, min = 0.01 }"), "") << "0.2 x 29 mm";
+    EXPECT_EQ(spread("drum_height={ distribution = \"normal\", sd_m = 0.0059, min = 0.01 }"), "warns");
     EXPECT_EQ(spread("drum_offset={ distribution = \"normal\", sd_m = 0.0097 }"), "warns");
     EXPECT_EQ(spread("tilt={ distribution = \"normal\", sd_rad = 0.099 }"), "");
     EXPECT_EQ(spread("tilt={ distribution = \"normal\", sd_rad = 0.101 }"), "warns");
@@ -320,7 +320,7 @@ TEST(Plausible, SizeOfTheResults)
 
 TEST(Plausible, AKeySilencesOneCheck)
 {
-    const std::vector<std::string> absurd = {"contact.friction=9", "structure.drum_mass_kg=13.55"};
+    const std::vector<std::string> absurd = {"contact.friction=9", "structure.drum_mass_kg=1.355"};
     std::vector<std::string> settings = absurd;
     EXPECT_EQ(verdict(read(sine + drums, settings), "friction", {}, {"density", "sinkage"}), "refuses");
     settings.emplace_back("study.allow=[\"friction\"]");

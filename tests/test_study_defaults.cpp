@@ -151,10 +151,11 @@ void expect_every_default(const Study& study, const std::string& name)
         EXPECT_FALSE(keys.empty()) << name << ": " << table;
         for (const std::string& key : keys) {
             const std::string path = table + "." + key;
-            if (!has(tree, path) && !without_default.contains(path) && !other_ways.contains(path))
+            if (!has(tree, path) && !without_default.contains(path) && !other_ways.contains(path)) {
                 EXPECT_FALSE(takes(study.text, path))
                     << name << ": the study uses " << path << ", and its canonical text lacks it:\n"
                     << study.text;
+            }
         }
     }
     EXPECT_EQ(parse_study(study.text, name).text, study.text) << name;
@@ -166,8 +167,9 @@ TEST(StudyDefaults, EverySectionIsKnownHere)
     std::vector<std::string> known = sections(study.text);
     EXPECT_GE(known.size(), 14U);
     for (const std::string& section : known)
-        if (section != "perturbation" && section != "mechanisms" && section != "claim") // lists of what the study says
+        if (section != "perturbation" && section != "mechanisms" && section != "claim") { // lists of what is said
             EXPECT_NE(std::find(tables.begin(), tables.end(), section), tables.end()) << section;
+        }
 }
 
 TEST(StudyDefaults, TheTextOfEachReadyStudyHasThemAll)

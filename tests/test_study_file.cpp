@@ -124,7 +124,7 @@ TEST(StudyFile, ReadsEveryValueAndFillsInTheDefaults)
     EXPECT_EQ(study.perturbations[0].min, 0.3);
     EXPECT_FALSE(study.perturbations[0].max);
     EXPECT_EQ(study.initial.tilt_rad, 0);
-    EXPECT_EQ(study.output.trajectory_rate_hz, 1000);
+    EXPECT_EQ(study.output.trajectory_rate_hz, 260); // 100 in 2 pi / p of a drum, p = 16.198 rad/s
     EXPECT_EQ(study.outcome.collapse_height_fraction, 0.6);
     EXPECT_EQ(study.run.precision, Precision::double_);
     EXPECT_EQ(study.run.step_fraction, 0.9);

@@ -197,6 +197,8 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [](Study& s) { s.seed += 1; },
         [](Study& s) { s.realizations += 1; },
         [](Study& s) { s.sampling = Sampling::sobol; },
+        [](Study& s) { s.allow = {"pga"}; },
+        [](Study& s) { s.kept = KeptRealizations::none; },
         [](Study& s) { s.surface->adaptive = AdaptiveSpec{}; },
         [](Study& s) { s.structure.kind = StructureKind::colonnade; },
         [](Study& s) { s.structure.columns[0].drums.push_back(s.structure.columns[0].drums[0]); },
@@ -251,6 +253,20 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [&](Study& s) { up(s.run.max_invalid_fraction); },
     };
     expect_other_texts(base, changes);
+}
+
+TEST(StudyText, DiffersWhereverTheTrajectoriesDo)
+{
+    const Study base = single("kind = \"none\"\nduration_s = 2");
+    expect_other_texts(base, {
+                                 [](Study& s) { s.output.trajectories = 0; },
+                                 [](Study& s) { s.output.trajectories = OutputSpec::all; },
+                                 [](Study& s) { s.output.most_mb = 101; },
+                             });
+    for (const char* kept : {"\"all\"", "7", "0", "\"fit\""}) {
+        const Study study = single("kind = \"none\"\nduration_s = 2", {std::string("output.trajectories=") + kept});
+        EXPECT_EQ(parse_study(study.text, "again").text, study.text);
+    }
 }
 
 TEST(StudyText, AnAdaptiveSurfaceReadsBackToItself)
