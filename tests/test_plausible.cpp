@@ -186,7 +186,7 @@ TEST(Plausible, AccelerationOfTheGroundAgainstRecords)
     EXPECT_EQ(fragility("{ measure = \"sa\", period_s = 1, from = 1, to = 76, count = 3 }"), "warns");
     EXPECT_EQ(fragility("{ measure = \"pgv\", from = 1, to = 5, count = 3 }"), "");
     EXPECT_EQ(fragility("{ measure = \"pgv\", from = 1, to = 5.1, count = 3 }"), "warns");
-    EXPECT_EQ(fragility("{ measure = \"pgv\", from = 20, to = 300, count = 3 }"), "refuses") << "cm/s";
+    EXPECT_EQ(fragility("{ measure = \"pgv\", from = 20, to = 90, count = 3 }"), "refuses") << "cm/s";
 }
 
 TEST(Plausible, AccelerationOfASineAgainstItsVelocity)

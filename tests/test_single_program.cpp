@@ -143,7 +143,11 @@ TEST_F(Single, WhatIsAbsurdIsRefusedUnlessItIsMeant)
         run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/near_fault_pulse.toml", {"contact.normal_stiffness_n_m2=3e6"}),
         {"42.4 mm", "study.allow = [\"sinkage\"]"});
     const Ended meant =
-        run(run_words(mechanisms, seven_blocks(1, {"contact.friction=5", "study.allow=[\"friction\"]"}), {"--quiet"}));
+        run(run_words(mechanisms,
+                      seven_blocks(1, {"contact.friction=5",
+                                       "perturbation.friction={ distribution = \"normal\", cov = 0.1, min = 1 }",
+                                       "study.allow=[\"friction\"]"}),
+                      {"--quiet"}));
     EXPECT_EQ(meant.status, 0) << testing::PrintToString(meant);
 }
 
