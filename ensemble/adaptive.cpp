@@ -17,6 +17,8 @@ AdaptiveAllocation::AdaptiveAllocation(const AdaptiveSpec& spec, std::size_t row
 
 std::vector<CellEstimate> AdaptiveAllocation::estimate(const SurfaceTrials& data)
 {
+    if (!estimates_.empty() && known_.trials == data.trials && known_.collapses == data.collapses)
+        return estimates_;
     std::vector<SurfaceEstimate> surface;
     if (spec_.borrow)
         surface = model_.estimate(data);
@@ -32,6 +34,8 @@ std::vector<CellEstimate> AdaptiveAllocation::estimate(const SurfaceTrials& data
                                        : std::numeric_limits<double>::quiet_NaN(),
                                  own, IntervalMethod::own});
     }
+    known_ = data;
+    estimates_ = estimates;
     return estimates;
 }
 

@@ -53,6 +53,8 @@ private:
     AdaptiveSpec spec_;
     AdaptiveLooks looks_;
     SurfaceModel model_;
+    SurfaceTrials known_; ///< what was estimated last, and from what
+    std::vector<CellEstimate> estimates_;
     std::vector<std::uint64_t> asked_;
     std::uint64_t rounds_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "ensemble/executor.hpp"
 
+#include "ensemble/interval.hpp"
 #include "ensemble/lanes.hpp"
 #include "ensemble/slots.hpp"
 
@@ -14,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <unordered_map>
 
 namespace stylobate {
 
@@ -29,8 +31,12 @@ public:
     Run(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
         const RunPlan& plan, Observer& observer)
         : study_(study), sampler_(sampler), record_(record), kernels_(kernels(options.isa)), plan_(plan),
-          observer_(observer), progress_(plan.before), pattern_(realize(index(0)))
+          observer_(observer), order_(plan.total), done_(plan.done), pattern_(realize(plan.index(0)))
     {
+        const DoneSet::Part before = done_.all();
+        progress_.done = before_ = before.end;
+        progress_.collapsed = before.collapsed;
+        progress_.invalid = before.invalid;
         progress_.total = plan.total;
         handover_.fetch_add(1);
     }
@@ -61,7 +67,7 @@ public:
     {
         guarded([&] {
             // no more slots than this device's share of what is to do
-            const std::uint64_t left = plan_.total - std::min(plan_.total, plan_.before.done);
+            const std::uint64_t left = plan_.total - std::min(plan_.total, before_);
             const auto most =
                 static_cast<int>(std::min<std::uint64_t>(left / static_cast<std::uint64_t>(share) + 1, most_slots));
             SlotSet set(study_, record_, pattern_, device, slots, most);
@@ -127,19 +133,22 @@ private:
     std::optional<std::uint64_t> next()
     {
         const std::lock_guard lock(mutex_);
-        while (next_ < plan_.total && plan_.done && plan_.done(index(next_)))
+        while (next_ < plan_.total && plan_.done.has(next_))
             ++next_;
         if (next_ >= plan_.total || stopped_)
             return std::nullopt;
-        return index(next_++);
+        const std::uint64_t index = plan_.index(order_.index(next_));
+        running_.emplace(index, next_++);
+        return index;
     }
-
-    std::uint64_t index(std::uint64_t place) const { return plan_.indices.empty() ? place : plan_.indices[place]; }
 
     void deliver(const Realization& realization, const Outcome& outcome)
     {
         const std::lock_guard lock(mutex_);
         plan_.sink(realization, outcome);
+        const auto place = running_.find(realization.index);
+        done_.add(place->second, outcome.state == State::collapsed, outcome.state == State::invalid);
+        running_.erase(place);
         ++progress_.done;
         progress_.collapsed += outcome.state == State::collapsed;
         progress_.invalid += outcome.state == State::invalid;
@@ -164,6 +173,8 @@ private:
         progress_.rate = seconds > 0 ? static_cast<double>(delivered_) / seconds : 0;
         const std::uint64_t chunks = lane_chunks_;
         progress_.occupancy = chunks > 0 ? static_cast<double>(active_chunks_) / static_cast<double>(chunks) : 0;
+        const DoneSet::Part sample = done_.first();
+        estimate_share(progress_, sample.end - sample.invalid, sample.collapsed);
         observer_.progress(progress_);
         if (observer_.stop_requested())
             stopped_ = true;
@@ -178,7 +189,11 @@ private:
     const Clock::time_point start_ = Clock::now();
     std::mutex mutex_; ///< guards the sink, the observer and what follows
     Progress progress_;
-    std::uint64_t next_ = 0; ///< place in the plan
+    const RunOrder order_;
+    DoneSet done_;                                             ///< places
+    std::uint64_t before_ = 0;                                 ///< how many had been done
+    std::uint64_t next_ = 0;                                   ///< place
+    std::unordered_map<std::uint64_t, std::uint64_t> running_; ///< places of what is being stepped, by index
     std::uint64_t delivered_ = 0;
     std::exception_ptr error_;
     std::atomic<double> next_report_ = 0;
@@ -190,6 +205,16 @@ private:
 };
 
 } // namespace
+
+void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t collapsed)
+{
+    if (valid == 0)
+        return;
+    const BinomialInterval interval = jeffreys(valid, collapsed, 0.95);
+    progress.share = static_cast<double>(collapsed) / static_cast<double>(valid);
+    progress.share_lower = interval.lower;
+    progress.share_upper = interval.upper;
+}
 
 Progress run_ensemble(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
                       const RunPlan& plan, Observer& observer)

@@ -4,6 +4,7 @@
 #include "ensemble/device.hpp"
 #include "ensemble/observer.hpp"
 #include "ensemble/outcome.hpp"
+#include "ensemble/run_order.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/study.hpp"
 #include "kernels/isa.hpp"
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,19 +30,37 @@ struct RunOptions {
 /// What is left to do, and where results go.
 struct RunPlan {
     std::uint64_t total = 0;                     ///< realizations 0 .. total - 1, or as many as `indices`
-    std::span<const std::uint64_t> indices = {}; ///< those to run, in this order; empty: 0 .. total - 1
-    /// True for a realization that has been done before. Called from one thread at a time, in index order; empty: none.
-    std::function<bool(std::uint64_t index)> done;
+    std::span<const std::uint64_t> indices = {}; ///< those to run; empty: 0 .. total - 1
+    /// Those that have been done before, by their places: number p of them (or index p) has place
+    /// `RunOrder(total).place(p)`. `mark_done` fills it.
+    DoneSet done;
     /// A realization by its index; called from several threads at once. Empty: the sampler's.
     std::function<Realization(std::uint64_t index)> realize;
     /// Takes the results. Called from one thread at a time, in any order of the indices.
     std::function<void(const Realization&, const Outcome&)> sink;
-    Progress before; ///< counts of what has been done before
+
+    std::uint64_t index(std::uint64_t number) const { return indices.empty() ? number : indices[number]; }
+    /// Marks what has been done before. @param state of an index: an optional `State`
+    template <class StateOf>
+    void mark_done(const StateOf& state)
+    {
+        const RunOrder order(total);
+        for (std::uint64_t place = 0; place < total; ++place)
+            if (const std::optional<State> s = state(index(order.index(place))))
+                done.add(place, s == State::collapsed, s == State::invalid);
+    }
 };
+
+/// Sets the share in the whole study from a fair sample of it: Jeffreys' interval. Of no valid realization it says
+/// nothing.
+void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t collapsed);
 
 /// Runs the realizations of a study.
 ///
-/// The next index comes from one shared counter, so lanes and threads stay busy to the end; a realization's outcome
+/// They are begun in the order of `RunOrder`, so that what has been done at any time is spread over all of them; the
+/// progress' share is that of the first places without a gap, which no realization misses because it takes long.
+///
+/// The next one comes from one shared counter, so lanes and threads stay busy to the end; a realization's outcome
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set
 /// and the number of threads, and on devices too (`docs/gpu.md` says what that rests on).
 ///

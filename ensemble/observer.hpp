@@ -2,19 +2,28 @@
 /// What a run tells the one who started it. The library prints nothing itself.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace stylobate {
 
 struct Progress {
     std::uint64_t done = 0;        ///< realizations that have ended, those of an earlier part of the run counted
-    std::uint64_t total = 0;       ///< of the study
+    std::uint64_t total = 0;       ///< of the study, or the most that it can take
     std::uint64_t collapsed = 0;   ///< among `done`
     std::uint64_t invalid = 0;     ///< among `done`
     std::uint64_t block_steps = 0; ///< free blocks x steps of this run
     double seconds = 0;            ///< since this run began
     double rate = 0;               ///< realizations per second of this run
     double occupancy = 0;          ///< part of the lanes that worked on a realization
+    /// Share of the collapse in the whole study, as estimated from a fair sample of it, and its 95 % interval; NaN:
+    /// nothing can be said yet.
+    double share = std::numeric_limits<double>::quiet_NaN();
+    double share_lower = std::numeric_limits<double>::quiet_NaN();
+    double share_upper = std::numeric_limits<double>::quiet_NaN();
+    /// Whether `total` is only the most that it can take; `expected` is then an estimate of what it takes, 0: unknown.
+    bool open_end = false;
+    std::uint64_t expected = 0;
 };
 
 class Observer {

@@ -138,25 +138,17 @@ void FileHandle::write(std::uint64_t offset, std::span<const std::byte> bytes)
     }
 }
 
-void FileHandle::copy_from(const FileHandle& other)
+void FileHandle::take_permissions(const FileHandle& other)
 {
-    std::vector<std::byte> buffer(std::size_t{1} << 20);
-    const std::uint64_t end = other.size();
-    for (std::uint64_t at = 0; at < end;) {
-        const auto part = std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), end - at));
-        other.read(at, part);
-        write(at, part);
-        at += part.size();
-    }
     struct stat status = {};
     if (::fstat(other.descriptor_, &status) == 0)
         ::fchmod(descriptor_, status.st_mode & 07777);
 }
 
-void FileHandle::reserve()
+void FileHandle::reserve(std::uint64_t appended)
 {
-    const auto bytes = static_cast<off_t>(size());
-    if (bytes > 0 && ::fallocate(descriptor_, 0, 0, bytes) != 0 && errno == ENOSPC)
+    const auto bytes = static_cast<off_t>(size() + appended);
+    if (bytes > 0 && ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0 && errno == ENOSPC)
         refuse(path_, "needs " + std::to_string(bytes) + " bytes and the disk has not so many; choose another output");
 }
 

@@ -29,10 +29,10 @@ public:
     void read(std::uint64_t offset, std::span<std::byte> bytes) const;
     /// @throws std::system_error, for example where the disk is full
     void write(std::uint64_t offset, std::span<const std::byte> bytes);
-    /// Everything of another file, and its permissions, from the start.
-    void copy_from(const FileHandle& other);
-    /// Reserves the disk space of the whole file, where the file system can. @throws InputError if the disk is full
-    void reserve();
+    void take_permissions(const FileHandle& other);
+    /// Reserves the disk space of the whole file and of what will be appended, where the file system can.
+    /// @throws InputError if the disk is full
+    void reserve(std::uint64_t appended = 0);
     /// Waits until the disk has what was written.
     void sync();
 

@@ -2,7 +2,9 @@
 
 #include "ensemble/input_error.hpp"
 
+#include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace stylobate {
 namespace {
@@ -208,18 +210,57 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
         refuse("holds the results of another study: " + other + ". Choose another output.");
     if (found.code_version != asked.code_version)
         refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
-               ", whose results may have other bits. Finish it with the old version, or choose another output.");
+               ", whose results may have other bits. " +
+               (file.complete ? "It is complete; choose another output to run the study again."
+                              : "Finish it with the old version, or choose another output."));
+}
+
+void check_unfinished(const ResultFile& file, const ResultHeader& asked)
+{
+    check_same_study(file, asked);
     if (file.complete)
-        refuse("is complete already: nothing is left to run. Choose another output to run the study again.");
+        throw InputError(file.path.string(), 0,
+                         "is complete already: nothing is left to run. Choose another output to run the study again.");
 }
 
 std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
 {
     if (selected_) {
-        const auto found = number_.find(index);
-        return found == number_.end() ? std::nullopt : std::optional(found->second);
+        const auto found = place_.find(index);
+        return found == place_.end() ? std::nullopt : std::optional(found->second);
     }
-    return index >= first_ && index - first_ < rows_ ? std::optional(index - first_) : std::nullopt;
+    if (index < first_ || index - first_ >= rows_)
+        return std::nullopt;
+    const std::uint64_t at = index - first_;
+    if (in_order_)
+        return at;
+    return at < after_.size() && after_[at] > 0 ? std::optional(after_[at] - 1) : std::nullopt;
+}
+
+bool RowNumbers::add(std::uint64_t index, std::uint64_t place)
+{
+    bool is_new = false;
+    if (selected_) {
+        is_new = place_.emplace(index, place).second;
+    } else {
+        const std::uint64_t at = index - first_;
+        if (at >= after_.size())
+            after_.resize(rows_);
+        is_new = std::exchange(after_[at], place + 1) == 0;
+    }
+    added_ += is_new;
+    return is_new;
+}
+
+void RowNumbers::for_each(const std::function<void(std::uint64_t)>& f) const
+{
+    for (const std::uint64_t after : after_)
+        if (after > 0)
+            f(after - 1);
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> sorted(place_.begin(), place_.end());
+    std::sort(sorted.begin(), sorted.end());
+    for (const auto& [index, place] : sorted)
+        f(place);
 }
 
 std::vector<Extent> RowPlaces::extents(const ResultLayout& layout) const
@@ -318,6 +359,29 @@ void ResultFile::write_chunk(std::uint64_t chunk, std::span<const std::byte> byt
     handle.write(places.checksum + chunk * sizeof checksum, std::as_bytes(std::span(&checksum, 1)));
 }
 
+ResultRow ResultFile::decode(std::uint64_t k, std::span<const std::byte> bytes) const
+{
+    try {
+        return layout.decode(k, bytes);
+    } catch (const std::invalid_argument& error) {
+        refuse_damaged(error.what());
+    }
+}
+
+void ResultFile::read_journal(
+    const std::function<void(const ResultRow&, const RowJournal::Record&)>& row,
+    const std::function<void(const RowJournal::Record&, std::span<const std::byte>)>& trajectory)
+{
+    journal.read(handle, [&](const RowJournal::Record& record, std::span<const std::byte> content) {
+        if (record.kind == RowJournal::Kind::trajectory)
+            trajectory(record, content);
+        else if (content.size() != layout.row_bytes())
+            refuse_damaged("a row has another size");
+        else
+            row(decode(0, content), record);
+    });
+}
+
 void ResultFile::refuse_damaged(const std::string& text) const
 {
     throw InputError(path.string(), 0,
@@ -350,10 +414,18 @@ ResultFile open_result(const std::filesystem::path& path, bool writable)
             return result;
         }
         // a row has some bytes in the file, so that a larger number is wrong before anything is allocated for it
-        if (result.header.total > result.handle.size() || result.header.block_names.size() > result.handle.size())
+        if ((result.complete && result.header.total > result.handle.size()) ||
+            result.header.block_names.size() > result.handle.size())
             result.refuse_damaged("it cannot hold the rows that it promises");
         result.layout = ResultLayout(result.header);
-        result.places = find_rows(file, result.layout);
+        if (result.complete) {
+            result.places = find_rows(file, result.layout);
+        } else {
+            if (extents.size() != 1 || extents[0].size != 0)
+                result.refuse_damaged("it is not complete, and yet has no room for rows");
+            result.journal = RowJournal(extents[0].offset);
+            return result;
+        }
     } catch (const hdf5::Error& error) {
         result.refuse_damaged(error.what());
     } catch (const std::invalid_argument& error) {

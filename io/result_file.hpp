@@ -5,6 +5,7 @@
 #include "io/hdf5.hpp"
 #include "io/result_layout.hpp"
 #include "io/result_seal.hpp"
+#include "io/row_journal.hpp"
 
 #include <optional>
 #include <unordered_map>
@@ -63,24 +64,31 @@ hdf5::Dims column_dims(const ResultLayout& layout, const Column& column);
 /// Finds the columns. @throws hdf5::Error if one is missing or has another type or shape
 RowPlaces find_rows(hid_t file, const ResultLayout& layout);
 
-/// Which row is a realization's, among those that are known.
+/// Where a realization's row is: of a complete file its number, of an unfinished one the place of its record, which the
+/// caller gives.
 class RowNumbers {
 public:
     RowNumbers() = default;
-    explicit RowNumbers(const ResultHeader& header)
-        : selected_(header.selected), first_(header.first), rows_(header.total)
+    RowNumbers(const ResultHeader& header, bool complete)
+        : selected_(header.selected), in_order_(complete && !header.selected), first_(header.first), rows_(header.total)
     {
     }
-    /// Where the rows are selected, of those that were added only.
+    /// Nothing for a realization that has no row.
     std::optional<std::uint64_t> of(std::uint64_t index) const;
-    /// @returns false if the realization has a row already
-    bool add(std::uint64_t index, std::uint64_t number) { return number_.emplace(index, number).second; }
+    /// Where the rows do not lie in index order without a gap.
+    /// @returns false if the realization has a row already @pre the file has room for it
+    bool add(std::uint64_t index, std::uint64_t place);
+    std::uint64_t added() const { return added_; }
+    /// The places of all that were added, in index order.
+    void for_each(const std::function<void(std::uint64_t place)>& f) const;
 
 private:
-    bool selected_ = false;
+    bool selected_ = false, in_order_ = false;
     std::uint64_t first_ = 0;
     std::uint64_t rows_ = 0;
-    std::unordered_map<std::uint64_t, std::uint64_t> number_; ///< where the rows are selected
+    std::uint64_t added_ = 0;
+    std::vector<std::uint64_t> after_;                       ///< place + 1 by index - first, 0: none
+    std::unordered_map<std::uint64_t, std::uint64_t> place_; ///< where the rows are selected
 };
 
 /// An open results file, its seal verified.
@@ -91,12 +99,18 @@ struct ResultFile {
     ResultHeader header;
     bool complete = false;
     ResultLayout layout;
-    RowPlaces places;
+    RowPlaces places;   ///< of a complete file
+    RowJournal journal; ///< of an unfinished one
 
     /// The bytes of a chunk, or nothing if it is not written or its checksum is wrong.
     std::optional<std::vector<std::byte>> read_chunk(std::uint64_t chunk) const;
     /// Writes the rows first, their checksum last.
     void write_chunk(std::uint64_t chunk, std::span<const std::byte> bytes);
+    /// A row that was written without others, or in a chunk. Refuses with "damaged" what no run writes.
+    ResultRow decode(std::uint64_t k, std::span<const std::byte> bytes) const;
+    /// Goes through the rows and trajectories of an unfinished file.
+    void read_journal(const std::function<void(const ResultRow&, const RowJournal::Record&)>& row,
+                      const std::function<void(const RowJournal::Record&, std::span<const std::byte>)>& trajectory);
     /// Refuses with "damaged" and the reason.
     [[noreturn]] void refuse_damaged(const std::string& text) const;
 };
@@ -106,7 +120,9 @@ struct ResultFile {
 /// @throws InputError as `ResultReader` and `ResultWriter::resume` say
 ResultFile open_result(const std::filesystem::path& path, bool writable);
 
-/// @throws InputError unless the file is an unfinished one of this study and version
+/// @throws InputError unless the file is of this study and version
 void check_same_study(const ResultFile& file, const ResultHeader& asked);
+/// @throws InputError besides if the file is complete
+void check_unfinished(const ResultFile& file, const ResultHeader& asked);
 
 } // namespace stylobate

@@ -143,33 +143,32 @@ ResultLayout::ResultLayout(const ResultHeader& header)
     }
 }
 
-std::size_t ResultLayout::place(std::size_t column, std::uint64_t number) const
+void ResultLayout::encode(std::uint64_t k, const ResultRow& row, std::span<std::byte> bytes) const
 {
-    const std::uint64_t chunk = chunk_of(number);
-    return begin_in_chunk(column, chunk) + (number - first_row(chunk)) * columns_[column].bytes;
-}
-
-void ResultLayout::encode(std::uint64_t number, const ResultRow& row, std::span<std::byte> chunk_bytes) const
-{
+    const std::uint64_t rows = bytes.size() / row_bytes_;
+    const auto put = [&](std::size_t column, std::size_t within, const void* from, std::size_t size) {
+        std::memcpy(bytes.subspan(before_[column] * rows + k * columns_[column].bytes + within, size).data(), from,
+                    size);
+    };
     std::size_t column = 0;
     visit_fields(row, [&](const char* path, const char*, const auto& field) {
-        const std::size_t at = place(column++, number);
         const auto value = without_none(path, field);
-        std::memcpy(chunk_bytes.subspan(at, sizeof value).data(), &value, sizeof value);
+        put(column++, 0, &value, sizeof value);
     });
     std::vector<double> fall_times = row.outcome.fall_time_s;
     for (double& time : fall_times)
         time = without_none(result_names::fall_time, time);
-    const std::span falls = std::as_bytes(std::span(fall_times));
-    std::memcpy(chunk_bytes.subspan(place(fall_time_, number), falls.size()).data(), falls.data(), falls.size());
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-        const std::size_t at = place(inputs_[i].column, number) + inputs_[i].component * sizeof(double);
-        std::memcpy(chunk_bytes.subspan(at, sizeof(double)).data(), &row.inputs[i], sizeof(double));
-    }
+    put(fall_time_, 0, fall_times.data(), fall_times.size() * sizeof(double));
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+        put(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
 }
 
-ResultRow ResultLayout::decode(std::uint64_t number, std::span<const std::byte> chunk_bytes) const
+ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes) const
 {
+    const std::uint64_t rows = bytes.size() / row_bytes_;
+    const auto take = [&](std::size_t column, std::size_t within, void* to, std::size_t size) {
+        std::memcpy(to, bytes.subspan(before_[column] * rows + k * columns_[column].bytes + within, size).data(), size);
+    };
     ResultRow row;
     std::size_t column = 0;
     const auto none = [](std::string_view path, auto& value) { // NaN is -1 again
@@ -178,23 +177,19 @@ ResultRow ResultLayout::decode(std::uint64_t number, std::span<const std::byte> 
                 value = -1;
     };
     visit_fields(row, [&](const char* path, const char*, auto& field) {
-        const std::size_t at = place(column++, number);
-        std::memcpy(&field, chunk_bytes.subspan(at, sizeof field).data(), sizeof field);
+        take(column++, 0, &field, sizeof field);
         none(path, field);
     });
     row.outcome.fall_time_s.resize(blocks());
-    const std::span falls = std::as_writable_bytes(std::span(row.outcome.fall_time_s));
-    std::memcpy(falls.data(), chunk_bytes.subspan(place(fall_time_, number), falls.size()).data(), falls.size());
+    take(fall_time_, 0, row.outcome.fall_time_s.data(), blocks() * sizeof(double));
     for (double& time : row.outcome.fall_time_s)
         none(result_names::fall_time, time);
     row.inputs.resize(inputs_.size());
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-        const std::size_t at = place(inputs_[i].column, number) + inputs_[i].component * sizeof(double);
-        std::memcpy(&row.inputs[i], chunk_bytes.subspan(at, sizeof(double)).data(), sizeof(double));
-    }
-    if ((!selected_ && row.index != first_index_ + number) || row.outcome.state > State::invalid ||
-        row.outcome.invalid_reason > InvalidReason::energy)
-        throw std::invalid_argument("row " + std::to_string(number) + " holds what no run writes");
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+        take(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
+    const bool here = selected_ || (row.index >= first_index_ && row.index - first_index_ < rows_);
+    if (!here || row.outcome.state > State::invalid || row.outcome.invalid_reason > InvalidReason::energy)
+        throw std::invalid_argument("a row of realization " + std::to_string(row.index) + " holds what no run writes");
     return row;
 }
 

@@ -177,20 +177,18 @@ public:
         return columns_[column].bytes * rows_in(chunk);
     }
 
-    /// Puts the row of this number into its place in its chunk's bytes.
-    /// @pre number < rows(), row.inputs has inputs() values, row.outcome.fall_time_s has blocks() values
-    void encode(std::uint64_t number, const ResultRow& row, std::span<std::byte> chunk_bytes) const;
-    /// Takes the row of this number from its chunk's bytes. @pre number < rows()
+    /// Puts row `k` of those that these bytes hold (a chunk, or a single one) into its place.
+    /// @pre row.inputs has inputs() values, row.outcome.fall_time_s has blocks() values
+    void encode(std::uint64_t k, const ResultRow& row, std::span<std::byte> bytes) const;
+    /// Takes row `k` of those that these bytes hold.
     /// @throws std::invalid_argument if a value is impossible
-    ResultRow decode(std::uint64_t number, std::span<const std::byte> chunk_bytes) const;
+    ResultRow decode(std::uint64_t k, std::span<const std::byte> bytes) const;
 
 private:
     struct Input {
         std::size_t column = 0;
         std::uint64_t component = 0;
     };
-    std::size_t place(std::size_t column, std::uint64_t number) const;
-
     std::uint64_t first_index_ = 0;
     bool selected_ = false;
     std::uint64_t rows_ = 0;

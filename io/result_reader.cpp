@@ -4,10 +4,12 @@
 #include "io/result_rare.hpp"
 #include "io/result_sensitivity.hpp"
 #include "io/result_store.hpp"
+#include "io/result_trajectory.hpp"
 #include "io/result_twins.hpp"
 #include "io/tally_file.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace stylobate {
 
@@ -15,16 +17,22 @@ namespace names = result_names;
 
 struct ResultReader::Impl {
     ResultFile file;
-    std::vector<bool> there; ///< by chunk
     RowNumbers numbers;
-    std::optional<TallyFile> counted; ///< instead of rows
+    std::uint64_t rows = 0;
+    RowJournal journal;                                       ///< of a file that is not complete, from its beginning
+    std::map<std::uint64_t, RowJournal::Record> trajectories; ///< in the same
+    std::optional<TallyFile> counted;                         ///< instead of rows
 
     /// The chunk read last, so that reading row after row is cheap.
     mutable std::uint64_t cached_chunk = 0;
     mutable std::optional<std::vector<std::byte>> cached;
 
+    /// @param number of an unfinished file the offset of the record's content
     ResultRow row(std::uint64_t number) const
     {
+        if (!file.complete)
+            return file.decode(
+                0, RowJournal::content(file.handle, {RowJournal::Kind::row, number, file.layout.row_bytes()}));
         const std::uint64_t chunk = file.layout.chunk_of(number);
         if (!cached || cached_chunk != chunk) {
             cached = file.read_chunk(chunk);
@@ -32,19 +40,47 @@ struct ResultReader::Impl {
         }
         if (!cached)
             file.refuse_damaged("row " + std::to_string(number) + " has changed since the file was opened");
-        try {
-            return file.layout.decode(number, *cached);
-        } catch (const std::invalid_argument& error) {
-            file.refuse_damaged(error.what());
-        }
+        ResultRow row = file.decode(number - file.layout.first_row(chunk), *cached);
+        if (!file.header.selected && row.index != file.header.first + number)
+            file.refuse_damaged("row " + std::to_string(number) + " is of another realization");
+        return row;
     }
 
-    /// Where the rows are selected: which realizations they are of.
-    void number_rows()
+    /// Verifies every chunk of a complete file.
+    void check_chunks()
     {
-        for (std::uint64_t number = 0; number < file.layout.rows(); ++number)
-            if (there[file.layout.chunk_of(number)] && !numbers.add(row(number).index, number))
-                file.refuse_damaged("two of its rows are of one realization");
+        const ResultLayout& layout = file.layout;
+        rows = layout.rows();
+        for (std::uint64_t chunk = 0; chunk < layout.chunks(); ++chunk)
+            if (!file.read_chunk(chunk))
+                file.refuse_damaged("the checksum of the rows from " + std::to_string(layout.first_row(chunk)) +
+                                    " on is wrong");
+        for (std::uint64_t number = 0; file.header.selected && number < rows; ++number)
+            add(row(number).index, number);
+    }
+
+    /// Finds what there is of one that is not.
+    void read_journal()
+    {
+        journal = file.journal;
+        file.read_journal(
+            [&](const ResultRow& row, const RowJournal::Record& record) {
+                add(row.index, record.offset);
+                ++rows;
+            },
+            [&](const RowJournal::Record& record, std::span<const std::byte> content) {
+                try {
+                    trajectories[trajectory_of(content).index] = record;
+                } catch (const std::invalid_argument& error) {
+                    file.refuse_damaged(error.what());
+                }
+            });
+    }
+
+    void add(std::uint64_t index, std::uint64_t number)
+    {
+        if (!numbers.add(index, number))
+            file.refuse_damaged("two of its rows are of one realization");
     }
 
     /// Runs a part that reads through HDF5; what it finds wrong is damage.
@@ -67,15 +103,11 @@ ResultReader::ResultReader(const std::filesystem::path& file) : impl_(std::make_
         impl_->counted = impl_->guarded([&](hid_t id) { return read_tally(id, opened.header); });
         return;
     }
-    for (std::uint64_t chunk = 0; chunk < opened.layout.chunks(); ++chunk) {
-        impl_->there.push_back(opened.read_chunk(chunk).has_value());
-        if (opened.complete && !impl_->there.back())
-            opened.refuse_damaged("the checksum of the rows from " + std::to_string(opened.layout.first_row(chunk)) +
-                                  " on is wrong");
-    }
-    impl_->numbers = RowNumbers(opened.header);
-    if (opened.header.selected)
-        impl_->number_rows();
+    impl_->numbers = RowNumbers(opened.header, opened.complete);
+    if (opened.complete)
+        impl_->check_chunks();
+    else
+        impl_->read_journal();
 }
 
 ResultReader::~ResultReader() = default;
@@ -97,39 +129,32 @@ const Tally* ResultReader::tally() const
 
 std::uint64_t ResultReader::done() const
 {
-    if (impl_->counted)
-        return impl_->counted->tally.added();
-    std::uint64_t done = 0;
-    const ResultLayout& layout = impl_->file.layout;
-    for (std::uint64_t chunk = 0; chunk < impl_->there.size(); ++chunk)
-        done += impl_->there[chunk] ? layout.rows_in(chunk) : 0;
-    return done;
+    return impl_->counted ? impl_->counted->tally.added() : impl_->rows;
 }
 
 bool ResultReader::has(std::uint64_t index) const
 {
-    const auto number = impl_->numbers.of(index);
-    return number && impl_->there[impl_->file.layout.chunk_of(*number)];
+    return header().has_rows() && impl_->numbers.of(index).has_value();
 }
 
 ResultRow ResultReader::row(std::uint64_t index) const
 {
-    const auto number = impl_->numbers.of(index);
     const ResultHeader& of = header();
     if (!of.has_rows())
         throw InputError(impl_->file.path.string(), 0,
                          "keeps no rows of its realizations (output.realizations = \"none\"). Replay realization " +
                              std::to_string(index) + " instead.");
+    const auto number = impl_->numbers.of(index);
     if (!number && of.selected)
         throw InputError(impl_->file.path.string(), 0,
                          "does not hold realization " + std::to_string(index) +
                              ": an adaptive run takes of each cell as many as it needs. The index column of "
                              "'export --to csv' says which there are.");
-    if (!number)
+    if (index < of.first || (!of.selected && index - of.first >= of.total))
         throw InputError(impl_->file.path.string(), 0,
                          "has no realization " + std::to_string(index) + "; it has those from " +
                              std::to_string(of.first) + " to " + std::to_string(of.first + of.total - 1));
-    if (!has(index))
+    if (!number)
         throw InputError(impl_->file.path.string(), 0,
                          "does not hold realization " + std::to_string(index) +
                              " yet: the run was interrupted. Continue it with 'run'.");
@@ -146,10 +171,16 @@ std::vector<ResultRow> ResultReader::rows() const
 
 void ResultReader::for_each_row(const std::function<void(const ResultRow&)>& f) const
 {
-    const ResultLayout& layout = impl_->file.layout;
-    for (std::uint64_t number = 0; number < layout.rows(); ++number)
-        if (impl_->there[layout.chunk_of(number)])
+    if (complete() || !header().has_rows()) {
+        for (std::uint64_t number = 0; number < impl_->rows; ++number)
             f(impl_->row(number));
+        return;
+    }
+    std::uint64_t left = impl_->rows; // those that were there when the file was opened
+    RowJournal(impl_->journal).read(impl_->file.handle, [&](const RowJournal::Record& record, auto content) {
+        if (record.kind == RowJournal::Kind::row && left > 0 && left-- > 0)
+            f(impl_->file.decode(0, content));
+    });
 }
 
 SurfaceTable ResultReader::surface() const
@@ -204,8 +235,10 @@ std::vector<FollowedTwin> ResultReader::twins() const
 
 std::vector<std::uint64_t> ResultReader::trajectory_indices() const
 {
-    return impl_->guarded([](hid_t file) {
+    return impl_->guarded([this](hid_t file) {
         std::vector<std::uint64_t> indices;
+        for (const auto& [index, record] : impl_->trajectories)
+            indices.push_back(index);
         if (!hdf5::exists(file, names::trajectories))
             return indices;
         for (const std::string& name : hdf5::names_in(hdf5::open_group(file, names::trajectories).id())) {
@@ -224,6 +257,8 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
     if (!std::binary_search(indices.begin(), indices.end(), index))
         throw InputError(impl_->file.path.string(), 0,
                          "has no trajectory of realization " + std::to_string(index) + "; 'replay' makes one");
+    if (!complete())
+        return trajectory_of(RowJournal::content(impl_->file.handle, impl_->trajectories.at(index)));
     return impl_->guarded([index](hid_t file) {
         const std::string group = std::string(names::trajectories) + "/" + std::to_string(index) + "/";
         Trajectory trajectory;

@@ -94,6 +94,11 @@ void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>
     file.write(0, bytes);
 }
 
+void write_open_seal(FileHandle& file, std::uint64_t block)
+{
+    write_seal(file, block, {{file.size(), 0}});
+}
+
 std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
 {
     const auto refuse = [&](const std::string& text) { throw InputError(name, 0, text); };
@@ -129,19 +134,22 @@ std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
                ". Read it with the version that wrote it, or run its study again into another file.");
     if (size < head.file_size)
         refuse("is truncated: " + std::to_string(size) + " bytes of " + std::to_string(head.file_size));
-    if (size > head.file_size || head.extents > (head.block - sizeof head - sizeof crc) / sizeof(Extent))
+    if (head.extents > (head.block - sizeof head - sizeof crc) / sizeof(Extent))
         refuse(damaged);
 
     std::vector<Extent> extents(head.extents);
     const auto list = std::as_writable_bytes(std::span(extents));
     std::ranges::copy(std::span(block).subspan(sizeof head, list.size()), list.begin());
+    const bool open = extents.size() == 1 && extents[0] == Extent{head.file_size, 0};
+    if (size > head.file_size && !open)
+        refuse(damaged);
     std::uint64_t from = head.block;
     for (const Extent& extent : extents) {
         if (extent.offset < from || extent.offset > size || extent.size > size - extent.offset)
             refuse(damaged);
         from = extent.offset + extent.size;
     }
-    if (crc_outside(file, head.block, size, extents) != head.crc)
+    if (crc_outside(file, head.block, head.file_size, extents) != head.crc)
         refuse(damaged);
     return extents;
 }

@@ -30,7 +30,10 @@ std::vector<Extent> joined(std::vector<Extent> extents);
 /// @param block what `seal_bytes` said when the file was created
 void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents);
 
-/// Verifies the seal. @returns the extents
+/// The same of a file that goes on behind its end, with bytes that the seal says nothing of (`RowJournal`).
+void write_open_seal(FileHandle& file, std::uint64_t block);
+
+/// Verifies the seal. @returns the extents; of a file that may go on behind its end a single one of no size, there
 /// @param name of the file, for messages
 /// @throws InputError if the file is none of ours, of another format version, truncated or damaged
 std::vector<Extent> check_seal(const FileHandle& file, const std::string& name);

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,15 +99,20 @@ struct Trajectory {
     std::size_t blocks() const { return half_width_m.size(); }
 };
 
-/// A results file that is being written. Rows may come in any order; a chunk of rows is written, with its checksum,
-/// as soon as all its rows are there. A process that is killed at any moment leaves a file that `resume` continues.
+/// A results file that is being written. Rows may come in any order; each is written, with its checksum, as it comes,
+/// behind the rest of the file. A process that is killed at any moment leaves a file that `resume` continues with every
+/// row that was added; a machine that stops, with all but those of the last seconds.
 class ResultWriter {
 public:
-    static constexpr std::uint64_t rows_per_chunk = 256;
+    static constexpr std::uint64_t rows_per_chunk = 256; ///< with one checksum, in a complete file
 
     /// Creates the file (under another name first, so that no half-made file is ever seen).
     /// @throws InputError if the folder is missing or cannot be written, or if the file exists already
     static std::unique_ptr<ResultWriter> create(const std::filesystem::path& file, const ResultHeader& header);
+
+    /// Whether there is nothing left to do: the file is complete.
+    /// @throws InputError if it is another study's, another version's, damaged, or no such file
+    static bool is_finished(const std::filesystem::path& file, const ResultHeader& header);
 
     /// Opens an unfinished file of the same study.
     /// @throws InputError if it is another study's, complete already, another version's, damaged, or no such file;
@@ -117,27 +123,26 @@ public:
     ResultWriter(const ResultWriter&) = delete;
     ResultWriter& operator=(const ResultWriter&) = delete;
 
-    /// True for rows that are in the file already (whole chunks only, checksum verified).
+    /// True for rows that are in the file already.
     bool has(std::uint64_t index) const;
+    /// How a realization ended whose row is in the file already.
+    std::optional<State> state(std::uint64_t index) const;
     /// Rows in the file already.
     std::uint64_t rows() const;
-    /// Rows in the file already, by outcome state, for the progress line. (5)
-    std::vector<std::uint64_t> rows_by_state() const;
 
     /// Takes one row; not thread-safe. A row that is there already changes nothing.
     /// @throws std::system_error if it cannot be written (full disk); what is written already stays
     void add(const ResultRow& row);
-    /// Takes a trajectory; it is kept in memory until `finish`, so a resumed run adds it again, also where it `has` the
-    /// row.
+    /// Takes a trajectory; of several of one index the last. Added before its row it is there where the row is.
     void add(const Trajectory& trajectory);
-    /// Writes the surface's table or that of the sensitivities, of a rare event or of fragility, the twins that were
-    /// followed, and the trajectories, and marks the file complete, in one step: killed meanwhile, the file stays as it
-    /// was. All rows must have been added; where they are selected, those that were added are all, and are put in index
-    /// order. Needs the disk space of the file once more.
+    /// Writes a file of all rows in index order, the table of the surface, of the sensitivities, of a rare event or of
+    /// fragility, the twins that were followed and the trajectories, which takes the place of this one, in one step:
+    /// killed meanwhile, the file stays as it was. All rows must have been added; where they are selected, those that
+    /// were added are all. Needs the disk space of the file once more.
     void finish(const SurfaceTable* surface, const SensitivityTable* sensitivity = nullptr,
                 const RareTable* rare = nullptr, const std::vector<FollowedTwin>* twins = nullptr,
                 const FragilityTable* fragility = nullptr);
-    /// Makes the chunks written so far safe against the end of the machine; that of the process cannot hurt them.
+    /// Makes what was written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
 private:
@@ -146,7 +151,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// A results file that is read, with rows or without. Opening verifies every checksum.
+/// A results file that is read, with rows or without, complete or not. Opening verifies every checksum.
 class ResultReader {
 public:
     /// @throws InputError if there is no such file, if it is no result of stylobate, or if it is damaged
@@ -163,7 +168,8 @@ public:
     ResultRow row(std::uint64_t index) const;
     /// All rows that are there, in index order.
     std::vector<ResultRow> rows() const;
-    /// The same one by one, in the order of the file: for what must not grow with their number.
+    /// The same one by one, in the order of the file, which is that in which they came if it is not complete: for what
+    /// must not grow with their number.
     void for_each_row(const std::function<void(const ResultRow&)>& f) const;
     /// Realizations that are done: rows that are there, or that have been counted.
     std::uint64_t done() const;

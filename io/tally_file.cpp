@@ -50,41 +50,6 @@ TimeCounts read_times(hid_t file, const std::string& name, std::uint64_t most)
 
 } // namespace
 
-bool ChunkSet::has(std::uint64_t chunk) const
-{
-    const auto after = intervals_.upper_bound(chunk);
-    return after != intervals_.begin() && std::prev(after)->second > chunk;
-}
-
-void ChunkSet::add(std::uint64_t chunk)
-{
-    const auto after = intervals_.upper_bound(chunk);
-    auto at = after;
-    if (after != intervals_.begin() && std::prev(after)->second == chunk) {
-        at = std::prev(after);
-        at->second = chunk + 1;
-    } else {
-        at = intervals_.emplace_hint(after, chunk, chunk + 1);
-    }
-    if (after != intervals_.end() && after->first == chunk + 1) {
-        at->second = after->second;
-        intervals_.erase(after);
-    }
-}
-
-bool ChunkSet::append(std::uint64_t begin, std::uint64_t end)
-{
-    if (begin >= end || (!intervals_.empty() && begin <= intervals_.rbegin()->second))
-        return false;
-    intervals_.emplace_hint(intervals_.end(), begin, end);
-    return true;
-}
-
-std::uint64_t realizations_in(std::uint64_t chunk, const ResultHeader& header)
-{
-    return std::min(ResultWriter::rows_per_chunk, header.total - chunk * ResultWriter::rows_per_chunk);
-}
-
 void write_tally(hid_t file, const ResultHeader& header, const TallyFile& counted)
 {
     const Tally& tally = counted.tally;
@@ -116,11 +81,9 @@ void write_tally(hid_t file, const ResultHeader& header, const TallyFile& counte
                       {reason.size()});
 
     std::vector<std::uint64_t> done;
-    for (const auto& [begin, end] : counted.done.intervals())
-        done.insert(done.end(), {begin, end});
-    hdf5::write_array(file, in_tally("done_chunks"), done, {done.size() / 2, 2}, "");
-    hdf5::write_number(hdf5::open_object(file, in_tally("done_chunks")).id(), names::rows_per_chunk, H5T_STD_U32LE,
-                       ResultWriter::rows_per_chunk);
+    for (const auto& [begin, part] : counted.done.parts())
+        done.insert(done.end(), {begin, part.end, part.collapsed, part.invalid});
+    hdf5::write_array(file, in_tally("done"), done, {done.size() / 4, 4}, "");
 }
 
 TallyFile read_tally(hid_t file, const ResultHeader& header)
@@ -153,22 +116,17 @@ TallyFile read_tally(hid_t file, const ResultHeader& header)
         tally.first_invalid.emplace(index[i], static_cast<InvalidReason>(reason[i]));
     }
 
-    const hdf5::Dims intervals = hdf5::dims_of(file, in_tally("done_chunks"));
-    if (intervals.size() != 2 || intervals[1] != 2)
-        wrong("the list of the chunks");
-    const std::vector<std::uint64_t> done = hdf5::read_counts(file, in_tally("done_chunks"), intervals);
-    const std::uint64_t chunks = (header.total + ResultWriter::rows_per_chunk - 1) / ResultWriter::rows_per_chunk;
-    std::uint64_t realizations = 0;
-    for (std::size_t i = 0; i < done.size(); i += 2) {
-        if (done[i + 1] > chunks || !counted.done.append(done[i], done[i + 1]))
-            wrong("the list of the chunks");
-        realizations +=
-            (done[i + 1] - done[i] - 1) * ResultWriter::rows_per_chunk + realizations_in(done[i + 1] - 1, header);
-    }
-    if (hdf5::read_number(hdf5::open_object(file, in_tally("done_chunks")).id(), names::rows_per_chunk) !=
-            ResultWriter::rows_per_chunk ||
-        tally.added() != realizations)
-        wrong("they are not as many as the chunks that were counted");
+    const hdf5::Dims parts = hdf5::dims_of(file, in_tally("done"));
+    if (parts.size() != 2 || parts[1] != 4)
+        wrong("the list of what is done");
+    const std::vector<std::uint64_t> done = hdf5::read_counts(file, in_tally("done"), parts);
+    for (std::size_t i = 0; i < done.size(); i += 4)
+        if (!counted.done.append(done[i], {done[i + 1], done[i + 2], done[i + 3]}))
+            wrong("the list of what is done");
+    const DoneSet::Part all = counted.done.all();
+    if (tally.added() != all.end || tally.all_invalid() != all.invalid ||
+        (!done.empty() && done[done.size() - 3] > header.total))
+        wrong("they are not as many as the realizations that were counted");
     return counted;
 }
 

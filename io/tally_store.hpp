@@ -2,18 +2,17 @@
 /// A results file without rows: what a study's tables need, cell by cell, however many realizations there are.
 /// `io/FORMAT.md` describes it; `ResultReader` reads it.
 
+#include "ensemble/run_order.hpp"
 #include "io/result_store.hpp"
 
 namespace stylobate {
 
-/// A results file of counts that is being written. Realizations may come in any order; a chunk of 256 is counted when
-/// all of it is there. Now and then, and in `flush`, the whole file is written anew under another name and takes the
-/// old one's place in one step: a process that is killed at any moment leaves a file that `resume` continues, in which
-/// no realization is counted twice.
+/// A results file of counts that is being written. Realizations may come in any order. Every second or so, and in
+/// `flush`, the whole file is written anew under another name and takes the old one's place in one step: a process that
+/// is killed at any moment leaves a file that `resume` continues, in which no realization is counted twice.
 ///
-/// What is waiting for the rest of its chunk, and the list of chunks that are done, grow with the number of
-/// realizations that are stepped at the same time, if realizations are begun in index order; nothing grows with their
-/// number.
+/// The list of what is done grows with the number of realizations that are stepped at the same time, if they are begun
+/// in the order of `RunOrder`; nothing grows with their number.
 class TallyWriter {
 public:
     /// Creates the file, as `ResultWriter::create` does. @pre header.limit_states is not empty, and the header has axes
@@ -26,8 +25,10 @@ public:
     TallyWriter(const TallyWriter&) = delete;
     TallyWriter& operator=(const TallyWriter&) = delete;
 
-    /// True for realizations that are counted: those of whole chunks.
+    /// True for realizations that are counted.
     bool has(std::uint64_t index) const;
+    /// What is counted, by its place in the order of the run.
+    const DoneSet& done() const;
     /// What is counted.
     const Tally& tally() const;
 

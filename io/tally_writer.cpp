@@ -3,9 +3,8 @@
 #include "io/tally_file.hpp"
 #include "io/tally_store.hpp"
 
-#include <array>
+#include <algorithm>
 #include <chrono>
-#include <map>
 #include <stdexcept>
 
 namespace stylobate {
@@ -14,25 +13,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What is lost of a run that is killed is at most what it does in this time, or in `patience` times as long as the
-/// file takes to be written: writing it takes no hundredth of the run.
-constexpr std::chrono::seconds between_writings{1};
+/// What is lost of a run that is killed is what it does in this time, or in `patience` times as long as the file takes
+/// to be written (writing it takes no hundredth of the run), but no more than in `longest`.
+constexpr std::chrono::seconds between_writings{1}, longest{5};
 constexpr int patience = 100;
 
 } // namespace
 
 struct TallyWriter::Impl {
-    /// A chunk that waits for its last realizations.
-    struct Pending {
-        std::vector<TallyEntry> entries;
-        std::array<bool, ResultWriter::rows_per_chunk> taken = {};
-    };
-
     std::filesystem::path path;
     ResultHeader header;
     FileHandle handle; ///< holds the lock
     TallyFile counted;
-    std::map<std::uint64_t, Pending> pending;
+    RunOrder order{0};
     Clock::time_point due = Clock::now() + between_writings;
     bool finished = false;
 
@@ -61,7 +54,7 @@ struct TallyWriter::Impl {
         temporary.keep();
         handle = std::move(made);
         const Clock::time_point end = Clock::now();
-        due = end + std::max<Clock::duration>(between_writings, patience * (end - start));
+        due = end + std::clamp<Clock::duration>(patience * (end - start), between_writings, longest);
     }
 
     void rewrite(const SurfaceTable* surface)
@@ -72,13 +65,6 @@ struct TallyWriter::Impl {
             throw std::runtime_error(path.string() + ": cannot be written: " + error.what() +
                                      "; it stays as it was written last");
         }
-    }
-
-    void count(std::uint64_t chunk, const Pending& all)
-    {
-        for (const TallyEntry& entry : all.entries)
-            counted.tally.add(entry);
-        counted.done.add(chunk);
     }
 
     void check_open() const
@@ -101,6 +87,7 @@ std::unique_ptr<TallyWriter> TallyWriter::create(const std::filesystem::path& fi
     auto impl = std::make_unique<Impl>();
     impl->path = file;
     impl->header = header;
+    impl->order = RunOrder(header.total);
     impl->counted.tally = Tally(cells, header.limit_states.size(), header.block_names.size());
     try {
         impl->write(nullptr, true);
@@ -118,7 +105,7 @@ std::unique_ptr<TallyWriter> TallyWriter::resume(const std::filesystem::path& fi
     std::error_code ignored;
     const auto real = std::filesystem::canonical(file, ignored);
     ResultFile opened = open_result(real.empty() ? file : real, true);
-    check_same_study(opened, header);
+    check_unfinished(opened, header);
     auto impl = std::make_unique<Impl>();
     try {
         impl->counted = read_tally(opened.hdf5.id(), opened.header);
@@ -128,13 +115,19 @@ std::unique_ptr<TallyWriter> TallyWriter::resume(const std::filesystem::path& fi
     opened.hdf5.reset();
     impl->path = opened.path;
     impl->header = opened.header;
+    impl->order = RunOrder(opened.header.total);
     impl->handle = std::move(opened.handle);
     return std::unique_ptr<TallyWriter>(new TallyWriter(std::move(impl)));
 }
 
 bool TallyWriter::has(std::uint64_t index) const
 {
-    return impl_->counted.done.has(index / ResultWriter::rows_per_chunk);
+    return impl_->counted.done.has(impl_->order.place(index));
+}
+
+const DoneSet& TallyWriter::done() const
+{
+    return impl_->counted.done;
 }
 
 const Tally& TallyWriter::tally() const
@@ -152,17 +145,9 @@ void TallyWriter::add(const TallyEntry& entry)
                                     " does not fit into the results file");
     if (has(entry.index))
         return;
-    const std::uint64_t chunk = entry.index / ResultWriter::rows_per_chunk;
-    Impl::Pending& waiting = impl_->pending[chunk];
-    bool& taken = waiting.taken[entry.index % ResultWriter::rows_per_chunk];
-    if (taken)
-        return;
-    taken = true;
-    waiting.entries.push_back(entry);
-    if (waiting.entries.size() < realizations_in(chunk, impl_->header))
-        return;
-    impl_->count(chunk, waiting);
-    impl_->pending.erase(chunk);
+    impl_->counted.tally.add(entry);
+    const bool invalid = entry.invalid != InvalidReason::none;
+    impl_->counted.done.add(impl_->order.place(entry.index), !invalid && (entry.reached & 1) != 0, invalid);
     if (Clock::now() >= impl_->due)
         impl_->rewrite(nullptr);
 }

@@ -31,13 +31,9 @@ cmake --build build/release --target stylobate --parallel "$(nproc)"
 stage="running $study"
 mkdir -p results
 [[ $# -eq 0 ]] || rm -f "$name.h5"
-if [[ -e $name.h5 ]] && "$stylobate" export "$name.h5" -o "$name.png" --force --quiet 2>/dev/null; then
-    echo "$name.h5 is complete already: nothing to compute. (Remove it to compute it again.)"
-else
-    "$stylobate" run "$study" -o "$name.h5" "$@"
-    stage="drawing the picture"
-    "$stylobate" export "$name.h5" -o "$name.png" --force --quiet
-fi
+"$stylobate" run "$study" -o "$name.h5" "$@"
+stage="drawing the picture"
+"$stylobate" export "$name.h5" -o "$name.png" --force --quiet
 
 cat <<TEXT
 

@@ -1,9 +1,8 @@
 #include "studies/console.hpp"
 
-#include "ensemble/interval.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -86,18 +85,19 @@ std::string rate_text(double rate)
 
 std::string progress_line(const Progress& p)
 {
-    std::string line = fmt::format("{} of {} realizations", p.done, p.total);
+    const std::string of = !p.open_end      ? fmt::format(" of {}", p.total)
+                           : p.expected > 0 ? fmt::format(" of about {}", std::max(p.expected, p.done))
+                                            : "";
+    std::string line = fmt::format("{}{} realizations", p.done, of);
     if (p.rate > 0)
         line += ", " + rate_text(p.rate) + "/s";
-    if (p.rate > 0 && p.done < p.total)
-        line += fmt::format(", {} left", duration_text(static_cast<double>(p.total - p.done) / p.rate));
-    const std::uint64_t valid = p.done - p.invalid;
-    if (valid > 0) {
-        const BinomialInterval interval = jeffreys(valid, p.collapsed, 0.95);
-        line += fmt::format(", {:.1f} % collapsed ({:.1f} to {:.1f})",
-                            100 * static_cast<double>(p.collapsed) / static_cast<double>(valid), 100 * interval.lower,
-                            100 * interval.upper);
-    }
+    const std::uint64_t end = p.open_end ? p.expected : p.total; // 0: unknown
+    if (p.rate > 0 && p.done < end)
+        line += fmt::format(", {}{} left", p.open_end ? "about " : "",
+                            duration_text(static_cast<double>(end - p.done) / p.rate));
+    if (!std::isnan(p.share))
+        line += fmt::format(", {:.1f} % collapsed ({:.1f} to {:.1f})", 100 * p.share, 100 * p.share_lower,
+                            100 * p.share_upper);
     if (p.invalid > 0)
         line += fmt::format(", {} invalid", p.invalid);
     return line;

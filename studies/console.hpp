@@ -30,7 +30,8 @@ private:
     std::chrono::steady_clock::time_point last_line_{};
 };
 
-/// The line itself: done, rate, time left, the share that collapsed with its 95 % interval, and what is invalid.
+/// The line itself: done, rate, time left (an estimate, or nothing, where the total is open), the share that collapses
+/// in the whole study with its 95 % interval, and what is invalid.
 std::string progress_line(const Progress& progress);
 
 /// A rate with two digits at least: "1874", "3.2", "0.42".

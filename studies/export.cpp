@@ -129,7 +129,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& results
             throw InputError(fmt::format("--limit {}: a surface knows {}", wanted.limit, fmt::join(known, ", ")));
         if (!wanted.limit.empty())
             limit = limit_state_of(wanted.limit);
-        surface = finished_surface(reader, results, limit);
+        surface = surface_so_far(reader, results, limit);
     }
     const std::uint64_t realization =
         wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : reader.header().first;
@@ -138,7 +138,8 @@ fs::path export_picture(const CommonOptions& options, const std::string& results
     check_output(results, file, options.force);
 
     const auto title = [&](const std::string& of) {
-        return wanted.title.empty() ? of + ": " + title_of(reader, results) : wanted.title;
+        const std::string partial = surface.trials.empty() ? "" : partial_words(reader, results, surface);
+        return (wanted.title.empty() ? of + ": " + title_of(reader, results) : wanted.title) + partial;
     };
     if (picture == "strip") {
         strip_picture(options, reader, results, realization, wanted.title, file);

@@ -1,6 +1,7 @@
 #include "studies/result_picture.hpp"
 
 #include "ensemble/input_error.hpp"
+#include "ensemble/run_order.hpp"
 #include "ensemble/structure.hpp"
 #include "io/plot_order.hpp"
 #include "io/plot_strip.hpp"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace stylobate {
 
@@ -52,6 +54,15 @@ std::string strip_title(const ResultReader& reader, const std::string& results, 
         title += fmt::format(", {}", to_string(row.outcome.state));
     }
     return title;
+}
+
+/// 12345 as "12,345".
+std::string grouped(std::uint64_t number)
+{
+    std::string text = std::to_string(number);
+    for (std::size_t at = text.size(); at > 3;)
+        text.insert(at -= 3, ",");
+    return text;
 }
 
 Study study_of(const ResultReader& reader, const std::string& results)
@@ -101,14 +112,13 @@ std::vector<ResultRow> original_rows(const ResultReader& reader, const std::stri
     return rows;
 }
 
-SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit)
+SurfaceTable surface_so_far(const ResultReader& reader, const std::string& results, LimitState limit)
 {
     const ResultHeader& header = reader.header();
     if (header.frequency_hz.empty())
         throw InputError(fmt::format("{}: a result of kind '{}' has no surface; use --picture strip or order", results,
                                      header.kind));
-    check_complete(reader, results);
-    if (limit == LimitState::collapse)
+    if (limit == LimitState::collapse && reader.complete())
         return reader.surface();
     if (limit == LimitState::total && !followed_to_rest(reader, results))
         throw InputError(fmt::format("--limit total: {} followed each realization until its first fall only. Run the "
@@ -118,11 +128,25 @@ SurfaceTable finished_surface(const ResultReader& reader, const std::string& res
         return surface_of(header, *tally, limit);
     SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
     const std::uint64_t originals = study_of(reader, results).originals();
+    const RunOrder order(originals);
+    std::uint64_t places = header.selected ? 0 : originals; // those of an adaptive surface are begun round by round
+    if (!reader.complete() && !header.selected)
+        for (places = 0; places < originals && reader.has(order.index(places));)
+            ++places;
     reader.for_each_row([&](const ResultRow& row) {
-        if (row.index < originals)
+        if (row.index < originals && (header.selected || order.place(row.index) < places))
             counts.add(row);
     });
     return counts.table();
+}
+
+std::string partial_words(const ResultReader& reader, const std::string& results, const SurfaceTable& surface)
+{
+    if (reader.complete())
+        return "";
+    const auto n = std::accumulate(surface.trials.begin(), surface.trials.end(), std::uint64_t{0});
+    const std::string of = reader.header().selected ? "" : " of " + grouped(study_of(reader, results).originals());
+    return fmt::format(" – partial: {}{} realizations", grouped(n), of);
 }
 
 SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results)

@@ -30,9 +30,13 @@ bool has_twins(const ResultReader& reader, const std::string& results);
 /// All rows but those of twins, which are no further trials; of a replayed twin its own.
 std::vector<ResultRow> original_rows(const ResultReader& reader, const std::string& results);
 
-/// The surface of the store, or that of another limit state from the rows.
-/// @throws InputError if there is none, if the run is not complete, or if the limit state was not followed
-SurfaceTable finished_surface(const ResultReader& reader, const std::string& results, LimitState limit);
+/// The surface of the store, or that of another limit state from the rows. Of a run that is not complete, that of the
+/// realizations that were begun first and have all ended: none of them is missing because it takes long.
+/// @throws InputError if there is none, or if the limit state was not followed
+SurfaceTable surface_so_far(const ResultReader& reader, const std::string& results, LimitState limit);
+
+/// What the title of a surface says where the run is not complete: of how many realizations it is; else empty.
+std::string partial_words(const ResultReader& reader, const std::string& results, const SurfaceTable& surface);
 
 /// @throws InputError if there are none, or if the run is not complete
 SensitivityTable finished_sensitivity(const ResultReader& reader, const std::string& results);

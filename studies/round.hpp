@@ -7,14 +7,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace stylobate {
 
 class RoundObserver : public Observer {
 public:
-    /// @param before all that had been done when the round began
-    RoundObserver(Observer& whole, const Progress& before) : whole_(whole), before_(before) {}
+    /// @param before all that had been done when the round began, the share with it
+    /// @param fair   whether the round's share is that of the whole; else it stays as it was before
+    RoundObserver(Observer& whole, const Progress& before, bool fair = false)
+        : whole_(whole), before_(before), fair_(fair)
+    {
+    }
     void progress(const Progress& round) override { whole_.progress(joined(round)); }
     void warn(const std::string& text) override { whole_.warn(text); }
     bool stop_requested() override { return whole_.stop_requested(); }
@@ -28,6 +33,11 @@ public:
         all.invalid += round.invalid;
         all.block_steps += round.block_steps;
         all.seconds += round.seconds;
+        if (fair_) {
+            all.share = round.share;
+            all.share_lower = round.share_lower;
+            all.share_upper = round.share_upper;
+        }
         const double before = before_.rate * before_.seconds;
         all.rate = all.seconds > 0 ? (before + round.rate * round.seconds) / all.seconds : 0;
         all.occupancy =
@@ -38,6 +48,7 @@ public:
 private:
     Observer& whole_;
     Progress before_;
+    bool fair_;
 };
 
 /// @param indices  of the round
@@ -55,23 +66,19 @@ bool run_round(const LoadedStudy& loaded, const RunOptions& options, std::span<c
     RunPlan plan;
     plan.total = indices.size();
     plan.indices = indices;
-    plan.done = [&](std::uint64_t index) { return outcomes.has(index); };
+    plan.mark_done(
+        [&](std::uint64_t index) { return outcomes.has(index) ? std::optional(outcomes.state(index)) : std::nullopt; });
     plan.realize = std::move(realize);
     plan.sink = [&](const Realization& realization, const Outcome& outcome) {
         const ResultRow row = result_row(study, realization, outcome);
         outcomes.add(row);
         sink(row);
     };
-    for (const std::uint64_t index : indices)
-        if (outcomes.has(index)) {
-            ++plan.before.done;
-            plan.before.collapsed += outcomes.state(index) == State::collapsed;
-            plan.before.invalid += outcomes.state(index) == State::invalid;
-        }
+    const DoneSet::Part before = plan.done.all();
+    Progress progress{.done = before.end, .collapsed = before.collapsed, .invalid = before.invalid};
     RoundObserver observed(observer, whole);
-    const Progress progress = plan.before.done == plan.total
-                                  ? plan.before
-                                  : run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observed);
+    if (before.end < plan.total)
+        progress = run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observed);
     whole = observed.joined(progress);
     return progress.done == plan.total;
 }

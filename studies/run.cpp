@@ -29,7 +29,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace stylobate {
 
@@ -95,24 +97,30 @@ std::uint64_t free_blocks(const Realization& realization)
 Progress run_single(const LoadedStudy& loaded, Isa isa, std::uint64_t kept, ResultWriter& writer, Counts& counts,
                     Observer& observer)
 {
-    // trajectories are written with the end of the file: an unfinished one is run again as a whole
     const auto begin = std::chrono::steady_clock::now();
+    std::uint64_t run_now = 0;
     Progress progress;
     progress.total = loaded.study().total();
     progress.occupancy = 1.0 / kernels(isa).lanes; // followed one by one
     for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
-        const FollowedRealization f = follow(loaded, index, isa);
-        const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
-        writer.add(row);
-        if (index < kept)
-            writer.add(f.trajectory);
-        counts.add(row);
+        std::optional<State> state = writer.state(index);
+        if (!state) {
+            const FollowedRealization f = follow(loaded, index, isa);
+            const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
+            if (index < kept)
+                writer.add(f.trajectory); // before its row: where the row is, it is
+            writer.add(row);
+            counts.add(row);
+            state = f.outcome.state;
+            ++run_now;
+            progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
+        }
         ++progress.done;
-        progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
         progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        progress.rate = static_cast<double>(progress.done) / progress.seconds;
-        progress.collapsed += f.outcome.state == State::collapsed;
-        progress.invalid += f.outcome.state == State::invalid;
+        progress.rate = static_cast<double>(run_now) / progress.seconds;
+        progress.collapsed += state == State::collapsed;
+        progress.invalid += state == State::invalid;
+        estimate_share(progress, progress.done - progress.invalid, progress.collapsed);
         observer.progress(progress);
     }
     return progress;
@@ -125,7 +133,7 @@ Progress run_many(const LoadedStudy& loaded, const RunOptions& options, ResultWr
 {
     RunPlan plan;
     plan.total = loaded.study().total();
-    plan.done = [&](std::uint64_t index) { return writer.has(index); };
+    plan.mark_done([&](std::uint64_t index) { return writer.state(index); });
     plan.sink = [&](const Realization& realization, const Outcome& outcome) {
         const ResultRow row = result_row(loaded.study(), realization, outcome);
         writer.add(row);
@@ -133,15 +141,14 @@ Progress run_many(const LoadedStudy& loaded, const RunOptions& options, ResultWr
         if (sensitivity)
             sensitivity->add(row);
     };
-    const std::vector<std::uint64_t> states = writer.rows_by_state();
-    plan.before.done = writer.rows();
-    plan.before.collapsed = states[static_cast<std::size_t>(State::collapsed)];
-    plan.before.invalid = states[static_cast<std::size_t>(State::invalid)];
     return run_ensemble(loaded.study(), loaded.sampler(), loaded.record(), options, plan, observer);
 }
 
-Json share_json(const Share& share)
+/// @param fair whether all cells have equally many realizations; else the shares among all mean nothing
+Json share_json(const Share& share, bool fair)
 {
+    if (!fair)
+        return Json::object().member("count", share.count);
     return Json::object()
         .member("count", share.count)
         .member("probability", share.probability)
@@ -168,25 +175,39 @@ std::vector<std::size_t> first_fallen(const LimitCounts& counts)
 }
 
 /// What became of the valid realizations, over all cells of a surface.
-Json limits_json(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest)
+Json limits_json(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest, bool fair)
 {
     Json first = Json::list();
     for (const std::size_t block : first_fallen(counts))
         first.item(Json::object()
                        .member("block", block)
                        .member("name", names[block])
-                       .member("share", share_json(counts.share_first(block))));
+                       .member("share", share_json(counts.share_first(block), fair)));
     Json json = Json::object();
     json.member("trials", counts.trials()).member("interval", counts.interval());
     for (std::size_t i = 0; i < limit_state_names().size(); ++i)
         if (const auto limit = static_cast<LimitState>(i); limit != LimitState::total || to_rest)
-            json.member(limit_state_names()[i], share_json(counts.share(limit)));
+            json.member(limit_state_names()[i], share_json(counts.share(limit), fair));
     json.member("first_fallen", first)
-        .member("first_fallen_together", share_json(counts.share_first_together()))
+        .member("first_fallen_together", share_json(counts.share_first_together(), fair))
         .member("median_collapse_time_s", counts.median_collapse_time_s());
     if (to_rest)
         json.member("median_total_collapse_time_s", counts.median_total_collapse_time_s());
     return json;
+}
+
+/// The same of an adaptive surface: all cells have the same weight, however many realizations they have.
+void print_mean(const SurfaceTable& table, const LimitCounts& counts, const std::vector<std::string>& names)
+{
+    const SurfaceMean mean = mean_of(table);
+    fmt::print("  mean of the surface {:.3g} +- {:.2g} % collapsed (standard error; each cell has the same weight)",
+               100 * mean.value, 100 * mean.error);
+    std::string list;
+    for (const std::size_t block : first_fallen(counts))
+        list += fmt::format("{}{}: {}", list.empty() ? "" : ", ", names[block], counts.first()[block]);
+    if (!list.empty())
+        fmt::print("\n  first to fall, of the realizations that were run: {}", list);
+    fmt::print("\n");
 }
 
 void print_limits(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest)
@@ -223,7 +244,10 @@ Json adaptive_json(const SurfaceTable& table)
     double widest = 0;
     for (std::size_t cell = 0; cell < table.lower.size(); ++cell)
         widest = std::max(widest, (table.upper[cell] - table.lower[cell]) / 2);
+    const SurfaceMean mean = mean_of(table);
     return Json::object()
+        .member("mean_probability", mean.value)
+        .member("mean_standard_error", mean.error)
         .member("half_width", table.half_width)
         .member("widest", widest)
         .member("rounds", table.rounds)
@@ -245,6 +269,7 @@ struct Findings {
 void report(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
             const LimitCounts& counts, const RunOptions& run, bool complete, const Findings& found)
 {
+    const bool adaptive = loaded.study().surface && loaded.study().surface->adaptive;
     const std::vector<std::string> names = block_names(loaded.study());
     const bool to_rest = loaded.study().outcome.follow == Follow::rest;
     const std::string kind = word_for(study_kind_names, loaded.study().kind);
@@ -257,15 +282,18 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             .member("total", p.total)
             .member("collapsed", p.collapsed)
             .member("invalid", p.invalid)
+            .member("collapse_probability", p.share) // of the whole study, from a fair sample of it
+            .member("collapse_lower", p.share_lower)
+            .member("collapse_upper", p.share_upper)
             .member("seconds", p.seconds)
             .member("realizations_per_second", p.rate)
-            .member("block_steps_per_second", p.seconds > 0 ? static_cast<double>(p.block_steps) / p.seconds : 0.0)
+            .member("block_steps_per_second", p.seconds == 0 ? 0.0 : static_cast<double>(p.block_steps) / p.seconds)
             .member("occupancy", p.occupancy)
             .member("backend", options.backend)
             .member("simd", to_string(run.isa))
             .member("threads", run.threads);
         if (!loaded.study().rare) // whose realizations lean to the collapse
-            json.member("limit_states", limits_json(counts, names, to_rest));
+            json.member("limit_states", limits_json(counts, names, to_rest, !adaptive));
         if (found.adaptive)
             json.member("adaptive", adaptive_json(*found.adaptive));
         if (found.fragility)
@@ -278,8 +306,8 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
             json.member("twins", twins_json(*found.twins));
         fmt::print("{}\n", json.text());
     } else if (!options.quiet) {
-        fmt::print("{}: {} of {} realizations, {} collapsed, {} invalid", results, p.done, p.total, p.collapsed,
-                   p.invalid);
+        fmt::print("{}: {}{} realizations, {} collapsed, {} invalid", results, p.done,
+                   p.open_end ? "" : fmt::format(" of {}", p.total), p.collapsed, p.invalid);
         if (p.seconds > 0)
             fmt::print("; {} with {} threads of {}, {} realizations/s", duration_text(p.seconds), run.threads,
                        run.devices.empty() ? to_string(run.isa) : "the host and " + run.devices.front()->name(),
@@ -287,7 +315,9 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
         fmt::print("\n");
         if (found.adaptive)
             fmt::print("  {}\n", describe_adaptive(*found.adaptive));
-        if (counts.trials() > 0 && !loaded.study().rare)
+        if (found.adaptive)
+            print_mean(*found.adaptive, counts, names);
+        else if (complete && counts.trials() > 0 && !loaded.study().rare)
             print_limits(counts, names, to_rest);
         if (found.fragility)
             fmt::print("{}", fragility_text(*found.fragility));
@@ -298,8 +328,12 @@ void report(const CommonOptions& options, const LoadedStudy& loaded, const std::
                 fmt::print("  {}\n", sentence);
         if (found.twins)
             fmt::print("{}", twins_text(*found.twins));
+        if (!complete && !std::isnan(p.share)) // without those that have not ended because they take long
+            fmt::print("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
+                       100 * p.share_lower, 100 * p.share_upper);
         if (!complete)
-            fmt::print("Interrupted. The same command continues where this one stopped.\n");
+            fmt::print("Interrupted; {} realizations are kept. The same command continues where this one stopped.\n",
+                       p.done);
     }
 }
 
@@ -336,6 +370,76 @@ void demand_of_device(const Study& study, const std::string& file)
         refuse("asks for run.precision = \"single\", which is the processor's");
 }
 
+/// Reports a run, and what was found once it is complete, from its file.
+/// @returns the exit status
+int conclude(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results, const Progress& p,
+             const LimitCounts& counts, const RunOptions& run, bool complete)
+{
+    const Study& study = loaded.study();
+    std::optional<SurfaceTable> adaptive;
+    std::optional<SensitivityTable> indices;
+    std::optional<RareTable> rare;
+    std::optional<Fragility> fragility;
+    std::optional<Twins> twins;
+    if (complete) {
+        const ResultReader reader(results);
+        if (study.surface && study.surface->adaptive)
+            adaptive = reader.surface();
+        if (study.sensitivity)
+            indices = reader.sensitivity();
+        if (study.rare)
+            rare = reader.rare();
+        if (study.twins)
+            twins = twins_of(reader, results);
+        if (study.fragility)
+            fragility = fragility_of(reader, results);
+    }
+    report(options, loaded, results, p, counts, run, complete,
+           {adaptive ? &*adaptive : nullptr, fragility ? &*fragility : nullptr, indices ? &*indices : nullptr,
+            rare ? &*rare : nullptr, twins ? &*twins : nullptr});
+    if (!complete)
+        return exit_interrupted;
+    const double invalid = static_cast<double>(p.invalid) / static_cast<double>(p.total);
+    if (invalid > study.run.max_invalid_fraction) {
+        fmt::print(stderr,
+                   "stylobate: {} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
+                   "`stylobate replay {} --realization I` runs one again; a smaller run.step_fraction may help.\n",
+                   p.invalid, p.total, study.run.max_invalid_fraction, results);
+        return exit_invalid;
+    }
+    return exit_done;
+}
+
+/// Nothing is left to run: what the run would have said, as far as the file has it.
+int conclude_finished(const CommonOptions& options, const LoadedStudy& loaded, const std::string& results,
+                      const RunOptions& run, Counts& counts)
+{
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    Progress progress{.seconds = unknown, .rate = unknown, .occupancy = unknown};
+    {
+        const ResultReader reader(results);
+        progress.done = progress.total = reader.done();
+        reader.for_each_row([&](const ResultRow& row) {
+            counts.add(row);
+            progress.collapsed += row.outcome.state == State::collapsed;
+            progress.invalid += row.outcome.state == State::invalid;
+        });
+        if (const Tally* tally = reader.tally()) {
+            counts.limits = LimitCounts(*tally);
+            progress.collapsed = tally->all_reached(static_cast<std::size_t>(LimitState::collapse));
+            progress.invalid = tally->all_invalid();
+        }
+    }
+    const Study& study = loaded.study();
+    if (study.surface && study.surface->adaptive)
+        set_share(progress, mean_of(ResultReader(results).surface()));
+    else if (!study.rare)
+        estimate_share(progress, counts.limits.trials(), counts.limits.share(LimitState::collapse).count);
+    if (!options.json && !options.quiet)
+        fmt::print("{}: complete already, nothing is left to run. (Remove it to run the study again.)\n", results);
+    return conclude(options, loaded, results, progress, counts.limits, run, true);
+}
+
 } // namespace
 
 int run_command(const CommonOptions& options, const std::string& study, std::string results)
@@ -355,9 +459,12 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     if (!found) // else it has been done before the file was made
         check_realizations(loaded);
     const ResultHeader header = loaded.result_header();
+    const bool finished = found && ResultWriter::is_finished(results, header);
     Counts counts{SurfaceCounts(header.frequency_hz, header.pga_m_s2),
                   LimitCounts(header.block_names.size(), cells_of_motion(loaded.study())), loaded.study().originals()};
     const bool adaptive = is_surface && loaded.study().surface->adaptive;
+    if (finished)
+        return conclude_finished(options, loaded, results, run, counts);
     CellOutcomes outcomes(header.frequency_hz.size(), header.pga_m_s2.size(), loaded.study().realizations);
     std::optional<SensitivityOutcomes> of_factors;
     if (loaded.study().sensitivity)
@@ -379,7 +486,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
             console.warn(warning);
         if (!options.quiet && !trajectories.words.empty())
             fmt::print(stderr, "{}\n", trajectories.words);
-        if (writer && found && !is_single) // the file is ours now: no other run adds to it in between
+        if (writer && found) // the file is ours now: no other run adds to it in between
             count_done(results, counts, adaptive ? &outcomes : nullptr, sensitivity,
                        is_rare ? &rare_outcomes : nullptr);
         const auto sink = [&](const ResultRow& row) {
@@ -432,26 +539,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     else if (writer)
         writer->flush();
     writer.reset();
-    Findings findings;
-    std::optional<Twins> twins;
-    if (complete) {
-        if (loaded.study().twins)
-            twins = twins_of(ResultReader(results), results);
-        findings = {adaptive && table ? &*table : nullptr, fragility ? &*fragility : nullptr,
-                    indices ? &*indices : nullptr, rare ? &*rare : nullptr, twins ? &*twins : nullptr};
-    }
-    report(options, loaded, results, progress, counts.limits, run, complete, findings);
-    if (!complete)
-        return exit_interrupted;
-    const double invalid = static_cast<double>(progress.invalid) / static_cast<double>(progress.total);
-    if (invalid > loaded.study().run.max_invalid_fraction) {
-        fmt::print(stderr,
-                   "stylobate: {} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
-                   "`stylobate replay {} --realization I` runs one again; a smaller run.step_fraction may help.\n",
-                   progress.invalid, progress.total, loaded.study().run.max_invalid_fraction, results);
-        return exit_invalid;
-    }
-    return exit_done;
+    return conclude(options, loaded, results, progress, counts.limits, run, complete);
 }
 
 } // namespace stylobate

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace stylobate {
@@ -31,7 +32,55 @@ SurfaceTable table_of(AdaptiveAllocation& allocation, const ResultHeader& header
     return table;
 }
 
+/// What is known of a surface after a round: its mean, and how many realizations it will have taken. A cell that is too
+/// wide is taken to go on with the share that it has until its own interval is narrow; what the neighbours will give is
+/// not foreseen.
+void foretell(AdaptiveAllocation& allocation, const SurfaceTable& table, const std::vector<std::uint64_t>& asked,
+              std::uint64_t budget, Progress& progress)
+{
+    set_share(progress, mean_of(table));
+    const AdaptiveLooks& looks = allocation.looks();
+    progress.expected = 0;
+    for (std::size_t cell = 0; cell < asked.size(); ++cell) {
+        std::uint64_t n = asked[cell];
+        if (!looks.narrow({table.lower[cell], table.upper[cell]}) && table.trials[cell] > 0) {
+            const double share = static_cast<double>(table.collapses[cell]) / static_cast<double>(table.trials[cell]);
+            const auto narrow_at = [&](std::uint64_t trials) {
+                const auto collapses = std::llround(share * static_cast<double>(trials));
+                return looks.narrow(looks.interval(trials, static_cast<std::uint64_t>(collapses)));
+            };
+            while (n < looks.trials().back() && !narrow_at(n))
+                n = looks.after(n);
+        }
+        progress.expected += n;
+    }
+    progress.expected = std::min(progress.expected, budget);
+}
+
 } // namespace
+
+void set_share(Progress& progress, const SurfaceMean& mean)
+{
+    progress.share = mean.value;
+    progress.share_lower = std::max(0.0, mean.value - 1.96 * mean.error);
+    progress.share_upper = std::min(1.0, mean.value + 1.96 * mean.error);
+}
+
+SurfaceMean mean_of(const SurfaceTable& table)
+{
+    SurfaceMean mean;
+    double variance = 0;
+    for (std::size_t cell = 0; cell < table.trials.size(); ++cell) {
+        const auto n = static_cast<double>(table.trials[cell]);
+        const double p = (static_cast<double>(table.collapses[cell]) + 0.5) / (n + 1); // Jeffreys' posterior
+        mean.value += n > 0 ? table.probability[cell] : 0.5;
+        variance += p * (1 - p) / (n + 2);
+    }
+    const auto cells = static_cast<double>(table.trials.size());
+    mean.value /= cells;
+    mean.error = std::sqrt(variance) / cells;
+    return mean;
+}
 
 void CellOutcomes::add(const ResultRow& row)
 {
@@ -70,6 +119,7 @@ AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, C
                                   study.realizations);
     AdaptiveRun run;
     run.progress.total = surface.adaptive->budget;
+    run.progress.open_end = true;
     std::vector<std::uint64_t> before = allocation.asked();
     while (true) {
         const std::vector<std::uint64_t>& asked = allocation.next(outcomes.trials(before));
@@ -82,8 +132,11 @@ AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, C
         if (!run_round(loaded, options, round, outcomes, sink, observer, run.progress))
             return run;
         before = asked;
+        foretell(allocation, table_of(allocation, header, outcomes.trials(before)), before, surface.adaptive->budget,
+                 run.progress);
     }
     run.progress.total = run.progress.done;
+    run.progress.open_end = false;
     run.complete = true;
     run.table = table_of(allocation, header, outcomes.trials(before));
     return run;

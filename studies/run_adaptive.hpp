@@ -46,6 +46,15 @@ struct AdaptiveRun {
 AdaptiveRun run_adaptive(const LoadedStudy& loaded, const RunOptions& options, CellOutcomes& outcomes,
                          const std::function<void(const ResultRow&)>& sink, Observer& observer);
 
+/// Mean of the cells' probabilities, each cell with the same weight however many realizations it has, and its standard
+/// error. (The share among all realizations leans to the cells that took more of them.)
+struct SurfaceMean {
+    double value = 0, error = 0;
+};
+SurfaceMean mean_of(const SurfaceTable& table);
+/// The mean as the progress' share, and the interval of 1.96 standard errors.
+void set_share(Progress& progress, const SurfaceMean& mean);
+
 /// What was reached with how many realizations, as a sentence.
 std::string describe_adaptive(const SurfaceTable& table);
 

@@ -15,14 +15,11 @@ CountedRun run_counted(const LoadedStudy& loaded, const RunOptions& options, con
         found ? TallyWriter::resume(results, header) : TallyWriter::create(results, header);
     RunPlan plan;
     plan.total = study.total();
-    plan.done = [&](std::uint64_t index) { return writer->has(index); };
+    plan.done = writer->done();
     plan.sink = [&](const Realization& realization, const Outcome& outcome) {
         writer->add(tally_entry(result_row(study, realization, outcome)));
     };
     const Tally& tally = writer->tally();
-    plan.before.done = tally.added();
-    plan.before.collapsed = tally.all_reached(static_cast<std::size_t>(LimitState::collapse));
-    plan.before.invalid = tally.all_invalid();
     const Progress progress = run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observer);
     const bool complete = progress.done == progress.total;
     if (complete)

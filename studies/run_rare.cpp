@@ -98,6 +98,8 @@ RareRun run_rare(const LoadedStudy& loaded, const RunOptions& options, RareOutco
     const RareSpec& spec = *study.rare;
     const std::size_t dimension = loaded.sampler().size();
     RareRun run;
+    run.progress.open_end = true;
+    run.progress.total = spec.repeats * RareSpec::indices_of_repeat;
     std::vector<SubsetRun> runs;
     std::uint64_t repeat = 0;
 
@@ -109,12 +111,11 @@ RareRun run_rare(const LoadedStudy& loaded, const RunOptions& options, RareOutco
         std::vector<std::uint64_t> batch(n);
         std::iota(batch.begin(), batch.end(), begin);
 
-        // as many more as the repeats so far say
+        // as many more as the repeats so far say; nothing before the first one is over
         const std::uint64_t finished =
             std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
                             [](auto sum, const SubsetRun& r) { return sum + r.evaluations; });
-        run.progress.total = std::max(run.progress.done + n, runs.empty() ? spec.repeats * spec.samples * 4
-                                                                          : finished * spec.repeats / runs.size());
+        run.progress.expected = runs.empty() ? 0 : finished * spec.repeats / runs.size();
         const auto realize = [&](std::uint64_t index) {
             const auto at = static_cast<std::size_t>(index - begin) * dimension;
             return loaded.sampler().realization(index, std::span(numbers).subspan(at, dimension));
@@ -139,6 +140,7 @@ RareRun run_rare(const LoadedStudy& loaded, const RunOptions& options, RareOutco
     } catch (const Stopped&) {
         return run;
     }
+    run.progress.open_end = false;
     run.progress.total = run.progress.done;
     run.complete = true;
     run.table = table_of(runs);

@@ -2,6 +2,7 @@
 /// Runs the program as its user does: in a folder of its own, with arguments, and sees what it prints and leaves
 /// behind.
 
+#include "io/result_store.hpp"
 #include "json.hpp"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <poll.h>
@@ -45,9 +47,9 @@ struct ProgramRun {
     std::vector<std::string> arguments;
     bool terminal = false;     ///< standard error is a (pseudo-)terminal
     bool no_privilege = false; ///< root, too, may read and write only where the permissions say so
-    int signal = 0;            ///< sent `after_s` after the start
-    double after_s = 0;
-    double limit_s = 120; ///< killed then
+    int signal = 0;            ///< sent as soon as `when` holds
+    std::function<bool(const std::string& err)> when = [](const std::string&) { return true; };
+    double limit_s = 1200; ///< killed then: it hangs, however slow the machine is
 };
 
 struct Ended {
@@ -57,6 +59,26 @@ struct Ended {
     double seconds = 0;
     std::string out, err;
 };
+
+/// How many realizations the last progress line of a terminal says are done; 0 without one.
+inline std::uint64_t progress_in(const std::string& err)
+{
+    const std::size_t end = err.rfind(" realizations,");
+    const std::size_t begin = end == std::string::npos ? end : err.rfind("\x1b[K", end);
+    return begin == std::string::npos ? 0 : std::strtoull(err.c_str() + begin + 3, nullptr, 10);
+}
+
+/// Holds once that many are done, of a program with a terminal.
+inline std::function<bool(const std::string&)> when_done(std::uint64_t realizations)
+{
+    return [realizations](const std::string& err) { return progress_in(err) >= realizations; };
+}
+
+/// Holds once there is such a file.
+inline std::function<bool(const std::string&)> when_there(const fs::path& file)
+{
+    return [file](const std::string&) { return fs::exists(file); };
+}
 
 inline void PrintTo(const Ended& ended, std::ostream* to)
 {
@@ -135,15 +157,15 @@ inline Ended run_program(const ProgramRun& run, const fs::path& folder)
         pollfd polled[2];
         for (int i = 0; i < 2; ++i)
             polled[i] = {captures[i].descriptor, POLLIN, 0};
-        const double due = signalled ? run.limit_s : std::min(run.after_s, run.limit_s);
-        const auto wait = std::chrono::duration<double>(std::max(due - passed(), 0.0));
+        const double due = signalled ? run.limit_s - passed() : 0.002; // what it waits for may be no output
+        const auto wait = std::chrono::duration<double>(std::max(due, 0.0));
         const timespec timeout{static_cast<time_t>(wait.count()),
                                static_cast<long>(1e9 * (wait.count() - std::floor(wait.count())))};
         if (::ppoll(polled, 2, &timeout, nullptr) > 0)
             for (int i = 0; i < 2; ++i)
                 if (captures[i].descriptor >= 0 && polled[i].revents != 0)
                     captures[i].read();
-        if (!signalled && passed() >= run.after_s) {
+        if (!signalled && run.when(ended.err)) {
             ::kill(child, run.signal);
             signalled = true;
         }
@@ -226,6 +248,14 @@ protected:
     Ended run(const ProgramRun& program) const { return run_program(program, folder); }
     Ended run(const Words& arguments) const { return run_program({.arguments = arguments}, folder); }
 
+    /// What a run prints after the line with its time.
+    static std::string without_first_line(const std::string& text)
+    {
+        const std::size_t first = text.find(" collapsed, ");
+        const std::size_t end = text.find('\n', first == std::string::npos ? 0 : first);
+        return end == std::string::npos ? "" : text.substr(end);
+    }
+
     /// A study's results are the same bytes with scalar steps on one thread, and where the run is interrupted in turn
     /// by Ctrl-C and by its death until a part comes to the end.
     /// @param words the program's words for given results, threads and instruction set
@@ -237,27 +267,45 @@ protected:
         ASSERT_EQ(run(words("scalar.h5", "1", "scalar")).status, 0);
         EXPECT_TRUE(read_bytes(folder / "whole.h5") == read_bytes(folder / "scalar.h5"));
 
+        const std::uint64_t rows = ResultReader(folder / "whole.h5").done();
+        std::uint64_t kept = 0;
         int parts = 0;
         Ended ended;
         do {
             ProgramRun part = words("parts.h5", parts % 2 == 0 ? "1" : "3", parts % 2 == 0 ? "scalar" : "auto");
             if (parts < 6) {
+                part.terminal = true;
                 part.signal = parts % 2 == 0 ? SIGINT : SIGKILL;
-                part.after_s = whole.seconds * (0.1 + 0.15 * parts);
+                part.when = when_done(kept + 1 + rows / 8);
             }
             ended = run(part);
             ++parts;
-            // a signal may also hit a part that has just written its last byte
-            if (ended.err.find("is complete already") != std::string::npos)
-                ended.status = 0;
+            const ResultReader reader(folder / "parts.h5");
+            EXPECT_GE(reader.done(), kept) << "what was kept is lost";
+            kept = reader.done();
+            if (ended.status == 130 && ended.out.starts_with('{'))
+                EXPECT_EQ(json_of(ended)["realizations"].number, static_cast<double>(kept));
+            else if (ended.status == 130)
+                EXPECT_NE(ended.out.find(std::to_string(kept) + " realizations are kept"), std::string::npos)
+                    << testing::PrintToString(ended);
         } while (ended.status != 0 && parts < 8);
         ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
         EXPECT_GT(parts, 1);
         EXPECT_TRUE(read_bytes(folder / "whole.h5") == read_bytes(folder / "parts.h5"));
 
         const Ended again = run(words("whole.h5", "1", "auto"));
-        EXPECT_EQ(again.status, 2);
-        EXPECT_NE(again.err.find("is complete already"), std::string::npos) << again.err;
+        EXPECT_EQ(again.status, 0);
+        EXPECT_EQ(again.err, "");
+        if (again.out.starts_with('{')) {
+            const JsonValue first = json_of(whole), second = json_of(again);
+            for (const char* key : {"realizations", "collapsed", "invalid"})
+                EXPECT_EQ(first[key].number, second[key].number) << key;
+            EXPECT_TRUE(second["complete"].boolean);
+            return;
+        }
+        EXPECT_NE(again.out.find("complete already"), std::string::npos) << again.out;
+        // the rest is what the run said
+        EXPECT_EQ(without_first_line(again.out), without_first_line(whole.out));
     }
 
     /// All below the folder; the modification time of a folder is part of it.

@@ -65,6 +65,29 @@ TEST_F(AdaptiveProgram, ItsRealizationsAreThoseOfTheWholeStudy)
     EXPECT_LT(some.rows().size(), 16U * 97U); // 97: what every cell would get if one at 1/2 is to reach 0.1
 }
 
+/// The share among its realizations leans to the cells that took more of them; what is told is the mean over the cells.
+TEST_F(AdaptiveProgram, ItsMeanIsThatOfTheUniformSurface)
+{
+    const Ended ended = run(words(adaptive, "some.h5", "2"));
+    ASSERT_EQ(ended.status, 0);
+    ASSERT_EQ(run(words(small, "all.h5", "2")).status, 0);
+    double uniform = 0, leaning = 0;
+    for (const ResultRow& row : ResultReader(folder / "all.h5").rows())
+        uniform += row.outcome.state == State::collapsed ? 1.0 / (16 * 300) : 0.0;
+    const ResultReader some(folder / "some.h5");
+    for (const ResultRow& row : some.rows())
+        leaning += row.outcome.state == State::collapsed ? 1.0 / static_cast<double>(some.done()) : 0.0;
+    const JsonValue json = json_of(ended);
+    const double mean = json["adaptive"]["mean_probability"].number;
+    const double error = json["adaptive"]["mean_standard_error"].number;
+    EXPECT_NEAR(mean, uniform, 3 * error);
+    EXPECT_LT(error, 0.03);
+    EXPECT_GT(std::fabs(leaning - uniform), std::fabs(mean - uniform)) << leaning << ' ' << mean << ' ' << uniform;
+    const Ended text = run(run_words(column_study, adaptive, {"-o", "some.h5"}));
+    EXPECT_NE(text.out.find("mean of the surface"), std::string::npos) << text.out;
+    EXPECT_EQ(text.out.find("share and its"), std::string::npos) << text.out;
+}
+
 TEST_F(AdaptiveProgram, WhereTheBudgetEndsItSaysSoAndTheWidestComeFirst)
 {
     const auto settings = with(small, "surface.adaptive={budget=400,half_width=0.02,minimum=16,borrow=false}");

@@ -117,13 +117,13 @@ TEST_F(AdaptiveStore, AnUnfinishedFileContinuesToTheSameBytes)
         const std::vector<std::uint64_t> some = indices(3);
         for (std::size_t i = 0; i < 300; ++i)
             writer->add(sample_row(some[i]));
-        EXPECT_EQ(writer->rows(), chunk); // whole chunks
-    }                                     // as a killed process leaves it
+        EXPECT_EQ(writer->rows(), 300U);
+    } // as a killed process leaves it
     {
         const ResultReader reader(file);
         EXPECT_FALSE(reader.complete());
         const std::vector<ResultRow> rows = reader.rows();
-        ASSERT_EQ(rows.size(), chunk);
+        ASSERT_EQ(rows.size(), 300U);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             EXPECT_TRUE(same_bits(rows[i], sample_row(rows[i].index)));
             EXPECT_TRUE(i == 0 || rows[i - 1].index < rows[i].index);
@@ -131,16 +131,16 @@ TEST_F(AdaptiveStore, AnUnfinishedFileContinuesToTheSameBytes)
     }
     {
         const auto writer = ResultWriter::resume(file, header());
-        EXPECT_EQ(writer->rows(), chunk);
+        EXPECT_EQ(writer->rows(), 300U);
         for (const std::uint64_t index : indices(4)) {
-            EXPECT_EQ(writer->has(index), ResultReader(file).has(index) || writer->has(index));
             writer->add(sample_row(index));
-            if (writer->rows() > chunk)
+            EXPECT_TRUE(writer->has(index) && ResultReader(file).has(index));
+            if (writer->rows() == 310)
                 break;
         }
     }
     const auto writer = ResultWriter::resume(file, header());
-    EXPECT_EQ(writer->rows(), 2 * chunk);
+    EXPECT_EQ(writer->rows(), 310U);
     for (const std::uint64_t index : indices(5))
         writer->add(sample_row(index));
     writer->finish(&surface);

@@ -212,9 +212,8 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
         const auto writer = parts == 0 ? ResultWriter::create(file, header) : ResultWriter::resume(file, header);
         RunPlan plan;
         plan.total = study.total();
-        plan.done = [&](std::uint64_t index) { return writer->has(index); };
+        plan.mark_done([&](std::uint64_t index) { return writer->state(index); });
         plan.sink = [&](const Realization& r, const Outcome& o) { writer->add(result_row(study, r, o)); };
-        plan.before.done = writer->rows();
         Stopper observer;
         // a random part of what is left, fixed by the number of the part
         observer.after =

@@ -146,9 +146,29 @@ TEST(LimitState, ProgressHasAnIntervalAtNone)
     Progress progress;
     progress.done = 40;
     progress.total = 100;
+    EXPECT_EQ(progress_line(progress).find("collapsed"), std::string::npos) << "nothing can be said yet";
+    progress.share = 0;
+    progress.share_lower = 0;
+    progress.share_upper = 0.0604; // 0.975 of Beta(1/2, 40.5), which the executor gives
     EXPECT_NE(progress_line(progress).find("0.0 % collapsed (0.0 to 6.0)"), std::string::npos)
-        << progress_line(progress); // 0.975 of Beta(1/2, 40.5)
+        << progress_line(progress);
     EXPECT_EQ(progress_line(progress).find("+-"), std::string::npos);
+}
+
+/// The time left of a run whose end is open is an estimate, and is left out where there is none.
+TEST(LimitState, ProgressOfAnOpenEndIsAnEstimate)
+{
+    Progress progress;
+    progress.done = 1000;
+    progress.total = 20000;
+    progress.rate = 10;
+    EXPECT_NE(progress_line(progress).find("1000 of 20000 realizations, 10/s, 31 min 40 s left"), std::string::npos);
+    progress.open_end = true;
+    EXPECT_NE(progress_line(progress).find("1000 realizations, 10/s"), std::string::npos);
+    EXPECT_EQ(progress_line(progress).find("left"), std::string::npos);
+    progress.expected = 1500;
+    EXPECT_NE(progress_line(progress).find("1000 of about 1500 realizations, 10/s, about 50 s left"), std::string::npos)
+        << progress_line(progress);
 }
 
 TEST(LimitState, SurfaceOfEach)

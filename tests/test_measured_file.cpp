@@ -406,26 +406,31 @@ TEST(MeasuredFileFaults, TruncatedFilesAreRefused)
     EXPECT_TRUE(refused(folder / "missing.h5"));
 }
 
-TEST(MeasuredFileFaults, MutationsOfHdf5AreRefusedOrRead)
+class Mutations : public testing::TestWithParam<unsigned> {};
+
+TEST_P(Mutations, OfHdf5AreRefusedOrRead)
 {
-    const MeasuredFolder folder("h5_mutations");
+    const MeasuredFolder folder("h5_mutations_" + std::to_string(GetParam()));
     Campaign campaign = sample_campaign(2);
     for (MeasuredRun& run : campaign.runs)
         run = sample_run(campaign.specimen, run.name, 5, {}, 50);
     write_campaign(campaign, folder / "whole.h5");
     const std::string whole = content_of(folder / "whole.h5");
-    std::mt19937 random(1);
+    std::mt19937 random(GetParam());
     int refusals = 0;
-    for (int trial = 0; trial < 200; ++trial) {
+    for (int trial = 0; trial < 50; ++trial) {
         std::string text = whole;
         for (auto changes = 1 + random() % 8; changes > 0; --changes)
             text[random() % text.size()] ^= static_cast<char>(1 + random() % 255);
         write_content(folder / "mutation.h5", text);
         refusals += refused(folder / "mutation.h5");
     }
-    EXPECT_GT(refusals, 5);
-    EXPECT_LT(refusals, 195);
+    EXPECT_GT(refusals, 0);
+    EXPECT_LT(refusals, 50);
 }
+
+// in parts, so that no test is long
+INSTANTIATE_TEST_SUITE_P(MeasuredFileFaults, Mutations, testing::Values(1U, 2U, 3U, 4U));
 
 TEST(MeasuredFileFaults, MutationsOfCsvAndTomlAreRefusedOrRead)
 {

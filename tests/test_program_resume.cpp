@@ -4,6 +4,7 @@
 
 #include "io/result_store.hpp"
 #include "kernels/isa.hpp"
+#include "studies/result_picture.hpp"
 
 #include <random>
 
@@ -58,8 +59,8 @@ protected:
         return fs::exists(folder / results) ? ResultReader(folder / results).rows().size() : 0;
     }
 
-    /// The uninterrupted run, and how long it took.
-    double run_at_once(const std::string& results) const
+    /// The uninterrupted run.
+    void run_at_once(const std::string& results) const
     {
         const Ended ended = run(part(results, {"2", "auto"}));
         EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
@@ -69,7 +70,6 @@ protected:
             rows.begin(), rows.end(), [](const ResultRow& row) { return row.outcome.state == State::collapsed; });
         EXPECT_GT(collapsed, total / 10); // both kinds of endings are there
         EXPECT_LT(collapsed, total * 9 / 10);
-        return ended.seconds;
     }
 
     void expect_same(const std::string& a, const std::string& b) const
@@ -85,15 +85,14 @@ protected:
         EXPECT_TRUE(read_bytes(folder / (a + ".h5")) == read_bytes(folder / (b + ".h5")));
     }
 
-    /// Starts the run `parts` times and sends `signals` in turn, each after a random share of the time that a whole run
-    /// takes, and then lets it run to its end.
+    /// Starts the run `parts` times and sends `signals` in turn, each when a random number of realizations is done, and
+    /// then lets it run to its end.
     void interrupt(const std::vector<int>& signals, int parts, unsigned seed)
     {
-        const double seconds = run_at_once("whole.h5");
+        run_at_once("whole.h5");
         std::mt19937_64 random(seed);
         const std::vector<Machine> all = machines();
         int continued = 0;
-        double longest_s = 0.6 * seconds;
         for (int i = 0; i < parts; ++i) {
             const std::uint64_t rows = rows_in("parts.h5");
             if (rows == total)
@@ -101,12 +100,16 @@ protected:
             const auto before = contents();
             ProgramRun program = part("parts.h5", all[static_cast<std::size_t>(i) % all.size()]);
             program.signal = signals[static_cast<std::size_t>(i) % signals.size()];
-            program.after_s = longest_s * (0.02 + static_cast<double>(random() % 1000) / 1000);
+            program.when = when_done(rows + random() % (total / 4)); // as soon as it begins, or later
             const Ended ended = run(program);
             if (ended.status == 0)
                 break;
             if (ended.status == 130) {
                 EXPECT_NE(ended.out.find("The same command continues"), std::string::npos) << ended.out;
+                // what it says is kept is what there is
+                const std::string kept = std::to_string(rows_in("parts.h5"));
+                EXPECT_NE(ended.out.find("; " + kept + " realizations are kept"), std::string::npos) << ended.out;
+                EXPECT_EQ(json_of(run({"info", "parts.h5", "--json"}))["done"].number, std::stod(kept));
             } else { // killed, or interrupted before there was anything to keep
                 EXPECT_EQ(ended.signal, program.signal) << testing::PrintToString(ended);
                 EXPECT_TRUE(program.signal == SIGKILL || contents() == before) << testing::PrintToString(ended);
@@ -114,15 +117,14 @@ protected:
             // what was done is kept, and counted on from
             const std::uint64_t kept = rows_in("parts.h5");
             EXPECT_GE(kept, rows);
-            if (kept == rows)
-                longest_s *= 1.5; // slower code than that of the whole run: more time for it
+            EXPECT_GE(kept, progress_in(ended.err)) << "realizations that had ended are lost";
             const auto [first, last] = progress_of(ended.err);
             if (last > 0) {
                 EXPECT_GE(first, rows) << ended.err;
                 EXPECT_GE(last, first) << ended.err;
             }
             if (ended.status == 130) {
-                EXPECT_GE(last, kept) << ended.err;
+                EXPECT_EQ(last, kept) << ended.err;
                 EXPECT_NE(ended.out.find(": " + std::to_string(last) + " of "), std::string::npos) << ended.out;
             }
             continued += rows > 0 && rows < total;
@@ -142,8 +144,8 @@ protected:
     void expect_unfinished(const std::string& results) const
     {
         EXPECT_FALSE(ResultReader(folder / results).complete());
-        expect_refused({"export", results, "--to", "png"}, {results, "not complete", "continue"});
-        expect_refused({"export", results, "--to", "png", "--picture", "slice"}, {results, "not complete"});
+        expect_refused({"report", results}, {results, "not complete", "continue"});
+        expect_refused({"export", results, "--to", "png", "--picture", "order"}, {results, "not complete"});
     }
 };
 
@@ -168,7 +170,7 @@ TEST_F(Resume, AnInterruptSaysSo)
     program.arguments.push_back("--json");
     program.terminal = false;
     program.signal = SIGINT;
-    program.after_s = 1;
+    program.when = when_there(folder / "a.h5");
     const Ended ended = run(program);
     ASSERT_EQ(ended.status, 130) << testing::PrintToString(ended);
     EXPECT_EQ(ended.err, "");
@@ -176,7 +178,7 @@ TEST_F(Resume, AnInterruptSaysSo)
     EXPECT_FALSE(json["complete"].boolean);
     EXPECT_EQ(json["total"].number, static_cast<double>(total));
     EXPECT_LT(json["realizations"].number, static_cast<double>(total));
-    EXPECT_GE(json["realizations"].number, static_cast<double>(rows_in("a.h5")));
+    EXPECT_EQ(json["realizations"].number, static_cast<double>(rows_in("a.h5")));
     EXPECT_EQ(names(), Words{"a.h5"});
 }
 
@@ -185,8 +187,8 @@ TEST_F(Resume, RowsOfAnUnfinishedRunCanBeExportedAndReplayed)
     run_at_once("whole.h5");
     ProgramRun program = part("a.h5", {"1", "scalar"});
     program.signal = SIGKILL;
-    for (program.after_s = 0.5; rows_in("a.h5") == 0 && program.after_s < 30; program.after_s *= 2)
-        run(program);
+    program.when = when_done(1);
+    run(program);
     const std::uint64_t rows = rows_in("a.h5");
     ASSERT_GT(rows, 0u);
     ASSERT_LT(rows, total);
@@ -210,6 +212,79 @@ TEST_F(Resume, RowsOfAnUnfinishedRunCanBeExportedAndReplayed)
     }
 }
 
+/// A surface whose cells are anything from safe to lost: a part of it in index order would be a corner of it.
+TEST_F(Resume, AnInterimShareIsThatOfTheWhole)
+{
+    run_at_once("whole.h5");
+    const auto rows = ResultReader(folder / "whole.h5").rows();
+    double final_share = 0;
+    for (const ResultRow& row : rows)
+        final_share += row.outcome.state == State::collapsed ? 1.0 / static_cast<double>(total) : 0.0;
+    for (const std::uint64_t part : {total / 10, total / 3, total * 2 / 3}) {
+        fs::remove(folder / "a.h5");
+        ProgramRun program = this->part("a.h5", {"2", "auto"});
+        program.arguments.push_back("--json");
+        program.signal = SIGINT;
+        program.when = when_done(part);
+        const Ended ended = run(program);
+        if (ended.status == 0)
+            continue; // it had come to the end before the signal came
+        const JsonValue json = json_of(ended);
+        EXPECT_NEAR(json["collapse_probability"].number, final_share, 0.02);
+        EXPECT_LT(json["collapse_lower"].number, final_share);
+        EXPECT_GT(json["collapse_upper"].number, final_share);
+        EXPECT_LT(json["collapse_upper"].number - json["collapse_lower"].number, 0.1);
+        EXPECT_EQ(json["realizations"].number, static_cast<double>(rows_in("a.h5")));
+
+        // so is a picture of it, which states of how many realizations it is
+        const ResultReader reader(folder / "a.h5");
+        const SurfaceTable surface = surface_so_far(reader, "a.h5", LimitState::collapse);
+        const SurfaceTable whole = ResultReader(folder / "whole.h5").surface();
+        std::uint64_t drawn = 0;
+        for (std::size_t cell = 0; cell < surface.trials.size(); ++cell) {
+            drawn += surface.trials[cell];
+            EXPECT_NEAR(static_cast<double>(surface.trials[cell]),
+                        static_cast<double>(drawn) / static_cast<double>(cell + 1), 8)
+                << "all cells have as many realizations";
+            EXPECT_LE(surface.lower[cell] - 0.15, whole.probability[cell]);
+            EXPECT_GE(surface.upper[cell] + 0.15, whole.probability[cell]);
+        }
+        EXPECT_LE(drawn, rows_in("a.h5"));
+        const std::string words = partial_words(reader, "a.h5", surface);
+        EXPECT_NE(words.find("partial: "), std::string::npos) << words;
+        EXPECT_NE(words.find(slow_build ? " of 2,048 realizations" : " of 5,120 realizations"), std::string::npos)
+            << words;
+        for (const char* picture : {"surface", "slice"}) {
+            const Ended drawing = run({"export", "a.h5", "--to", "png", "--picture", picture});
+            EXPECT_EQ(drawing.status, 0) << testing::PrintToString(drawing);
+            EXPECT_TRUE(fs::exists(folder / ("a_" + std::string(picture) + ".png")));
+            fs::remove(folder / ("a_" + std::string(picture) + ".png"));
+        }
+    }
+    const ResultReader reader(folder / "whole.h5");
+    EXPECT_EQ(partial_words(reader, "whole.h5", reader.surface()), "");
+}
+
+TEST_F(Resume, AFinishedResultIsNoMistake)
+{
+    const Words words = run_words(column_study, eight_realizations, {"-o", "a.h5", "--json"});
+    const Ended first = run(words);
+    ASSERT_EQ(first.status, 0);
+    const auto before = contents();
+    const Ended again = run(words);
+    EXPECT_EQ(again.status, 0) << testing::PrintToString(again);
+    EXPECT_EQ(again.err, "");
+    EXPECT_TRUE(contents() == before);
+    const JsonValue a = json_of(first), b = json_of(again);
+    for (const char* key : {"realizations", "total", "collapsed", "invalid"})
+        EXPECT_EQ(a[key].number, b[key].number) << key;
+    EXPECT_TRUE(b["complete"].boolean);
+    EXPECT_EQ(a["limit_states"]["collapse"]["lower"].number, b["limit_states"]["collapse"]["lower"].number);
+    Words other = words;
+    other.insert(other.end(), {"--set", "contact.friction=0.7"});
+    expect_refused(other, {"another study"});
+}
+
 TEST_F(Resume, TwoRunsDoNotWriteOneFile)
 {
     // the second one starts while the first one is at work, and is refused
@@ -218,16 +293,17 @@ TEST_F(Resume, TwoRunsDoNotWriteOneFile)
     ASSERT_GE(child, 0);
     if (child == 0) {
         first.signal = SIGINT;
-        first.after_s = 2.5;
+        first.when = when_there(folder / "refused");
         const Ended ended = run(first);
         ::_exit(ended.status == 130 ? 0 : 1);
     }
-    for (int i = 0; i < 500 && rows_in("a.h5") == 0; ++i)
-        ::usleep(10'000);
+    while (!fs::exists(folder / "a.h5"))
+        ::usleep(2'000);
     const Ended second = run(part("a.h5", {"1", "auto"}).arguments);
     EXPECT_EQ(second.status, 2) << testing::PrintToString(second);
     EXPECT_EQ(second.out, "");
     EXPECT_NE(second.err.find("is being written by another run"), std::string::npos) << second.err;
+    write_bytes(folder / "refused", "");
     int status = 0;
     ::waitpid(child, &status, 0);
     EXPECT_EQ(status, 0) << "the first one did not end as an interrupted run does";
@@ -240,12 +316,11 @@ TEST_F(Resume, AnInterruptedReplayLeavesNothing)
     Words stiff = eight_realizations;
     stiff.push_back("contact.normal_stiffness_n_m2=1e11");
     ProgramRun program{.arguments = run_words(column_study, stiff, {"-o", "stiff.h5"}), .signal = SIGKILL};
-    for (program.after_s = 0.3; !fs::exists(folder / "stiff.h5") && program.after_s < 30; program.after_s *= 2)
-        run(program);
+    program.when = when_there(folder / "stiff.h5");
+    run(program);
     ASSERT_TRUE(fs::exists(folder / "stiff.h5"));
     const auto before = contents();
-    program = {
-        .arguments = {"replay", "stiff.h5", "--realization", "0", "-o", "t.h5"}, .signal = SIGINT, .after_s = 0.3};
+    program = {.arguments = {"replay", "stiff.h5", "--realization", "0", "-o", "t.h5"}, .signal = SIGINT};
     const Ended ended = run(program);
     EXPECT_EQ(ended.signal, SIGINT) << testing::PrintToString(ended);
     EXPECT_TRUE(contents() == before);

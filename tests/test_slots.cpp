@@ -102,24 +102,39 @@ TEST(Slots, NoiseHasTheBitsOfTheLanes)
 }
 
 /// Every form, and mechanisms that act in the joints, on the blocks and through the base.
-TEST(Slots, TheExtendedModelHasTheBitsOfTheLanes)
+const std::vector<std::string> mechanisms{"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }",
+                                          "mechanisms.eccentricity={ offset_m = 0.001 }",
+                                          "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }",
+                                          "mechanisms.corner_wear={ loss_m_rad = 0.001 }",
+                                          "mechanisms.dowel={ stiffness_n_m = 1e5, yield_n = 2, gap_m = 0.0002 }",
+                                          "mechanisms.adhesion={ force_n_m = 5 }",
+                                          "mechanisms.table_pitch={ rotation_rad_s2_m = 0.002 }",
+                                          "mechanisms.vertical_motion={ ratio = 0.3 }"};
+
+/// By contact form, so that no test is long.
+class SlotsOfForm : public testing::TestWithParam<const char*> {
+protected:
+    std::vector<std::string> settings{"study.realizations=2", std::string("contact.form=\"") + GetParam() + "\"",
+                                      "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
+                                      "surface.pga_m_s2={ from = 2.0, to = 9.0, count = 2 }"};
+};
+
+TEST_P(SlotsOfForm, HaveTheBitsOfTheLanes)
 {
-    const std::vector<std::string> mechanisms{"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }",
-                                              "mechanisms.eccentricity={ offset_m = 0.001 }",
-                                              "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }",
-                                              "mechanisms.corner_wear={ loss_m_rad = 0.001 }",
-                                              "mechanisms.dowel={ stiffness_n_m = 1e5, yield_n = 2, gap_m = 0.0002 }",
-                                              "mechanisms.adhesion={ force_n_m = 5 }",
-                                              "mechanisms.table_pitch={ rotation_rad_s2_m = 0.002 }",
-                                              "mechanisms.vertical_motion={ ratio = 0.3 }"};
-    for (const char* form : {"area", "two_corner", "points"}) {
-        std::vector<std::string> settings{"study.realizations=2", std::string("contact.form=\"") + form + "\"",
-                                          "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
-                                          "surface.pga_m_s2={ from = 2.0, to = 9.0, count = 2 }"};
-        same_in_slots(read_study(inputs + "small_scale_column.toml", settings));
-        settings.insert(settings.end(), mechanisms.begin(), mechanisms.end());
-        same_in_slots(read_study(inputs + "small_scale_column.toml", settings));
-    }
+    same_in_slots(read_study(inputs + "small_scale_column.toml", settings));
+}
+
+TEST_P(SlotsOfForm, TheExtendedModelHasTheBitsOfTheLanes)
+{
+    settings.insert(settings.end(), mechanisms.begin(), mechanisms.end());
+    same_in_slots(read_study(inputs + "small_scale_column.toml", settings));
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, SlotsOfForm, testing::Values("area", "two_corner", "points"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
+{
     std::vector<std::string> settings = mechanisms;
     settings.push_back("study.realizations=1");
     same_in_slots(colonnade(settings));

@@ -75,10 +75,9 @@ bool compute(const LoadedStudy& loaded, const fs::path& results, bool resume, co
         resume ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
     RunPlan plan;
     plan.total = loaded.study().total();
-    plan.before.done = writer->rows();
     if (resume)
         ResultReader(results).for_each_row([&](const ResultRow& row) { counts.add(row); });
-    plan.done = [&](std::uint64_t index) { return writer->has(index); };
+    plan.mark_done([&](std::uint64_t index) { return writer->state(index); });
     plan.sink = [&](const Realization& realization, const Outcome& outcome) {
         const ResultRow row = result_row(loaded.study(), realization, outcome);
         writer->add(row);
