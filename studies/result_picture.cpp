@@ -137,7 +137,10 @@ SurfaceTable surface_so_far(const ResultReader& reader, const std::string& resul
         if (row.index < originals && (header.selected || order.place(row.index) < places))
             counts.add(row);
     });
-    return counts.table();
+    SurfaceTable table = counts.table();
+    if (std::ranges::all_of(table.trials, [](std::uint64_t n) { return n == 0; }))
+        check_complete(reader, results); // there is nothing to draw yet
+    return table;
 }
 
 std::string partial_words(const ResultReader& reader, const std::string& results, const SurfaceTable& surface)
