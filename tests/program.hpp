@@ -283,11 +283,12 @@ protected:
             const ResultReader reader(folder / "parts.h5");
             EXPECT_GE(reader.done(), kept) << "what was kept is lost";
             kept = reader.done();
-            if (ended.status == 130 && ended.out.starts_with('{'))
+            if (ended.status == 130 && ended.out.starts_with('{')) {
                 EXPECT_EQ(json_of(ended)["realizations"].number, static_cast<double>(kept));
-            else if (ended.status == 130)
+            } else if (ended.status == 130) {
                 EXPECT_NE(ended.out.find(std::to_string(kept) + " realizations are kept"), std::string::npos)
                     << testing::PrintToString(ended);
+            }
         } while (ended.status != 0 && parts < 8);
         ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
         EXPECT_GT(parts, 1);

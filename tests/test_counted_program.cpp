@@ -139,8 +139,9 @@ TEST_F(Counted, KilledAndContinuedItIsTheSame)
         const ResultReader reader(folder / "parts.h5");
         EXPECT_FALSE(reader.complete());
         EXPECT_GT(reader.done(), kept);
-        if (ended.status == 130)
+        if (ended.status == 130) {
             EXPECT_NE(ended.out.find(std::to_string(reader.done()) + " realizations are kept"), std::string::npos);
+        }
         EXPECT_EQ(reader.done(), reader.tally()->added());
         continued += kept > 0 && reader.done() > kept;
         kept = reader.done();

@@ -149,7 +149,7 @@ std::vector<Text> texts()
     std::vector<Text> found;
     const auto take = [&](const fs::path& path) {
         const std::string kind = path.extension().string();
-        if (!fs::is_regular_file(path) || !kinds.contains(kind))
+        if (!fs::is_regular_file(path) || !kinds.contains(kind) || path.filename() == ".git") // a worktree's
             return;
         std::ifstream file(path, std::ios::binary);
         std::stringstream content;

@@ -245,7 +245,7 @@ TEST_F(Verbs, ReplayGivesTheSameBits)
 
 TEST_F(Verbs, ReplayKeepsATrajectory)
 {
-    run_eight({"-o", "a.h5"});
+    run_eight({"-o", "a.h5", "--set", "output.trajectory_rate_hz=1000"});
     const auto rows = ResultReader(folder / "a.h5").rows();
     const auto collapsed = std::find_if(rows.begin(), rows.end(),
                                         [](const ResultRow& row) { return row.outcome.state == State::collapsed; });

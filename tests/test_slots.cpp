@@ -131,7 +131,7 @@ TEST_P(SlotsOfForm, TheExtendedModelHasTheBitsOfTheLanes)
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, SlotsOfForm, testing::Values("area", "two_corner", "points"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
 {
