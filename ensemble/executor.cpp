@@ -31,7 +31,8 @@ public:
     Run(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
         const RunPlan& plan, Observer& observer)
         : study_(study), sampler_(sampler), record_(record), kernels_(kernels(options.isa)), plan_(plan),
-          observer_(observer), order_(plan.total), done_(plan.done), pattern_(realize(plan.index(0)))
+          observer_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
+          pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
         progress_.done = before_ = before.end;
@@ -173,7 +174,7 @@ private:
         progress_.rate = seconds > 0 ? static_cast<double>(delivered_) / seconds : 0;
         const std::uint64_t chunks = lane_chunks_;
         progress_.occupancy = chunks > 0 ? static_cast<double>(active_chunks_) / static_cast<double>(chunks) : 0;
-        const DoneSet::Part sample = done_.first();
+        const DoneSet::Part sample = done_.sample();
         estimate_share(progress_, sample.end - sample.invalid, sample.collapsed);
         observer_.progress(progress_);
         if (observer_.stop_requested())

@@ -45,6 +45,7 @@ struct RunPlan {
     void mark_done(const StateOf& state)
     {
         const RunOrder order(total);
+        done = DoneSet(order);
         for (std::uint64_t place = 0; place < total; ++place)
             if (const std::optional<State> s = state(index(order.index(place))))
                 done.add(place, s == State::collapsed, s == State::invalid);
@@ -58,7 +59,7 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 /// Runs the realizations of a study.
 ///
 /// They are begun in the order of `RunOrder`, so that what has been done at any time is spread over all of them; the
-/// progress' share is that of the first places without a gap, which no realization misses because it takes long.
+/// progress' share is that of `DoneSet::sample`.
 ///
 /// The next one comes from one shared counter, so lanes and threads stay busy to the end; a realization's outcome
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set

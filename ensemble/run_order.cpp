@@ -13,16 +13,19 @@ namespace {
 __extension__ typedef unsigned __int128 Wide;
 __extension__ typedef __int128 Signed;
 
-std::uint64_t product(std::uint64_t a, std::uint64_t b, std::uint64_t n)
+bool is_prime(std::uint64_t n)
 {
-    return static_cast<std::uint64_t>(Wide{a} * b % n);
+    for (std::uint64_t divisor = 2; divisor * divisor <= n; ++divisor)
+        if (n % divisor == 0)
+            return false;
+    return n > 1;
 }
 
 /// Largest quotient of the continued fraction of a / n: the smaller, the more even the multiples of a.
 std::uint64_t largest_quotient(std::uint64_t a, std::uint64_t n)
 {
     std::uint64_t largest = 0;
-    while (a > 1) { // the last quotient only says where the fraction ends
+    while (a > 0) {
         largest = std::max(largest, n / a);
         n = std::exchange(a, n % a);
     }
@@ -46,31 +49,66 @@ std::uint64_t inverse(std::uint64_t a, std::uint64_t n)
 
 RunOrder::RunOrder(std::uint64_t total) : total_(total)
 {
-    if (total < 4)
-        return;
-    // 2^64 / golden ratio; the best of its neighbours, of which some have no common divisor with the total
-    const auto near = static_cast<std::uint64_t>((Wide{total} * 0x9e3779b97f4a7c15U) >> 64);
-    std::uint64_t best = ~std::uint64_t{0};
-    const std::uint64_t reach = std::min<std::uint64_t>(64, total / 4);
-    for (std::uint64_t a = std::max<std::uint64_t>(1, near - reach); a <= near + reach && a < total; ++a)
-        if (std::gcd(a, total) == 1)
-            if (const std::uint64_t quotient = largest_quotient(a, total); quotient < best) {
-                best = quotient;
-                step_ = a;
-            }
-    back_ = inverse(step_, total);
+    // blocks of some thousand, but some sixty of them at least; of few realizations each is a block
+    constexpr std::uint64_t fewest = 61, most = 1 << 16, in_block = 1024, least_in_block = 4;
+    blocks_ = total;
+    if (total >= fewest * least_in_block) {
+        blocks_ = std::clamp(total / in_block, fewest, most);
+        while (total % blocks_ == 0 || !is_prime(blocks_))
+            ++blocks_;
+    }
+    std::vector<std::uint64_t> begin(blocks_ + 1);
+    if (blocks_ >= 4) {
+        // 2^64 / golden ratio; the best of its neighbours, of which some have no common divisor with the blocks
+        const auto near = static_cast<std::uint64_t>((Wide{blocks_} * 0x9e3779b97f4a7c15U) >> 64);
+        std::uint64_t best = ~std::uint64_t{0};
+        const std::uint64_t reach = std::min<std::uint64_t>(64, blocks_ / 4);
+        for (std::uint64_t a = std::max<std::uint64_t>(1, near - reach); a <= near + reach && a < blocks_; ++a)
+            if (std::gcd(a, blocks_) == 1)
+                if (const std::uint64_t quotient = largest_quotient(a, blocks_); quotient < best) {
+                    best = quotient;
+                    step_ = a;
+                }
+        back_ = inverse(step_, blocks_);
+    }
+    for (std::uint64_t b = 0, residue = 0; b < blocks_; ++b, residue = (residue + step_) % blocks_)
+        begin[b + 1] = begin[b] + total / blocks_ + (residue < total % blocks_ ? 1 : 0);
+    begin_ = std::make_shared<const std::vector<std::uint64_t>>(std::move(begin));
+}
+
+std::size_t RunOrder::block_of(std::uint64_t place) const
+{
+    assert(place < total_);
+    const auto after = std::upper_bound(begin_->begin(), begin_->end(), place);
+    return static_cast<std::size_t>(after - begin_->begin()) - 1;
 }
 
 std::uint64_t RunOrder::index(std::uint64_t place) const
 {
-    assert(place < total_);
-    return product(step_, place, total_);
+    const std::size_t b = block_of(place);
+    return step_ * b % blocks_ + blocks_ * (place - (*begin_)[b]);
 }
 
 std::uint64_t RunOrder::place(std::uint64_t index) const
 {
     assert(index < total_);
-    return product(back_, index, total_);
+    const std::uint64_t b = back_ * (index % blocks_) % blocks_;
+    return (*begin_)[b] + index / blocks_;
+}
+
+std::uint64_t RunOrder::block_begin(std::uint64_t place) const
+{
+    return (*begin_)[block_of(place)];
+}
+
+std::uint64_t RunOrder::block_end(std::uint64_t place) const
+{
+    return (*begin_)[block_of(place) + 1];
+}
+
+std::uint64_t RunOrder::fair(std::uint64_t places) const
+{
+    return places >= total_ ? total_ : block_begin(places);
 }
 
 bool DoneSet::has(std::uint64_t place) const
@@ -79,32 +117,36 @@ bool DoneSet::has(std::uint64_t place) const
     return after != parts_.begin() && std::prev(after)->second.end > place;
 }
 
+bool DoneSet::join(At part)
+{
+    const At next = std::next(part);
+    if (next == parts_.end() || next->first != part->second.end)
+        return false;
+    const bool same_block = order_.block_begin(next->first) != next->first;
+    if (!same_block && next->second.end < order_.block_end(next->first))
+        return false;
+    part->second.end = next->second.end;
+    part->second.collapsed += next->second.collapsed;
+    part->second.invalid += next->second.invalid;
+    parts_.erase(next);
+    return true;
+}
+
 void DoneSet::add(std::uint64_t place, bool collapsed, bool invalid)
 {
-    const auto after = parts_.upper_bound(place);
-    auto at = after;
-    if (after != parts_.begin() && std::prev(after)->second.end == place)
-        at = std::prev(after);
-    else
-        at = parts_.emplace_hint(after, place, Part{});
-    at->second.end = place + 1;
-    at->second.collapsed += collapsed;
-    at->second.invalid += invalid;
-    if (after != parts_.end() && after->first == place + 1) {
-        at->second.end = after->second.end;
-        at->second.collapsed += after->second.collapsed;
-        at->second.invalid += after->second.invalid;
-        parts_.erase(after);
-    }
+    At at = parts_.emplace(place, Part{place + 1, collapsed, invalid}).first;
+    join(at);
+    while (at != parts_.begin() && join(std::prev(at))) // a block that is whole now may join the one before it
+        at = std::prev(parts_.upper_bound(place));
 }
 
 bool DoneSet::append(std::uint64_t begin, const Part& part)
 {
-    if (begin >= part.end || (!parts_.empty() && begin <= parts_.rbegin()->second.end) ||
+    if (begin >= part.end || (!parts_.empty() && begin < parts_.rbegin()->second.end) ||
         part.collapsed > part.done(begin) || part.invalid > part.done(begin) - part.collapsed)
         return false;
-    parts_.emplace_hint(parts_.end(), begin, part);
-    return true;
+    const At at = parts_.emplace_hint(parts_.end(), begin, part);
+    return at == parts_.begin() || !join(std::prev(at));
 }
 
 DoneSet::Part DoneSet::all() const
@@ -118,10 +160,10 @@ DoneSet::Part DoneSet::all() const
     return all;
 }
 
-DoneSet::Part DoneSet::first() const
+DoneSet::Part DoneSet::sample() const
 {
     const auto at = parts_.find(0);
-    return at == parts_.end() ? Part{} : at->second;
+    return at == parts_.end() || order_.fair(at->second.end) != at->second.end ? Part{} : at->second;
 }
 
 } // namespace stylobate

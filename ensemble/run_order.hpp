@@ -2,16 +2,21 @@
 /// In which order realizations are run, and which places of that order are done.
 ///
 /// Indices are systematic: cell by cell, frequency by frequency. Run in that order, a part of a study is a corner of
-/// it. Here any first part is spread evenly over all indices: place p has the index
+/// it. So they are run in B blocks of nearly the same size. Block b has the indices
 ///
-///   i(p) = a p mod n,   a / n near the golden ratio's inverse, a and n without a common divisor
+///   c, c + B, c + 2 B, ... below n,   c = a b mod B,   B prime and no divisor of n,   a / B near 1 / golden ratio
 ///
-/// The first m places leave gaps between neighbouring indices that differ by a small factor only (the three-gap
-/// theorem; the factor is small because the continued fraction of a / n has small quotients, which is how a is chosen).
-/// So the first part of a run is a fair sample of the whole. Indices and outcomes do not depend on the order.
+/// one behind the other. Every block is spread evenly over all indices, and a row of blocks is so too: the first m
+/// residues c leave gaps that differ by a small factor only (the three-gap theorem; the factor is small because the
+/// continued fraction of a / B has small quotients, which is how a is chosen). B divides no period of the indices,
+/// because it does not divide n. So the first blocks of a run are a fair sample of the whole. Within a block
+/// neighbours stay neighbours: lanes that step alike realizations take the same branches, which makes a twentieth of
+/// the speed. Indices and outcomes do not depend on the order.
 
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <vector>
 
 namespace stylobate {
 
@@ -21,14 +26,22 @@ public:
     explicit RunOrder(std::uint64_t total);
     std::uint64_t index(std::uint64_t place) const;
     std::uint64_t place(std::uint64_t index) const;
+    /// First place of the block that a place is in, and the one behind it. @pre place < n
+    std::uint64_t block_begin(std::uint64_t place) const;
+    std::uint64_t block_end(std::uint64_t place) const;
+    /// So many of the first places are a fair sample: the whole blocks among them.
+    std::uint64_t fair(std::uint64_t places) const;
 
 private:
+    std::size_t block_of(std::uint64_t place) const;
     std::uint64_t total_;
-    std::uint64_t step_ = 1, back_ = 1; ///< a, and its inverse mod n
+    std::uint64_t blocks_ = 0;                                  ///< B
+    std::uint64_t step_ = 1, back_ = 1;                         ///< a, and its inverse mod B
+    std::shared_ptr<const std::vector<std::uint64_t>> begin_{}; ///< (B + 1) first place of each block, and n
 };
 
-/// Places that are done, and how many of their realizations collapsed or are invalid, as intervals: as many as there
-/// are gaps, which are as many at most as realizations are stepped at the same time.
+/// Places that are done, and how many of their realizations collapsed or are invalid, as intervals. There are few of
+/// them: whole blocks without a gap between them are one interval, and what is done of others is by itself.
 class DoneSet {
 public:
     struct Part {
@@ -38,20 +51,30 @@ public:
         bool operator==(const Part&) const = default;
     };
 
+    /// @param order of the places; one of nothing holds no place
+    explicit DoneSet(RunOrder order = RunOrder(0)) : order_(std::move(order)) {}
+
     bool has(std::uint64_t place) const;
     /// @pre !has(place)
     void add(std::uint64_t place, bool collapsed, bool invalid);
-    /// By their beginning, in order, apart from each other.
+    /// By their beginning, in order.
     const std::map<std::uint64_t, Part>& parts() const { return parts_; }
-    /// Adds an interval behind all others. @returns false if it is not, or if its counts do not fit
+    /// Adds an interval behind all others.
+    /// @returns false if it is not, if it belongs to the one before, or if its counts do not fit
     bool append(std::uint64_t begin, const Part& part);
 
     /// Sum of all parts; `end` is the number of places.
     Part all() const;
-    /// The part from place 0 on without a gap: no realization of it is missing because it takes long.
-    Part first() const;
+    /// The blocks from the first one on of which all has been done: a fair sample, of which no realization is missing
+    /// because it takes long.
+    Part sample() const;
 
 private:
+    using At = std::map<std::uint64_t, Part>::iterator;
+    /// Joins a part with the next one if they belong together. @returns whether they did
+    bool join(At part);
+
+    RunOrder order_;
     std::map<std::uint64_t, Part> parts_;
 };
 

@@ -120,12 +120,12 @@ TallyFile read_tally(hid_t file, const ResultHeader& header)
     if (parts.size() != 2 || parts[1] != 4)
         wrong("the list of what is done");
     const std::vector<std::uint64_t> done = hdf5::read_counts(file, in_tally("done"), parts);
+    counted.done = DoneSet(RunOrder(header.total));
     for (std::size_t i = 0; i < done.size(); i += 4)
-        if (!counted.done.append(done[i], {done[i + 1], done[i + 2], done[i + 3]}))
+        if (done[i + 1] > header.total || !counted.done.append(done[i], {done[i + 1], done[i + 2], done[i + 3]}))
             wrong("the list of what is done");
     const DoneSet::Part all = counted.done.all();
-    if (tally.added() != all.end || tally.all_invalid() != all.invalid ||
-        (!done.empty() && done[done.size() - 3] > header.total))
+    if (tally.added() != all.end || tally.all_invalid() != all.invalid)
         wrong("they are not as many as the realizations that were counted");
     return counted;
 }

@@ -88,6 +88,7 @@ std::unique_ptr<TallyWriter> TallyWriter::create(const std::filesystem::path& fi
     impl->path = file;
     impl->header = header;
     impl->order = RunOrder(header.total);
+    impl->counted.done = DoneSet(impl->order);
     impl->counted.tally = Tally(cells, header.limit_states.size(), header.block_names.size());
     try {
         impl->write(nullptr, true);

@@ -19,13 +19,17 @@ using namespace stylobate;
 
 namespace {
 
-/// @param backends where the verb can compute
-void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"})
+void add_set(CLI::App& verb, CommonOptions& options)
 {
     verb.add_option("--set", options.set, "KEY=VALUE: any key of the study file; may be given several times")
         ->type_name("KEY=VALUE")
         ->take_all()
         ->allow_extra_args(false);
+}
+
+/// @param backends where the verb can compute
+void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"})
+{
     verb.add_option("--threads", options.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));
     verb.add_option("--simd", options.simd, "instruction set")
@@ -86,6 +90,7 @@ int main(int argc, char** argv)
     auto* run = app.add_subcommand("run", "run a study; continues an unfinished result of the same study");
     run->add_option("STUDY", study, "study file (TOML)")->required();
     run->add_option("-o,--output", results, "results file (default: the study's name with .h5)");
+    add_set(*run, options);
     add_common(*run, options, {"cpu", "cuda"});
     run->callback([&] { status = run_command(options, study, results); });
 
@@ -103,6 +108,7 @@ int main(int argc, char** argv)
     replay->add_option("--nth", choice.nth, "which of those, in the order of their indices, from 1 (default: 1)");
     replay->add_option("-o,--output", trajectory, "results file for the trajectory (default: none is kept)");
     add_force(*replay, options);
+    add_set(*replay, options);
     add_common(*replay, options);
     replay->callback([&] { status = replay_command(options, results, choice, trajectory); });
 
@@ -148,6 +154,7 @@ int main(int argc, char** argv)
                         "use who fell and who stood even where there are histories");
     calibrate->add_flag("--no-held-out", keep_all, "do not predict each motion by what the others say");
     add_force(*calibrate, options);
+    add_set(*calibrate, options);
     add_common(*calibrate, options);
     calibrate->callback([&] {
         calibration.held_out = !keep_all;
@@ -173,6 +180,7 @@ int main(int argc, char** argv)
                          "let free windows of the simulation judge causes too: slow, and less sure than the balance of "
                          "forces");
     add_force(*diagnosing, options);
+    add_set(*diagnosing, options);
     add_common(*diagnosing, options);
     diagnosing->callback([&] { status = diagnose_command(options, measured, study, results, nulls, seed, windows); });
 
@@ -206,6 +214,7 @@ int main(int argc, char** argv)
     exporting->add_option("-o,--output", wanted.output,
                           "the picture, whose ending says its format (.png, .svg, .pdf), or the folder of the tables");
     add_force(*exporting, options);
+    add_set(*exporting, options);
     add_common(*exporting, options);
     exporting->callback([&] { status = export_command(options, results, wanted); });
 
@@ -215,6 +224,7 @@ int main(int argc, char** argv)
     report->add_option("-o,--output", page, "the page, .html (default: the file's name with that ending)");
     report->add_option("--title", title, "of the page (default: by study.title, or the file's name)");
     add_force(*report, options);
+    add_set(*report, options);
     add_common(*report, options);
     report->callback([&] { status = report_command(options, results, page, title); });
 
@@ -224,6 +234,7 @@ int main(int argc, char** argv)
         "FILE", held,
         "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, measured data (HDF5, "
         "folder), measured outcomes (CSV), a record");
+    add_set(*info, options);
     add_common(*info, options);
     info->callback([&] { status = info_command(options, held); });
 

@@ -1,6 +1,7 @@
 /// `stylobate replay`: one realization of a result again, with its trajectory.
 
 #include "ensemble/input_error.hpp"
+#include "io/result_layout.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"
 #include "studies/file_kind.hpp"
@@ -131,12 +132,12 @@ int replay_command(const CommonOptions& options, const std::string& results, con
             .member("frequency_hz", row.frequency_hz)
             .member("pga_m_s2", row.pga_m_s2)
             .member("state", to_string(o.state))
-            .member("collapse_time_s", o.collapse_time_s)
+            .member("collapse_time_s", without_none("collapse_time_s", o.collapse_time_s))
             .member("first_collapse_block", o.first_collapse_block)
             .member("fallen_blocks", o.fallen_blocks)
             .member("unseated_block", o.unseated_block)
-            .member("unseating_time_s", o.unseating_time_s)
-            .member("total_collapse_time_s", total_s)
+            .member("unseating_time_s", without_none("unseating_time_s", o.unseating_time_s))
+            .member("total_collapse_time_s", without_none("total_collapse_time_s", total_s))
             .member("falls", falls_json(falls, names, row.outcome.fall_time_s))
             .member("peak_top_displacement_m", o.peak_top_displacement_m)
             .member("residual_top_displacement_m", o.residual_top_displacement_m)

@@ -133,6 +133,7 @@ SurfaceTable surface_so_far(const ResultReader& reader, const std::string& resul
     if (!reader.complete() && !header.selected)
         for (places = 0; places < originals && reader.has(order.index(places));)
             ++places;
+    places = header.selected ? 0 : order.fair(places);
     reader.for_each_row([&](const ResultRow& row) {
         if (row.index < originals && (header.selected || order.place(row.index) < places))
             counts.add(row);

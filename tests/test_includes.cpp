@@ -38,6 +38,7 @@ const std::set<std::string> plain_data = {
     "ensemble/outcome.hpp",
     "ensemble/plausible.hpp",
     "ensemble/realization.hpp",
+    "ensemble/run_order.hpp",
     "ensemble/study.hpp",
     "kernels/topology.hpp",
     "ensemble/nominal.hpp",

@@ -118,6 +118,17 @@ TEST_F(Kinds, AnOptionSaysSoToo)
                        {"--study results.h5: is the results of a study", "it takes a study file (TOML)"});
 }
 
+TEST_F(Kinds, OnlyAStudyIsSet)
+{
+    for (const Sample& sample : samples)
+        if (const std::string file = sample.file; file != "study.toml") {
+            expect_refused(Words{"info", file, "--set", "study.seed=2"},
+                           {"--set study.seed=2: only a study can be set; " + file + " " + sample.is});
+        }
+    EXPECT_NE(run(Words{"info", "study.toml", "--set", "study.seed=2"}).out.find("seed 2"), std::string::npos);
+    expect_refused(Words{"record", "record.at2", "--set", "study.seed=2"}, {"--set"});
+}
+
 TEST_F(Kinds, ARecordThatDoesNotSayItsUnitIsOneAllTheSame)
 {
     write_bytes(folder / "columns.txt", Burst{}.columns());

@@ -214,7 +214,7 @@ TEST_F(Sensitivity, SaysWhatHasNoEffect)
 
     // friction that no force comes near
     const JsonValue stuck =
-        json_of(study(with(calm, {"contact.friction=9",
+        json_of(study(with(calm, {"contact.friction=9", "study.allow=[\"friction\"]",
                                   "perturbation.friction={distribution=\"uniform\",from=8.0,to=10.0,per=\"joint\"}"}),
                       "stuck.h5"))["sensitivity"];
     remarks.clear();

@@ -42,7 +42,7 @@ TEST(Progress, SlowRatesAreNotZero)
     p.rate = 1873.6;
     EXPECT_TRUE(progress_line(p).starts_with("2 of 10 realizations, 1874/s, 0 s left")) << progress_line(p);
     p.rate = 0; // nothing is known yet
-    EXPECT_TRUE(progress_line(p).starts_with("2 of 10 realizations, 0.0")) << progress_line(p);
+    EXPECT_EQ(progress_line(p), "2 of 10 realizations");
 }
 
 TEST_F(Single, RateAndBlockStepsAreCounted)
