@@ -18,7 +18,7 @@ namespace {
 
 /// Largest accelerations that were recorded: 40.2 m/s2 as the vector of three components, 14.3 m/s2 of a horizontal
 /// one (IWTH25, Iwate-Miyagi Nairiku 2008), 27.0 m/s2 of a horizontal one (MYG004, Tohoku 2011); K-NET and KiK-net.
-constexpr double strongest_record_m_s2 = 30, no_record_m_s2 = 100;
+constexpr double strongest_record_m_s2 = 30, strongest_table_m_s2 = 50, no_record_m_s2 = 100;
 /// Largest horizontal velocities near faults are 3 to 4 m/s (Chi-Chi 1999, TCU068); the fastest shaking tables reach 2.
 constexpr double fastest_ground_m_s = 5, no_ground_m_s = 50;
 /// Spectral accelerations are about 2.5 times the peak of the ground (the plateau of the spectra of building codes).
@@ -105,16 +105,17 @@ Finding check_pga(const Subject& s)
     }
     if (pga <= strongest_record_m_s2)
         return std::nullopt;
+    const auto beyond_records = [&](bool refused) {
+        return doubt(refused, fmt::format("The shaking has up to {:.4g} m/s2, and the strongest record of a horizontal "
+                                          "component has 27 m/s2. Did you mean cm/s2 ({:.4g} m/s2)?",
+                                          pga, pga / 100));
+    };
     if (!is_sine(kind))
-        return doubt(
-            pga > no_record_m_s2,
-            fmt::format("The shaking has up to {:.4g} m/s2, and the strongest record of a horizontal component "
-                        "has 27 m/s2. Did you mean cm/s2 ({:.4g} m/s2)?",
-                        pga, pga / 100));
+        return beyond_records(pga > no_record_m_s2);
     const double hz = shaking_hz(s).low;
     const double omega = 2 * std::numbers::pi * hz;
-    if (!(hz > 0) || pga / omega <= fastest_ground_m_s)
-        return std::nullopt;
+    if (!(hz > 0) || pga / omega <= fastest_ground_m_s) // a shaking table may reach it, at high frequencies
+        return pga > strongest_table_m_s2 ? Finding(beyond_records(false)) : std::nullopt;
     return doubt(
         pga / omega > no_ground_m_s,
         fmt::format("{:.4g} m/s2 at {:.4g} Hz is a velocity of {:.3g} m/s and an amplitude of {:.3g} m: no ground "

@@ -32,6 +32,7 @@ namespace {
 struct Told {
     std::string text; ///< follows "FILE: "
     Json json = Json::object();
+    bool unfinished = false;
 };
 
 Json json_of(const std::vector<Finding>& findings)
@@ -129,7 +130,8 @@ void tell_result(const std::string& file, Told& told)
                                                      : "results of a study of kind " + header.kind;
     told.text = fmt::format("{}, seed {}, by stylobate {}\n{} of {} realizations, {}\n", what, header.seed,
                             header.code_version, done, header.total, reader.complete() ? "complete" : "unfinished");
-    if (!reader.complete())
+    told.unfinished = !reader.complete();
+    if (told.unfinished)
         told.text +=
             fmt::format("stylobate run STUDY.toml -o {}: continues it, with the study that it was begun with\n", file);
     add_warnings(header.warnings, told);
@@ -279,7 +281,9 @@ void print_file(const CommonOptions& options, const std::string& file)
                          "outcomes (CSV with a column 'fell'), or a record of ground motion.\n  io/FORMAT.md has the "
                          "layouts.");
     }
-    const std::vector<FileUse> uses = uses_of(known, file);
+    std::vector<FileUse> uses = uses_of(known, file);
+    if (told.unfinished)
+        std::erase_if(uses, [](const FileUse& use) { return use.verb == "report"; });
     if (options.json) {
         Json verbs = Json::list();
         for (const FileUse& use : uses)

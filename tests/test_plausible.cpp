@@ -197,10 +197,10 @@ TEST(Plausible, AccelerationOfASineAgainstItsVelocity)
                                            "excitation.pga_m_s2=" + std::to_string(pga)}),
                        "pga", {}, {"first_frequency"});
     };
-    EXPECT_EQ(at(20, 4.99), "") << "627 m/s2";
-    EXPECT_EQ(at(20, 5.01), "warns");
-    EXPECT_EQ(at(2, 4.99), "");
-    EXPECT_EQ(at(2, 5.01), "warns");
+    EXPECT_EQ(at(20, 0.39), "") << "49 m/s2";
+    EXPECT_EQ(at(20, 0.41), "warns") << "51.5 m/s2, which no table for columns has";
+    EXPECT_EQ(at(1, 4.99), "");
+    EXPECT_EQ(at(1, 5.01), "warns");
     EXPECT_EQ(at(2, 49.9), "warns");
     EXPECT_EQ(at(2, 50.1), "refuses");
     EXPECT_EQ(at(0.5, 9), "") << "28.3 m/s2, which records have too";

@@ -146,6 +146,7 @@ protected:
         EXPECT_FALSE(ResultReader(folder / results).complete());
         expect_refused({"report", results}, {results, "not complete", "continue"});
         expect_refused({"export", results, "--to", "png", "--picture", "order"}, {results, "not complete"});
+        EXPECT_EQ(run({"info", results}).out.find("stylobate report"), std::string::npos); // advises what can be done
     }
 };
 
