@@ -36,4 +36,17 @@ inline EnsembleRun run_all(const Study& study, const RunOptions& options, const 
     return result;
 }
 
+/// The outcomes of all realizations of a study, by their index.
+inline std::vector<Outcome> outcomes_of(const Study& study, const RunOptions& options)
+{
+    const Sampler sampler(study, nullptr);
+    std::vector<Outcome> outcomes(study.total());
+    RunPlan plan;
+    plan.total = study.total();
+    plan.sink = [&](const Realization& r, const Outcome& o) { outcomes[r.index] = o; };
+    Observer observer;
+    run_ensemble(study, sampler, nullptr, options, plan, observer);
+    return outcomes;
+}
+
 } // namespace stylobate

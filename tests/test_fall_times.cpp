@@ -1,9 +1,9 @@
 /// When blocks fall, to a step: against a realization that is stepped one by one and looked at from outside; and that
 /// no number of a block decides which fell first.
 
-#include "ensemble/executor.hpp"
 #include "ensemble/lanes.hpp"
 #include "io/study_file.hpp"
+#include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,18 +16,6 @@ namespace stylobate {
 namespace {
 
 const std::string inputs = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/";
-
-std::vector<Outcome> outcomes_of(const Study& study, Isa isa)
-{
-    const Sampler sampler(study, nullptr);
-    std::vector<Outcome> outcomes(study.total());
-    RunPlan plan;
-    plan.total = study.total();
-    plan.sink = [&](const Realization& r, const Outcome& o) { outcomes[r.index] = o; };
-    Observer observer;
-    run_ensemble(study, sampler, nullptr, {isa, 2}, plan, observer);
-    return outcomes;
-}
 
 /// Of every block the steps from which on it was outside its limits until the next look, by the criterion itself:
 /// centre below a part of its height at rest above the base, or turned beyond atan(b / h).
@@ -66,7 +54,7 @@ std::vector<std::set<std::uint64_t>> starts_of(const Study& study, std::uint64_t
 /// @return how many falls were not at a look
 int expect_exact(const Study& study)
 {
-    const std::vector<Outcome> outcomes = outcomes_of(study, best_isa());
+    const std::vector<Outcome> outcomes = outcomes_of(study, {best_isa(), 2});
     int collapsed = 0, between = 0;
     for (std::size_t index = 0; index < outcomes.size() && collapsed < 6; ++index) {
         const Outcome& o = outcomes[index];
@@ -139,7 +127,7 @@ TEST(FallTimes, NeitherColumnOfASymmetricColonnadeIsFirst)
                    {"study.realizations=96", "study.seed=5", "surface.frequency_hz={ from = 0.5, to = 0.5, count = 1 }",
                     "surface.pga_m_s2={ from = 4.0, to = 4.0, count = 1 }"});
     int first[2] = {}, together = 0, others = 0;
-    for (const Outcome& o : outcomes_of(study, best_isa()))
+    for (const Outcome& o : outcomes_of(study, {best_isa(), 2}))
         if (o.state == State::collapsed) {
             if (o.first_collapse_block == 0 || o.first_collapse_block == 1)
                 ++first[o.first_collapse_block];

@@ -2,9 +2,8 @@
 /// double precision agrees with itself at another step, and refusals. `docs/precision.md` has the figures.
 
 #include "bench/scenes.hpp"
-#include "ensemble/executor.hpp"
 #include "ensemble/lanes.hpp"
-#include "tests/outcome_bits.hpp"
+#include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,14 +23,7 @@ std::vector<Outcome> run(Study study, Precision precision, double step_fraction,
 {
     study.run.precision = precision;
     study.run.step_fraction = step_fraction;
-    const Sampler sampler(study, nullptr);
-    std::vector<Outcome> outcomes(study.total());
-    RunPlan plan;
-    plan.total = study.total();
-    plan.sink = [&](const Realization& r, const Outcome& o) { outcomes[r.index] = o; };
-    Observer observer;
-    run_ensemble(study, sampler, nullptr, {isa, threads}, plan, observer);
-    return outcomes;
+    return outcomes_of(study, {isa, threads});
 }
 
 bool collapsed(const Outcome& o)
