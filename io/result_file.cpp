@@ -388,7 +388,10 @@ void ResultFile::refuse_damaged(const std::string& text) const
                      "is damaged: " + text + ". Take a copy, or run the study again into another file.");
 }
 
-ResultFile open_result(const std::filesystem::path& path, bool writable)
+namespace {
+
+/// @returns nothing if the file was replaced meanwhile
+std::optional<ResultFile> try_to_open(const std::filesystem::path& path, bool writable)
 {
     ResultFile result;
     result.path = path;
@@ -400,7 +403,7 @@ ResultFile open_result(const std::filesystem::path& path, bool writable)
     try {
         result.hdf5 = hdf5::open_file(path, false);
         if (!result.handle.is_at(path))
-            throw InputError(path.string(), 0, "was replaced while it was opened; try again");
+            return std::nullopt;
         const hid_t file = result.hdf5.id();
         if (hdf5::read_text(file, "format") != names::format)
             result.refuse_damaged("its format has another name");
@@ -434,6 +437,18 @@ ResultFile open_result(const std::filesystem::path& path, bool writable)
     if (result.places.extents(result.layout) != extents)
         result.refuse_damaged("its rows are not where they should be");
     return result;
+}
+
+} // namespace
+
+ResultFile open_result(const std::filesystem::path& path, bool writable)
+{
+    // a run that keeps counts replaces its file now and then: the new one is as good
+    constexpr int patience = 50;
+    for (int i = 0; i < patience; ++i)
+        if (std::optional<ResultFile> opened = try_to_open(path, writable))
+            return std::move(*opened);
+    throw InputError(path.string(), 0, "was replaced again and again while it was opened; try again");
 }
 
 } // namespace stylobate

@@ -100,7 +100,7 @@ constexpr std::string_view meaning_of_none(std::string_view path)
         name == "fall_time_s")
         return "NaN: it did not happen";
     if (name == "first_collapse_block" || name == "unseated_block")
-        return "-1: no block";
+        return "-1: no block; -2: several blocks, together";
     return {};
 }
 /// A time as files and tables have it.

@@ -74,7 +74,8 @@ std::vector<std::byte> bytes_of(const Trajectory& trajectory)
     const auto put = [&](std::span<const std::byte> more) {
         const std::size_t at = bytes.size();
         bytes.resize(at + more.size());
-        std::memcpy(bytes.data() + at, more.data(), more.size());
+        if (!more.empty()) // an empty list may have no place
+            std::memcpy(bytes.data() + at, more.data(), more.size());
     };
     const auto put_list = [&](const auto& list) {
         const std::uint64_t n = list.size();

@@ -310,7 +310,8 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     for (const char* time : {"collapse_time_s", "unseating_time_s", "total_collapse_time_s", "fall_time_s"})
         EXPECT_EQ(plain.attribute(std::string("/realizations/outcome/") + time, "none"), "NaN: it did not happen");
     for (const char* number : {"first_collapse_block", "unseated_block"})
-        EXPECT_EQ(plain.attribute(std::string("/realizations/outcome/") + number, "none"), "-1: no block");
+        EXPECT_EQ(plain.attribute(std::string("/realizations/outcome/") + number, "none"),
+                  "-1: no block; -2: several blocks, together");
     EXPECT_EQ(plain.describe("/surface/frequency_hz"), "float64 (3) Hz");
     EXPECT_EQ(plain.describe("/surface/pga_m_s2"), "float64 (2) m/s2");
     EXPECT_EQ(plain.describe("/surface/trials"), "uint64 (3 x 2)");

@@ -6,10 +6,13 @@
 #include "io/tally_store.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace stylobate {
 namespace {
@@ -292,6 +295,27 @@ TEST_F(TallyStore, NoOrderAndNoInterruptionChangesTheFile)
     EXPECT_GT(interrupted, 3);
     EXPECT_TRUE(contents(parts) == contents(file));
     EXPECT_FALSE(fs::exists(folder / "parts.h5.writing"));
+}
+
+/// A run replaces its file again and again; who opens it meanwhile gets one of them.
+TEST_F(TallyStore, IsReadWhileItIsReplaced)
+{
+    TallyWriter::create(file, tally_header(100)).reset();
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) { // HDF5 is no library for threads
+        const auto writer = TallyWriter::resume(file, tally_header(100));
+        while (true)
+            writer->flush();
+    }
+    std::set<fs::file_time_type> times;
+    while (times.size() < 200) {
+        std::error_code replaced;
+        times.insert(fs::last_write_time(file, replaced));
+        EXPECT_NO_THROW(EXPECT_EQ(ResultReader(file).done(), 0U));
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
 }
 
 TEST_F(TallyStore, AFileOfABillionIsSmall)
