@@ -304,16 +304,21 @@ TEST_F(TallyStore, IsReadWhileItIsReplaced)
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) { // HDF5 is no library for threads
-        const auto writer = TallyWriter::resume(file, tally_header(100));
-        while (true)
-            writer->flush();
+        try {
+            const auto writer = TallyWriter::resume(file, tally_header(100));
+            while (true)
+                writer->flush();
+        } catch (...) {
+            ::_exit(1);
+        }
     }
     std::set<fs::file_time_type> times;
-    while (times.size() < 200) {
+    while (times.size() < 200 && ::waitpid(child, nullptr, WNOHANG) == 0) {
         std::error_code replaced;
         times.insert(fs::last_write_time(file, replaced));
         EXPECT_NO_THROW(EXPECT_EQ(ResultReader(file).done(), 0U));
     }
+    EXPECT_EQ(times.size(), 200U) << "its writer has ended";
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
 }
