@@ -235,8 +235,9 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
 
 TEST(Ensemble, LanesStayFullWhenMostRealizationsFall)
 {
+    // so many realizations that the idle lanes of the last ones, whatever their luck, are far less than 5 %
     const Study study = mix("{ from = 1.0, to = 6.0, count = 8, spacing = \"log\" }",
-                            "{ from = 1.0, to = 11.0, count = 8, spacing = \"linear\" }");
+                            "{ from = 1.0, to = 11.0, count = 8, spacing = \"linear\" }", {"study.realizations=40"});
     const EnsembleRun result = run_all(study, {best_isa(), 2});
     EXPECT_GT(result.states.at(State::collapsed), static_cast<int>(study.total()) / 2);
     EXPECT_GT(result.progress.occupancy, 0.95);
