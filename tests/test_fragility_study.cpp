@@ -2,6 +2,7 @@
 /// limit states an outcome has reached.
 
 #include "ensemble/base_motion.hpp"
+#include "ensemble/drawn_motions.hpp"
 #include "ensemble/input_error.hpp"
 #include "ensemble/sampler.hpp"
 #include "io/ground_motion.hpp"

@@ -1,0 +1,123 @@
+#include "ensemble/drawn_motions.hpp"
+
+#include "ensemble/random.hpp"
+#include "ensemble/sampler.hpp"
+#include "ensemble/synthetic_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+int motions_needed(const FragilitySpec& fragility)
+{
+    return fragility.records.empty() ? fragility.motions * fragility.shakings : fragility.motions;
+}
+
+namespace {
+
+/// Shakings of sequence `first`, in order.
+std::vector<std::size_t> shakings_of(const Study& study, std::size_t first)
+{
+    const FragilitySpec& f = *study.fragility;
+    const auto count = static_cast<std::size_t>(f.shakings), motions = static_cast<std::size_t>(f.motions);
+    std::vector<std::size_t> order = {first};
+    if (f.records.empty()) { // those beyond the first `motions` follow
+        for (std::size_t k = 1; k < count; ++k)
+            order.push_back(motions + first * (count - 1) + k - 1);
+        return order;
+    }
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < motions; ++i)
+        if (i != first)
+            others.push_back(i);
+    for (std::size_t k = 1; k < count; ++k) {
+        const double u = uniform01(study.seed, first, Stream::sequence, k);
+        const auto at = static_cast<std::size_t>(u * static_cast<double>(others.size()));
+        order.push_back(others[at]);
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    return order;
+}
+
+} // namespace
+
+MotionSet in_sequence(const Study& study, const MotionSet& set)
+{
+    const FragilitySpec& f = *study.fragility;
+    const auto motions = static_cast<std::size_t>(f.motions);
+    MotionSet sequences;
+    for (std::size_t i = 0; i < motions; ++i) {
+        const std::vector<std::size_t> order = shakings_of(study, i);
+        double dt = set.motions[i]->dt_s;
+        for (const std::size_t shaking : order)
+            dt = std::min(dt, set.motions[shaking]->dt_s);
+        std::vector<double> acceleration, ends;
+        std::string name;
+        for (const std::size_t shaking : order) {
+            const Motion& motion = *set.motions[shaking];
+            double scale = 1;
+            if (f.method == FragilityMethod::stripes) {
+                const MotionMeasure& measure = set.measure(measure_name(f.measure, f.period_s));
+                scale = std::pow(measure.value[i] / measure.value[shaking], 1 / measure.exponent);
+            }
+            if (!acceleration.empty())
+                acceleration.resize(acceleration.size() + static_cast<std::size_t>(std::ceil(f.pause_s / dt)));
+            const auto samples = static_cast<std::size_t>(std::ceil(motion.duration_s() / dt)) + 1;
+            for (std::size_t k = 0; k < samples; ++k) {
+                const double at = static_cast<double>(k) * dt / motion.dt_s;
+                const auto before = std::min(static_cast<std::size_t>(at), motion.acceleration_m_s2.size() - 1);
+                const auto after = std::min(before + 1, motion.acceleration_m_s2.size() - 1);
+                const double part = std::min(at - static_cast<double>(before), 1.0);
+                acceleration.push_back(
+                    scale * std::lerp(motion.acceleration_m_s2[before], motion.acceleration_m_s2[after], part));
+            }
+            ends.push_back(static_cast<double>(acceleration.size() - 1) * dt);
+            name += (name.empty() ? "" : " + ") + set.names[shaking];
+        }
+        Motion sequence = motion_of(std::move(acceleration), dt);
+        sequence.predominant_frequency_hz = set.motions[i]->predominant_frequency_hz;
+        sequence.pga_m_s2 = set.motions[i]->pga_m_s2; // by which it is scaled: that of its first shaking
+        sequence.source = name;
+        sequences.motions.push_back(std::make_shared<const Motion>(std::move(sequence)));
+        sequences.names.push_back(name);
+        sequences.ends_s.push_back(std::move(ends));
+    }
+    for (const MotionMeasure& measure : set.measures)
+        sequences.measures.push_back(
+            {measure.name, measure.exponent, {measure.value.begin(), measure.value.begin() + f.motions}});
+    return sequences;
+}
+
+MotionSet drawn_motions(const Study& study)
+{
+    if (!study.fragility || !study.fragility->records.empty())
+        throw std::invalid_argument("only a fragility study without records draws motions");
+    Study one = study;
+    one.kind = StudyKind::single;
+    one.fragility.reset();
+    one.realizations = static_cast<std::uint64_t>(motions_needed(*study.fragility));
+    std::erase_if(one.perturbations, [](const Perturbation& p) {
+        return p.quantity != Quantity::phase && p.quantity != Quantity::pulse_frequency &&
+               p.quantity != Quantity::pulse_gamma;
+    });
+    one.mechanism_perturbations.clear();
+    const Sampler sampler(one, nullptr);
+    MotionSet set;
+    for (std::uint64_t i = 0; i < one.realizations; ++i) {
+        const Realization r = sampler.realization(i);
+        Motion motion = r.motion ? *r.motion : sampled(SyntheticMotion(one.excitation, r));
+        motion.predominant_frequency_hz = r.frequency_hz;
+        motion.source = fmt::format("motion {}", i);
+        set.names.push_back(motion.source);
+        set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
+    }
+    return set;
+}
+
+} // namespace stylobate
