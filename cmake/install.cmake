@@ -14,7 +14,7 @@ foreach(part kernels ensemble io)
     PATTERN "result_sensitivity.hpp" EXCLUDE PATTERN "result_rare.hpp" EXCLUDE) # the insides of the store, which need HDF5's headers
 endforeach()
 
-foreach(part options kernels ensemble estimators io)
+foreach(part options kernels ensemble io)
   set_target_properties(stylobate_${part} PROPERTIES EXPORT_NAME ${part})
   install(TARGETS stylobate_${part} EXPORT stylobate DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
