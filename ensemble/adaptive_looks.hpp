@@ -20,7 +20,7 @@
 /// Group-sequential sampling: Jennison & Turnbull, "Group Sequential Methods" (2000), chapter 12; fixed-width intervals
 /// of a proportion: Frey, The American Statistician 64 (2010) 242.
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "ensemble/base_motion.hpp"
 
-#include "ensemble/elementary.hpp"
+#include "ensemble/numerics/elementary.hpp"
 #include "ensemble/scales.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "ensemble/distortion.hpp"
 
-#include "ensemble/fourier.hpp"
+#include "ensemble/numerics/fourier.hpp"
 
 #include <algorithm>
 #include <cmath>

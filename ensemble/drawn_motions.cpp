@@ -1,6 +1,6 @@
 #include "ensemble/drawn_motions.hpp"
 
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/synthetic_motion.hpp"
 

@@ -1,7 +1,7 @@
 #include "ensemble/executor.hpp"
 
-#include "ensemble/interval.hpp"
 #include "ensemble/lanes.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/slots.hpp"
 
 #include <tbb/global_control.h>

@@ -1,9 +1,9 @@
 #pragma once
 /// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
 
-#include "ensemble/aligned.hpp"
 #include "ensemble/base_motion.hpp"
 #include "ensemble/limit_states.hpp"
+#include "ensemble/numerics/aligned.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/scales.hpp"
 #include "ensemble/single_bundle.hpp"

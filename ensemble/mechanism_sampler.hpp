@@ -3,8 +3,8 @@
 
 #include "ensemble/distribution.hpp"
 #include "ensemble/mechanism_spec.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "ensemble/point_set.hpp"
-#include "ensemble/random.hpp"
 #include "ensemble/realization.hpp"
 #include "ensemble/structure.hpp"
 #include "ensemble/study.hpp"

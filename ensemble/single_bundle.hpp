@@ -6,7 +6,7 @@
 /// and increments go in, and displacements come out, with their remainders: with about 48 binary digits. The sums over
 /// time of slip, paths and works are kept in double precision: those of a chunk are added to them at its end.
 
-#include "ensemble/aligned.hpp"
+#include "ensemble/numerics/aligned.hpp"
 #include "kernels/isa.hpp"
 
 namespace stylobate {

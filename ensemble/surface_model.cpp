@@ -1,6 +1,6 @@
 #include "ensemble/surface_model.hpp"
 
-#include "ensemble/elementary.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

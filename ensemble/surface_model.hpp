@@ -32,7 +32,7 @@
 /// Rasmussen & Williams, "Gaussian Processes for Machine Learning" (2006), algorithms 3.1 and 3.2; predictive scores:
 /// Vehtari et al., JMLR 17 (2016) 103.
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -20,7 +20,7 @@
 /// times sinc4(pi f d): 1.6 % less at five times the ground's frequency. Same bits on every machine.
 
 #include "ensemble/motion.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "ensemble/study.hpp"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "ensemble/synthetic_pulse.hpp"
 
-#include "ensemble/elementary.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <numbers>
 

@@ -1,6 +1,6 @@
 #include "ensemble/synthetic_sine.hpp"
 
-#include "ensemble/elementary.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,8 @@
 #include "ensemble/twins.hpp"
 
 #include "ensemble/lanes.hpp"
+#include "ensemble/numerics/slope.hpp"
 #include "ensemble/scales.hpp"
-#include "ensemble/slope.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>

@@ -1,6 +1,6 @@
 #include "io/band_pass.hpp"
 
-#include "ensemble/fourier.hpp"
+#include "ensemble/numerics/fourier.hpp"
 
 #include <algorithm>
 #include <cmath>

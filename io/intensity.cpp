@@ -1,6 +1,6 @@
 /// Intensity measures of a record: peaks, Arias intensity, Fourier amplitude, response spectrum.
 
-#include "ensemble/fourier.hpp"
+#include "ensemble/numerics/fourier.hpp"
 #include "io/ground_motion.hpp"
 
 #include <algorithm>

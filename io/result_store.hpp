@@ -2,7 +2,7 @@
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
 #include "ensemble/followed_twin.hpp"
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/outcome.hpp"
 #include "ensemble/realization.hpp"
 #include "io/fragility_table.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The part of a results file that holds counts instead of rows.
 
-#include "ensemble/run_order.hpp"
+#include "ensemble/numerics/run_order.hpp"
 #include "io/hdf5.hpp"
 #include "io/result_store.hpp"
 #include "io/tally.hpp"

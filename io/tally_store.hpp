@@ -2,7 +2,7 @@
 /// A results file without rows: what a study's tables need, cell by cell, however many realizations there are.
 /// `io/FORMAT.md` describes it; `ResultReader` reads it.
 
-#include "ensemble/run_order.hpp"
+#include "ensemble/numerics/run_order.hpp"
 #include "io/result_store.hpp"
 
 namespace stylobate {

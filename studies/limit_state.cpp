@@ -1,7 +1,7 @@
 #include "studies/limit_state.hpp"
 
 #include "ensemble/estimators/record_share.hpp"
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "studies/result_picture.hpp"
 
 #include "ensemble/input_error.hpp"
-#include "ensemble/run_order.hpp"
+#include "ensemble/numerics/run_order.hpp"
 #include "ensemble/structure.hpp"
 #include "io/plot_order.hpp"
 #include "io/plot_strip.hpp"

@@ -3,7 +3,7 @@
 
 #include "ensemble/estimators/fragility_data.hpp"
 #include "ensemble/estimators/link.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <cmath>
 #include <cstdint>

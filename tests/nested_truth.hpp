@@ -3,7 +3,7 @@
 
 #include "ensemble/estimators/dispersion_shares.hpp"
 #include "ensemble/estimators/link.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "ensemble/campaign.hpp"
 #include "ensemble/following.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "ensemble/sampler.hpp"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "ensemble/base_motion.hpp"
 #include "ensemble/distortion.hpp"
-#include "ensemble/fourier.hpp"
+#include "ensemble/numerics/fourier.hpp"
 #include "ensemble/sampler.hpp"
 
 #include <gtest/gtest.h>

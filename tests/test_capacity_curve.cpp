@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/capacity_curve.hpp"
 #include "ensemble/input_error.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Claims judged on realizations that were made up, so that every number and every verdict is known beforehand.
 
 #include "ensemble/input_error.hpp"
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "studies/claims/claim_file.hpp"
 #include "studies/claims/claim_page.hpp"
 #include "studies/claims/claim_text.hpp"

@@ -2,7 +2,7 @@
 /// lane and neighbour, alone or in the ensemble, in one go or stopped and continued.
 
 #include "ensemble/lanes.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "io/result_store.hpp"
 #include "io/study_file.hpp"
 #include "studies/block_names.hpp"

@@ -31,14 +31,14 @@ const std::map<std::string, std::set<std::string>> may_include = {
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> plain_data = {
     "ensemble/followed_twin.hpp",
-    "ensemble/interval.hpp",
+    "ensemble/numerics/interval.hpp",
     "ensemble/input_error.hpp",
     "ensemble/motion.hpp",
     "ensemble/observer.hpp",
     "ensemble/outcome.hpp",
     "ensemble/plausible.hpp",
     "ensemble/realization.hpp",
-    "ensemble/run_order.hpp",
+    "ensemble/numerics/run_order.hpp",
     "ensemble/study.hpp",
     "kernels/topology.hpp",
     "ensemble/nominal.hpp",
@@ -46,7 +46,7 @@ const std::set<std::string> plain_data = {
     "ensemble/campaign.hpp",
     "ensemble/outcome_table.hpp",
     "ensemble/time_counts.hpp",
-    "ensemble/fourier.hpp",
+    "ensemble/numerics/fourier.hpp",
     "ensemble/mechanism_spec.hpp",
     "ensemble/estimators/fragility_model.hpp",
 };

@@ -1,6 +1,6 @@
 /// Binomial intervals: exact coverage by summing probabilities, limits, closed forms.
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "io/result_store.hpp"
 
 #include <fmt/format.h>

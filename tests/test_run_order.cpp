@@ -1,6 +1,6 @@
 /// The order in which realizations are run: each once, and any first part spread over all.
 
-#include "ensemble/run_order.hpp"
+#include "ensemble/numerics/run_order.hpp"
 
 #include <algorithm>
 #include <cmath>

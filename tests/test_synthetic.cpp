@@ -2,7 +2,7 @@
 /// rest at both ends; and the elementary functions beneath them.
 
 #include "ensemble/base_motion.hpp"
-#include "ensemble/elementary.hpp"
+#include "ensemble/numerics/elementary.hpp"
 #include "ensemble/synthetic_motion.hpp"
 
 #include <gtest/gtest.h>

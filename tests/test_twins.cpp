@@ -3,7 +3,7 @@
 
 #include "ensemble/estimators/mean_and_median.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/slope.hpp"
+#include "ensemble/numerics/slope.hpp"
 #include "ensemble/twins.hpp"
 #include "io/study_file.hpp"
 #include "studies/twins/flips.hpp"

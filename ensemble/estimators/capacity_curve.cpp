@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/fragility_curve.hpp"
 #include "ensemble/input_error.hpp"
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 
 #include <fmt/format.h>
 

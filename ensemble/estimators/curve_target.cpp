@@ -1,6 +1,6 @@
 #include "ensemble/estimators/curve_target.hpp"
 
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,6 +1,6 @@
 #include "ensemble/estimators/mean_and_median.hpp"
 
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 

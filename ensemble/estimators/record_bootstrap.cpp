@@ -1,6 +1,6 @@
 #include "ensemble/estimators/record_bootstrap.hpp"
 
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 

@@ -1,7 +1,7 @@
 #include "ensemble/estimators/row_bootstrap.hpp"
 
-#include "ensemble/quantiles.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/record_share.hpp"
 #include "ensemble/input_error.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "ensemble/estimators/subset_simulation.hpp"
 
-#include "ensemble/elementary.hpp"
-#include "ensemble/quantiles.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/elementary.hpp"
+#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "studies/claims/estimate.hpp"
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/calibration_windows.hpp"
 
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/specimen.hpp"
 #include "ensemble/static_state.hpp"

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/prediction.hpp"
 
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
 #include "studies/diagnosis/virtual_campaign.hpp"

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/rest_tests.hpp"
 
 #include "ensemble/following_score.hpp"
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 #include "studies/diagnosis/direct_findings.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "ensemble/distribution.hpp"
 #include "ensemble/following.hpp"
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/measured_motion.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"

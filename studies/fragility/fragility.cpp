@@ -2,7 +2,7 @@
 
 #include "ensemble/input_error.hpp"
 #include "ensemble/motion_set.hpp"
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 #include "io/study_file.hpp"
 
 #include <fmt/format.h>

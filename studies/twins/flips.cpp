@@ -1,6 +1,6 @@
 #include "studies/twins/flips.hpp"
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <algorithm>
 #include <cmath>

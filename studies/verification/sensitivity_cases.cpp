@@ -1,7 +1,7 @@
 /// What the outcome of an ensemble depends on, and on what not.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampler.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/model.hpp"

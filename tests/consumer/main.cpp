@@ -1,7 +1,7 @@
 /// Uses the installed libraries as an engineer's own program would: a study file in, an estimate out.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "io/study_file.hpp"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 #pragma once
 /// Random numbers of a virtual campaign: a pure function of its seed, of what they are for, and of their order there.
 
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <cmath>
 #include <cstdint>

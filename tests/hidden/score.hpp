@@ -1,7 +1,7 @@
 #pragma once
 /// Diagnoses against answers.
 
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "tests/hidden/answer.hpp"
 #include "tests/hidden/diagnosis_summary.hpp"
 

@@ -1,4 +1,4 @@
-#include "ensemble/interval.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/normal.hpp>

@@ -1,4 +1,4 @@
-#include "ensemble/random.hpp"
+#include "ensemble/numerics/random.hpp"
 
 #include <Random123/philox.h>
 

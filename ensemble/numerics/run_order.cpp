@@ -1,4 +1,4 @@
-#include "ensemble/run_order.hpp"
+#include "ensemble/numerics/run_order.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "ensemble/quantiles.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>

@@ -1,6 +1,6 @@
-#include "ensemble/fourier.hpp"
+#include "ensemble/numerics/fourier.hpp"
 
-#include "ensemble/elementary.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <utility>
 
