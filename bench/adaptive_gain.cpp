@@ -8,7 +8,7 @@
 /// all files.
 
 #include "ensemble/adaptive.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_store.hpp"
 
 #include <CLI/CLI.hpp>

@@ -2,9 +2,9 @@
 /// The structures that are timed: the paper's specimen, columns of its drums with other numbers of them, and
 /// colonnades that stand or lie in a heap.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/study.hpp"
 
 namespace stylobate {
 

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/stylobate)
 
-# Headers are included as in the sources: "ensemble/study.hpp".
+# Headers are included as in the sources: "ensemble/model/study.hpp".
 target_include_directories(stylobate_options INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stylobate>)
 foreach(part kernels ensemble io)
   install(DIRECTORY ${part} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stylobate

@@ -17,7 +17,7 @@
 /// Where the budget does not reach, the widest cells come first; their intervals stay right, and wider than asked for.
 
 #include "ensemble/adaptive_looks.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/surface_model.hpp"
 
 #include <cstdint>

@@ -12,9 +12,9 @@
 ///
 /// and of all others `distortion.hpp`.
 
-#include "ensemble/motion.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/synthetic_motion.hpp"
 #include "kernels/base_motion.hpp"
 

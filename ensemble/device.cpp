@@ -1,6 +1,6 @@
 #include "ensemble/device.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/slot_tasks.hpp"
 
 #include <cstdlib>

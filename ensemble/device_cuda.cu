@@ -2,7 +2,7 @@
 // what is to be fused is written as fma, so that a step has the bits of the processor's.
 
 #include "ensemble/device.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/slot_tasks.hpp"
 
 #include <cuda_runtime.h>

@@ -10,8 +10,8 @@
 /// its last sample. At both ends the overtones rise from 0 and fall to it within half a second (2 % of the duration
 /// where that is less), so that the motion still starts at rest.
 
-#include "ensemble/motion.hpp"
-#include "ensemble/realization.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/realization.hpp"
 
 #include <array>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "ensemble/distribution.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// From a uniform number to a value of a perturbed quantity.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The motions that a fragility study makes itself: drawn from its seed, and sequences of shakings.
 
-#include "ensemble/motion_set.hpp"
+#include "ensemble/model/motion_set.hpp"
 
 namespace stylobate {
 

@@ -2,11 +2,11 @@
 /// Many realizations: every core steps bundles, and a lane whose realization has ended takes the next one.
 
 #include "ensemble/device.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/outcome.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/study.hpp"
 #include "kernels/isa.hpp"
 
 #include <cstdint>

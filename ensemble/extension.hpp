@@ -1,7 +1,7 @@
 #pragma once
 /// What the extensions of the model make of a realization: whether there are any, and how a bed carries with them.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 #include "kernels/bundle.hpp"
 #include "kernels/mechanisms/extended.hpp"
 

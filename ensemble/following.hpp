@@ -15,9 +15,9 @@
 /// set and the number of threads.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <cstdint>
 #include <memory>

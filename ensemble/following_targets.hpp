@@ -1,9 +1,9 @@
 #pragma once
 /// From what cameras saw to what the model is pulled towards and compared with.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/following.hpp"
-#include "ensemble/motion.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <array>
 #include <cstddef>

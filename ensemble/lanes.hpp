@@ -3,11 +3,11 @@
 
 #include "ensemble/base_motion.hpp"
 #include "ensemble/limit_states.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/numerics/aligned.hpp"
-#include "ensemble/outcome.hpp"
 #include "ensemble/scales.hpp"
 #include "ensemble/single_bundle.hpp"
-#include "ensemble/study.hpp"
 #include "ensemble/watch.hpp"
 #include "kernels/isa.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 /// What of a structure has fallen, in which order, and which epistyle has lost its seat.
 
-#include "ensemble/outcome.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <cstdint>
 #include <vector>

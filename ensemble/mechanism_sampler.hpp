@@ -2,12 +2,12 @@
 /// What the mechanisms of a study make of a realization.
 
 #include "ensemble/distribution.hpp"
-#include "ensemble/mechanism_spec.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/structure.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/point_set.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/structure.hpp"
-#include "ensemble/study.hpp"
 
 #include <array>
 #include <cstdint>

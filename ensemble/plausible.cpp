@@ -1,8 +1,8 @@
 #include "ensemble/plausible.hpp"
 
+#include "ensemble/model/structure.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/step_bound.hpp"
-#include "ensemble/structure.hpp"
 
 #include <fmt/format.h>
 

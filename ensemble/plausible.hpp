@@ -3,8 +3,8 @@
 /// and no shaking has. One table of checks, each a pure function of the study; a check that is meant to fail is named
 /// in `Study::allow`.
 
-#include "ensemble/motion.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <cstdint>
 #include <string>

@@ -21,8 +21,8 @@
 /// Not offered: the same numbers in every cell (common random numbers). They make the difference of two cells better
 /// known, not the probability of any; and neighbours whose errors go together have less to tell each other.
 
+#include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/study.hpp"
 
 #include <cstdint>
 #include <optional>

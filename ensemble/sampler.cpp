@@ -1,7 +1,7 @@
 #include "ensemble/sampler.hpp"
 
-#include "ensemble/input_error.hpp"
-#include "ensemble/nominal.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/step_bound.hpp"
 
 #include <fmt/format.h>

@@ -3,14 +3,14 @@
 
 #include "ensemble/distribution.hpp"
 #include "ensemble/mechanism_sampler.hpp"
-#include "ensemble/motion.hpp"
-#include "ensemble/motion_set.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/motion_set.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/structure.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/point_set.hpp"
-#include "ensemble/realization.hpp"
 #include "ensemble/shaking.hpp"
-#include "ensemble/structure.hpp"
-#include "ensemble/study.hpp"
 
 #include <array>
 #include <cstdint>

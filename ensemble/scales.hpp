@@ -1,7 +1,7 @@
 #pragma once
 /// Scales of a structure that decide when a realization has ended.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 
 namespace stylobate {
 

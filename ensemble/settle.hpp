@@ -2,7 +2,7 @@
 /// Static equilibrium of blocks under their contact forces.
 
 #include "ensemble/extension.hpp"
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 #include "kernels/overlap.hpp"
 
 #include <vector>

@@ -2,10 +2,10 @@
 /// How a realization is shaken: its frequency, its PGA, and what was drawn for its excitation.
 
 #include "ensemble/distortion.hpp"
-#include "ensemble/motion.hpp"
-#include "ensemble/motion_set.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/motion_set.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <memory>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "ensemble/specimen.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A measured specimen as a structure that can be simulated, and which of its blocks and joints are which.
 
-#include "ensemble/campaign.hpp"
-#include "ensemble/structure.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/structure.hpp"
 
 #include <vector>
 

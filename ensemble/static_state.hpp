@@ -1,7 +1,7 @@
 #pragma once
 /// Where a structure rests under its own weight, or leans, before the shaking.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 
 #include <vector>
 

@@ -8,7 +8,7 @@
 /// With u[n] = v lambda^n and the quotients m, c, k of v it is stable while 4 m - 2 dt c - dt2 k > 0 for every v, so
 /// while 4 M - 2 dt C - dt2 K is positive definite; instability begins at lambda = -1.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 
 #include <limits>
 #include <vector>

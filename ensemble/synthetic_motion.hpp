@@ -1,9 +1,9 @@
 #pragma once
 /// A base motion in closed form that the host evaluates: pulses and sines, scaled to a PGA.
 
-#include "ensemble/motion.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/synthetic_pulse.hpp"
 #include "ensemble/synthetic_sine.hpp"
 

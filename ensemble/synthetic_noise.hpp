@@ -19,9 +19,9 @@
 /// 100 samples or more in a cycle of the ground filter (and 200 a second at least) the spectrum is that of the formulas
 /// times sinc4(pi f d): 1.6 % less at five times the ground's frequency. Same bits on every machine.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/study.hpp"
 
 #include <cstddef>
 #include <cstdint>

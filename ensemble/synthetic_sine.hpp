@@ -4,7 +4,7 @@
 /// Each is for a unit amplitude and begins at t = 0; times outside [0, duration_s] are the caller's to hold back.
 /// The bits of the values are the same on every machine (`elementary.hpp`).
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <array>
 

@@ -14,10 +14,10 @@
 /// passes; so the exponent belongs to a size.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/followed_twin.hpp"
-#include "ensemble/observer.hpp"
+#include "ensemble/model/followed_twin.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/study.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "io/atomic_file.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <cerrno>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 #pragma once
 /// The band-pass filter of a record.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <vector>
 

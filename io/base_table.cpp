@@ -1,6 +1,6 @@
 #include "io/base_table.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/ground_motion.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_motion.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The base motion of `excitation.kind = "table"`: samples as they stand, nothing corrected.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #include "io/csv_fields.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/file_handle.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/export_csv.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/result_layout.hpp"
 

@@ -1,6 +1,6 @@
 #include "io/file_handle.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
 #include "io/fragility_exchange.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/fragility_measure.hpp"
 
 #include <fmt/format.h>

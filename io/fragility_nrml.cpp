@@ -1,4 +1,4 @@
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/csv_fields.hpp"
 #include "io/fragility_exchange.hpp"
 #include "io/fragility_measure.hpp"

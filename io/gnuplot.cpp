@@ -1,6 +1,6 @@
 #include "io/gnuplot.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/utf8.hpp"

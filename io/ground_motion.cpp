@@ -1,6 +1,6 @@
 #include "io/ground_motion.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/band_pass.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// From a record to a base motion: baseline, integration, intensity measures.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 #include "io/record.hpp"
 
 #include <cstddef>

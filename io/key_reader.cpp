@@ -1,6 +1,6 @@
 #include "io/key_reader.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/suggest.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/measured_check.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/measured_layout.hpp"
 #include "io/measured_noise.hpp"
 

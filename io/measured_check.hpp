@@ -1,7 +1,7 @@
 #pragma once
 /// Whether measured data can be what they say: units, clocks, sensors, geometry.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 
 namespace stylobate {
 

@@ -1,4 +1,4 @@
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv_fields.hpp"
 #include "io/key_reader.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Measured campaigns in files: HDF5, or a folder of CSV files with one TOML beside them. See FORMAT.md.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/file_handle.hpp"
 #include "io/hdf5.hpp"
 #include "io/measured_layout.hpp"

@@ -2,7 +2,7 @@
 /// What the two layouts of measured data (HDF5, and CSV with TOML) share: the names of the data, their units, and the
 /// shapes that they must have. See FORMAT.md.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 
 #include <array>
 #include <filesystem>

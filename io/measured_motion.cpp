@@ -1,6 +1,6 @@
 #include "io/measured_motion.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/ground_motion.hpp"
 #include "io/measured_noise.hpp"
 

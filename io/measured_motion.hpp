@@ -1,8 +1,8 @@
 #pragma once
 /// The motion of the table in a measured run: one consistent history from all sensors that saw it.
 
-#include "ensemble/campaign.hpp"
-#include "ensemble/motion.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "io/measured_outcomes.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/csv_fields.hpp"
 #include "io/measured_layout.hpp"
 #include "io/suggest.hpp"

@@ -1,6 +1,6 @@
 /// Whether a specimen can be: sizes, densities, and what touches what.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/measured_check.hpp"
 #include "io/measured_layout.hpp"
 

@@ -1,6 +1,6 @@
 #include "io/plot_rare.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/gnuplot.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/plot_slice.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/gnuplot.hpp"
 #include "io/plot_axis.hpp"
 #include "io/plot_surface.hpp"

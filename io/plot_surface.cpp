@@ -1,6 +1,6 @@
 #include "io/plot_surface.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/contour.hpp"
 #include "io/gnuplot.hpp"
 #include "io/plot_axis.hpp"

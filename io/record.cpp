@@ -1,6 +1,6 @@
 #include "io/record.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/record_parser.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// Ground-motion records: files of any known format in, acceleration in m/s2 out.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <filesystem>
 #include <optional>

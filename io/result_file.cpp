@@ -1,6 +1,6 @@
 #include "io/result_file.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <algorithm>
 #include <sstream>

@@ -1,6 +1,6 @@
 #include "io/result_layout.hpp"
 
-#include "ensemble/mechanism_spec.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_file.hpp"
 #include "io/result_fragility.hpp"
 #include "io/result_rare.hpp"

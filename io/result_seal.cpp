@@ -1,6 +1,6 @@
 #include "io/result_seal.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_layout.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #pragma once
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
-#include "ensemble/followed_twin.hpp"
+#include "ensemble/model/followed_twin.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/realization.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/outcome.hpp"
-#include "ensemble/realization.hpp"
 #include "io/fragility_table.hpp"
 #include "io/rare_table.hpp"
 #include "io/sensitivity_table.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The group /twins of a results file: pairs that were followed.
 
-#include "ensemble/followed_twin.hpp"
+#include "ensemble/model/followed_twin.hpp"
 #include "io/hdf5.hpp"
 
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 /// An axis of a study file: { from, to, count, spacing }.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/key_reader.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 /// The [excitation] of a study file.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/key_reader.hpp"
 
 #include <string>

@@ -1,6 +1,6 @@
 #include "io/study_file.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/plausible.hpp"
 #include "io/key_reader.hpp"
 #include "io/study_axis.hpp"

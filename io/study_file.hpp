@@ -1,7 +1,7 @@
 #pragma once
 /// The study file: TOML in, `Study` out, every key checked.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
-/// The [mechanisms] section of a study file, read and written by the one table of `ensemble/mechanism_spec.hpp`.
+/// The [mechanisms] section of a study file, read and written by the one table of `ensemble/model/mechanism_spec.hpp`.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/key_reader.hpp"
 
 #include <string>

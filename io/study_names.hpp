@@ -1,7 +1,7 @@
 #pragma once
 /// The words of the study file for the enumerations of a study: read and written from the same lists.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #include "io/study_perturbations.hpp"
 
-#include "ensemble/nominal.hpp"
+#include "ensemble/model/nominal.hpp"
 #include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
 #include "io/study_ranges.hpp"

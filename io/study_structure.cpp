@@ -1,6 +1,6 @@
 #include "io/study_structure.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_names.hpp"
 #include "io/study_ranges.hpp"
 

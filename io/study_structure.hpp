@@ -1,7 +1,7 @@
 #pragma once
 /// The [structure] of a study file.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/key_reader.hpp"
 
 namespace stylobate {

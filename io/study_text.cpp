@@ -1,6 +1,6 @@
 /// The canonical text of a study: every value, in one order, with numbers that read back to the same bits.
 
-#include "ensemble/nominal.hpp"
+#include "ensemble/model/nominal.hpp"
 #include "io/study_file.hpp"
 #include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"

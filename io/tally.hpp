@@ -1,8 +1,8 @@
 #pragma once
 /// What is counted of the realizations of a surface that keeps no row of them: a few kilobytes, however many they are.
 
-#include "ensemble/outcome.hpp"
-#include "ensemble/time_counts.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/time_counts.hpp"
 
 #include <cstdint>
 #include <map>

@@ -1,6 +1,6 @@
 #include "io/temporary_folder.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <cerrno>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "studies/block_names.hpp"
 
-#include "ensemble/structure.hpp"
+#include "ensemble/model/structure.hpp"
 
 namespace stylobate {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What the blocks of a study's structure are called in results and pictures.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <string>
 #include <vector>

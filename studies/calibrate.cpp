@@ -1,6 +1,6 @@
 /// `stylobate calibrate`: contact parameters from measured response.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_outcomes.hpp"

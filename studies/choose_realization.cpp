@@ -1,7 +1,7 @@
 #include "studies/choose_realization.hpp"
 
-#include "ensemble/input_error.hpp"
-#include "ensemble/motion_set.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/motion_set.hpp"
 #include "io/plot_axis.hpp"
 #include "io/suggest.hpp"
 #include "studies/loaded_study.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Which realization of a result is meant: by its index, or by where it stands and how it ended.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 
 #include <cstdint>

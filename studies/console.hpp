@@ -1,7 +1,7 @@
 #pragma once
 /// What the user sees while a study runs, and how the user stops it.
 
-#include "ensemble/observer.hpp"
+#include "ensemble/model/observer.hpp"
 
 #include <chrono>
 #include <string>

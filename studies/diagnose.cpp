@@ -1,6 +1,6 @@
 /// `stylobate diagnose`: from a measured campaign to a diagnosis.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/measured_file.hpp"
 #include "io/study_file.hpp"

@@ -1,6 +1,6 @@
 /// `stylobate export`: results in other tools' formats.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/export_csv.hpp"
 #include "io/plot_rare.hpp"

@@ -1,6 +1,6 @@
 #include "studies/file_kind.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/csv_fields.hpp"
 #include "io/file_handle.hpp"
 #include "io/hdf5_label.hpp"

@@ -1,6 +1,6 @@
 #include "studies/html.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/utf8.hpp"
 #include "studies/version.hpp"
 

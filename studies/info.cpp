@@ -1,6 +1,6 @@
 /// `stylobate info`, and the options that say what to run on.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "studies/command.hpp"
 #include "studies/info_file.hpp"
 #include "studies/json.hpp"

@@ -2,7 +2,7 @@
 
 #include "studies/info_file.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/plausible.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_outcomes.hpp"

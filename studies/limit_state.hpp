@@ -1,8 +1,8 @@
 #pragma once
 /// Limit states of a structure: which a realization has reached, and how often that happened.
 
-#include "ensemble/study.hpp"
-#include "ensemble/time_counts.hpp"
+#include "ensemble/model/study.hpp"
+#include "ensemble/model/time_counts.hpp"
 #include "io/plot_order.hpp"
 #include "io/result_store.hpp"
 

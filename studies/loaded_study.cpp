@@ -1,6 +1,6 @@
 #include "studies/loaded_study.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/base_table.hpp"
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"

@@ -1,10 +1,10 @@
 #pragma once
 /// A study with all that running it needs: its record, its sampler, and the header of its results.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/plausible.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/study.hpp"
 #include "io/result_store.hpp"
 
 #include <memory>

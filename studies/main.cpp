@@ -1,6 +1,6 @@
 /// The command line.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/suggest.hpp"
 #include "studies/command.hpp"
 #include "studies/limit_state.hpp"

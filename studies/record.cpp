@@ -1,7 +1,7 @@
 /// `stylobate record`: what a ground motion is.
 
 #include "io/record.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/ground_motion.hpp"
 #include "studies/command.hpp"
 #include "studies/file_kind.hpp"

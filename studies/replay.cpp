@@ -1,6 +1,6 @@
 /// `stylobate replay`: one realization of a result again, with its trajectory.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_layout.hpp"
 #include "io/result_store.hpp"
 #include "studies/command.hpp"

@@ -2,7 +2,7 @@
 
 #include "studies/report.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "studies/console.hpp"
 #include "studies/diagnosis/calibration_file.hpp"

@@ -1,6 +1,6 @@
 /// The page of a result.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/plot_rare.hpp"
 #include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"

@@ -1,9 +1,9 @@
 #include "studies/report_study.hpp"
 
-#include "ensemble/collapse_criterion.hpp"
-#include "ensemble/mechanism_spec.hpp"
-#include "ensemble/motion_set.hpp"
-#include "ensemble/structure.hpp"
+#include "ensemble/model/collapse_criterion.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/model/motion_set.hpp"
+#include "ensemble/model/structure.hpp"
 #include "io/study_names.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// A study on the pages of `stylobate report`.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 #include "studies/html.hpp"
 

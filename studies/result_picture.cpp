@@ -1,8 +1,8 @@
 #include "studies/result_picture.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/structure.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "ensemble/structure.hpp"
 #include "io/plot_order.hpp"
 #include "io/plot_strip.hpp"
 #include "io/study_file.hpp"

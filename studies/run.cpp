@@ -1,7 +1,7 @@
 /// `stylobate run`: from a study file to a results file.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
 #include "io/study_names.hpp"

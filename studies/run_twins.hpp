@@ -2,7 +2,7 @@
 /// A surface with twins: its realizations, their twins, and the pairs that are followed.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/followed_twin.hpp"
+#include "ensemble/model/followed_twin.hpp"
 #include "io/result_store.hpp"
 #include "studies/loaded_study.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "ensemble/estimators/elementary_effects.hpp"
 #include "ensemble/estimators/sobol_indices.hpp"
-#include "ensemble/input_error.hpp"
-#include "ensemble/structure.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/structure.hpp"
 #include "io/study_names.hpp"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 ///   peak_displacement   of the top, at most the width of a drum: that much where it collapsed
 ///   residual_displacement   its size, likewise
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 #include "io/sensitivity_table.hpp"
 #include "studies/html.hpp"

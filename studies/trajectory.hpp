@@ -1,8 +1,8 @@
 #pragma once
 /// One realization, followed through time.
 
-#include "ensemble/outcome.hpp"
-#include "ensemble/realization.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/realization.hpp"
 #include "io/result_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/loaded_study.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// What the tests of exports and pictures share: a folder, a surface, a trajectory.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_store.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// Campaigns of blocks that slide and rock by formula, for the tests of the balance of forces: nothing of them comes
 /// from a simulation.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 
 #include <cmath>
 #include <functional>

@@ -4,7 +4,7 @@
 /// one, the others. Whatever the bytes are, they are refused with an InputError or are records with the promised
 /// properties.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/record.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 /// Measured campaigns made by formula, for the tests of their files, checks and motions.
 
-#include "ensemble/campaign.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 /// What "the same outcome" means in tests: every number of it, as bits.
 
-#include "ensemble/outcome.hpp"
+#include "ensemble/model/outcome.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 /// Small ground-motion files of each format, made up, and what is in them.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/record.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// What the tests of the result store share: rows of arbitrary bits, and a folder of one's own.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_store.hpp"
 #include "tests/outcome_bits.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Campaigns that the engine itself has "measured": a column with known parameters, seen by cameras with noise.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/following.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampler.hpp"
 

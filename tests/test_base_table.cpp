@@ -1,6 +1,6 @@
 /// Tables of samples as base motions: what is read, and what is refused with which words.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/base_table.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_motion.hpp"

@@ -1,6 +1,6 @@
 /// Calibration finds what a campaign was made with, says how well it knows it, and says what it cannot know.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/measured_file.hpp"
 #include "io/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"

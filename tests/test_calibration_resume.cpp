@@ -2,7 +2,7 @@
 
 #include "measured_samples.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "tests/synthetic_campaign.hpp"
 

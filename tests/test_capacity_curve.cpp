@@ -1,7 +1,7 @@
 /// Curves from capacities: known truths, records that never reach, coverage, resurrection.
 
 #include "ensemble/estimators/capacity_curve.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Claims judged on realizations that were made up, so that every number and every verdict is known beforehand.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "studies/claims/claim_file.hpp"
 #include "studies/claims/claim_page.hpp"

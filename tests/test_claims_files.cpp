@@ -1,7 +1,7 @@
 /// Claim files read and refused, the page that is written from them, and a small run from file to samples.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/synthetic_motion.hpp"
 #include "io/study_file.hpp"
 #include "studies/claims/claim_figure.hpp"

@@ -1,6 +1,6 @@
 /// The file of a diagnosis: what is written is read, whole or not at all, and nothing damaged is believed.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "studies/diagnosis/diagnosis_fields.hpp"
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "tests/diagnosis_sample.hpp"

@@ -1,7 +1,7 @@
 /// The shares of the dispersion: known components, unequal counts, a direct sum over pairs, coverage.
 
 #include "ensemble/estimators/dispersion_shares.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "nested_truth.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 /// Fragility curves: published fits, known truths, coverage of the intervals, and data that bear no curve.
 
 #include "ensemble/estimators/fragility_curve.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "fragility_truth.hpp"
 
 #include <gtest/gtest.h>

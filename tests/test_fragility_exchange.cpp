@@ -1,6 +1,6 @@
 /// Fragility functions in NRML, JSON and CSV: round trips, OpenQuake's numbers, the schema, one message for each fault.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/fragility_exchange.hpp"
 #include "json.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/lack_of_fit.hpp"
 #include "ensemble/estimators/stripe_shares.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "fragility_truth.hpp"
 
 #include <gtest/gtest.h>

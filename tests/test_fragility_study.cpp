@@ -3,7 +3,7 @@
 
 #include "ensemble/base_motion.hpp"
 #include "ensemble/drawn_motions.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/sampler.hpp"
 #include "io/ground_motion.hpp"
 #include "io/study_file.hpp"

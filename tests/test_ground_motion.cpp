@@ -1,7 +1,7 @@
 /// From a record to a motion and its measures, against closed forms, a Runge-Kutta solution, and the measures that
 /// were computed by another program for real records.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/band_pass.hpp"
 #include "io/ground_motion.hpp"
 #include "tests/csv_line.hpp"

@@ -1,6 +1,6 @@
 /// The score of diagnoses, on answers and diagnoses that are written here by hand.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "tests/hidden/coverage.hpp"
 #include "tests/hidden/score.hpp"
 

@@ -1,6 +1,6 @@
 /// Pages and figures: what comes from elsewhere is text and never markup; figures hold what they are given.
 
-#include "ensemble/collapse_criterion.hpp"
+#include "ensemble/model/collapse_criterion.hpp"
 #include "io/study_file.hpp"
 #include "io/temporary_folder.hpp"
 #include "studies/diagnosis/calibration_file.hpp"

@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/link.hpp"
 #include "ensemble/estimators/measure_ranking.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 /// The parts of the pages of measured data: the split, the scores, the logistic regression, the mesh, the base motions,
 /// against known answers; and the data themselves, where they lie beside the checkout.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 #include "studies/measured/boulder_model.hpp"
 #include "studies/measured/double_pulse.hpp"

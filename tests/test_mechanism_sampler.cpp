@@ -1,7 +1,7 @@
 /// What the mechanisms of a study make of its realizations: extensions, draws, and what cannot be built.
 
-#include "ensemble/input_error.hpp"
 #include "ensemble/mechanism_sampler.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/sampler.hpp"
 
 #include <gtest/gtest.h>

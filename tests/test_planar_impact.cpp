@@ -1,7 +1,7 @@
 /// Impacts of an ellipse: closed forms against quadrature and by hand, the stepped contact law against rigid impacts,
 /// the fit against known parameters.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "studies/measured/planar_impact_cause.hpp"
 #include "studies/measured/planar_impact_study.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "ensemble/plausible.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

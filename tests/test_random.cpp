@@ -1,7 +1,7 @@
 /// Counter-based random numbers, and the distributions that are drawn with them.
 
 #include "ensemble/distribution.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <gtest/gtest.h>

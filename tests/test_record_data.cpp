@@ -3,7 +3,7 @@
 
 #include "csv_line.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/record.hpp"
 
 #include <gtest/gtest.h>

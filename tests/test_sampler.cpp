@@ -1,6 +1,6 @@
 /// From study and index to a realization: geometry, mass, contacts, draws, step.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/step_bound.hpp"
 

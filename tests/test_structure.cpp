@@ -2,9 +2,9 @@
 
 #include "column_reference.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/structure.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/structure.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

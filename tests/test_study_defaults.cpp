@@ -2,7 +2,7 @@
 /// own messages, and whether a study uses one from whether the reader takes it: a key that somebody adds and forgets in
 /// the text is found by itself.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 #include "io/toml_document.hpp"
 

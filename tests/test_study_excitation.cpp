@@ -1,6 +1,6 @@
 /// The synthetic excitations of a study file: what is read, and what is refused with which words.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// The study file: defaults, every kind of mistake with its line and the words that help, settings.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

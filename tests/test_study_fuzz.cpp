@@ -1,7 +1,7 @@
 /// Malformed studies, made from the main one and from one of a colonnade with a fixed seed: each is refused with a
 /// message, or is a study whose canonical text reads back to itself. Nothing else may happen.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Mechanisms and contact forms in a study file: what is read, written and refused, and with which words.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

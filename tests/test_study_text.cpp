@@ -1,6 +1,6 @@
 /// The canonical text of a study: it reads back to itself, and is equal for equal studies only.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

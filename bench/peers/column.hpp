@@ -3,7 +3,7 @@
 /// 5 Hz and 2.15 m/s2 or at rest, each drum off its axis by a draw of 1e-6 m.
 
 #include "bench/peers/engine.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 namespace stylobate::peers {
 

@@ -2,7 +2,7 @@
 
 #include "bench/work_precision/page.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 /// Three answers of the engine, each with what it cost in block-steps: a number that no neighbour on the machine
 /// changes.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <cstdint>
 #include <vector>

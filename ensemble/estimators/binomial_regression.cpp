@@ -1,6 +1,6 @@
 #include "ensemble/estimators/binomial_regression.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

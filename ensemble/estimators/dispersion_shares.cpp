@@ -1,7 +1,7 @@
 #include "ensemble/estimators/dispersion_shares.hpp"
 
 #include "ensemble/estimators/fragility_curve.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 
 #include <fmt/format.h>

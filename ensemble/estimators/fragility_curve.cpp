@@ -1,7 +1,7 @@
 #include "ensemble/estimators/fragility_curve.hpp"
 
 #include "ensemble/estimators/record_bootstrap.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "ensemble/estimators/measure_ranking.hpp"
 
 #include "ensemble/estimators/fragility_curve.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "ensemble/estimators/stripe_shares.hpp"
 
 #include "ensemble/estimators/record_share.hpp"
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <fmt/format.h>

@@ -35,8 +35,8 @@ enum class Stream : std::uint64_t {
     twin = 71,     ///< what twins of a fragility study differ by; element = block
     subset = 72,   ///< of subset simulation; index = repeat x 2^32 + evaluation, element = number of the point
     sequence = 73, ///< which records follow a record; index = record, element = place in the sequence
-    /// Parameter p of mechanism m (`ensemble/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element = joint
-    /// or block, 0 of the base and of what is drawn once.
+    /// Parameter p of mechanism m (`ensemble/model/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element =
+    /// joint or block, 0 of the base and of what is drawn once.
     mechanisms = 128
 };
 

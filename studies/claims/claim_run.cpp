@@ -1,6 +1,6 @@
 #include "studies/claims/claim_run.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/result_store.hpp"
 #include "io/study_file.hpp"
 #include "studies/loaded_study.hpp"

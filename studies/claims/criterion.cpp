@@ -1,6 +1,6 @@
 #include "studies/claims/criterion.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "studies/claims/claim_text.hpp"
 
 #include <fmt/format.h>

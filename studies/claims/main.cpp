@@ -1,6 +1,6 @@
 /// `stylobate_claims`: runs claim files and writes the page of their verdicts.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"

@@ -3,9 +3,9 @@
 
 #include "studies/claims/claim.hpp"
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/study.hpp"
 #include "io/result_store.hpp"
 
 #include <array>

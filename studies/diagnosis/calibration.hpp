@@ -14,11 +14,11 @@
 /// about the best ones, then a quadratic form through them (`calibration_surface.hpp`), then the profile of every
 /// parameter: the best score with that parameter held.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/outcome_table.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/outcome_table.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 
 #include <cstdint>

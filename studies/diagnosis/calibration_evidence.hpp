@@ -1,10 +1,10 @@
 #pragma once
 /// What parameter sets are judged by: histories in windows, or outcomes in ensembles.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/outcome_tests.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/calibration_file.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/hdf5.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"

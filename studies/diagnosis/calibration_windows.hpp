@@ -1,11 +1,11 @@
 #pragma once
 /// Models compared with measured histories, window by window (`ensemble/following.hpp`).
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
 #include "ensemble/following_score.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/cause_model.hpp"
 
-#include "ensemble/mechanism_spec.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 /// Causes put into the model: what the diagnosis names is what the kernel runs.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 #include "ensemble/specimen.hpp"
-#include "ensemble/study.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/direct_tests.hpp"
 

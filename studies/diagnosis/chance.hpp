@@ -2,10 +2,10 @@
 /// What chance gives: the evidence of campaigns with nothing hidden, kept in a file so that it is made once for a
 /// specimen and its motions, and so that an interrupted diagnosis goes on.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/evidence.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/diagnosis_file.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file_handle.hpp"
 #include "io/hdf5.hpp"

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/diagnosis_words.hpp"
 
-#include "ensemble/mechanism_spec.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
 
 #include <fmt/format.h>
 

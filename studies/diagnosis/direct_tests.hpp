@@ -6,7 +6,7 @@
 /// vertical motion. Where the cameras see the table itself, that is used instead, over whole runs. What lies askew at
 /// rest (wedges, offsets of drums) is seen at once, too.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/diagnosis.hpp"
 #include "studies/diagnosis/track.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// What a campaign says for each cause, by every way of looking at it, and the same of campaigns with nothing hidden.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/direct_tests.hpp"
 #include "studies/diagnosis/track.hpp"

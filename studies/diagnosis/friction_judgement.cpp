@@ -1,6 +1,6 @@
 #include "studies/diagnosis/friction_judgement.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/direct_tests.hpp"
 

@@ -12,7 +12,7 @@
 /// with k = 1.96. How often they hold, in campaigns of contact laws that the model does not have, is in
 /// `docs/calibration.md`. Where the interval is wide, or rests on too few windows, the friction is not determined.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/law_samples.hpp"
 #include "studies/diagnosis/track.hpp"
 

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/kept_evidence.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/file_handle.hpp"
 #include "io/result_seal.hpp"
 

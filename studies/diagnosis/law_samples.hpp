@@ -12,7 +12,7 @@
 ///
 /// No contact stiffness and no damping enters, and no simulation: nothing here is chaotic, and the noise is known.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/track.hpp"
 
 #include <vector>

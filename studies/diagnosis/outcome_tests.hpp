@@ -1,10 +1,10 @@
 #pragma once
 /// Tests of which only the outcome is known: what shook the specimen, as an excitation that the model can be run with.
 
-#include "ensemble/campaign.hpp"
-#include "ensemble/motion.hpp"
-#include "ensemble/outcome_table.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/outcome_table.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <memory>
 #include <vector>

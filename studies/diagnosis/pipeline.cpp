@@ -1,6 +1,6 @@
 #include "studies/diagnosis/pipeline.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/chance.hpp"

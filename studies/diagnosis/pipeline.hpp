@@ -1,10 +1,10 @@
 #pragma once
 /// A diagnosis from beginning to end. `docs/diagnosis.md` explains the stages; each is a file of this folder.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/decision.hpp"
 #include "studies/diagnosis/diagnosis.hpp"
 

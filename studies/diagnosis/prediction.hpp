@@ -2,10 +2,10 @@
 /// What naming a cause is worth: predictions of runs that were not used to size it, with and without it; and the test
 /// that would tell apart the causes that are left.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/decision.hpp"
 #include "studies/diagnosis/diagnosis.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The parts of runs in which the lowest block, or the table itself, rides on the base: what direct tests look at.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/robust_fit.hpp"
 #include "studies/diagnosis/track.hpp"
 

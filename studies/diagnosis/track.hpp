@@ -2,7 +2,7 @@
 /// One measured run made ready for the balance of forces: equally spaced samples without gaps, smoothed over several
 /// half widths, and the time scales and thresholds that the specimen's size and the cameras' noise set.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/smoothing.hpp"
 
 #include <array>

@@ -6,7 +6,7 @@
 /// against the base motion, and searched for a line: a frequency of the table's own that stands out in motion after
 /// motion, as no harmonic of the shaking or of the rocking does.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/ride.hpp"
 
 namespace stylobate {

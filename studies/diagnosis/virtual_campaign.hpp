@@ -7,10 +7,10 @@
 /// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
 /// the blocks were put.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 #include "studies/diagnosis/slip_score.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/specimen.hpp"
 
 #include <fmt/format.h>

@@ -4,10 +4,10 @@
 /// with and without the cause. Slow motions and short slips are seen here that the balance of forces does not see; but
 /// the model's own contacts matter, so that each contact form judges by itself.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/cause_model.hpp"

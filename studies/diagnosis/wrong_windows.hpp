@@ -1,10 +1,10 @@
 #pragma once
 /// Where and how the baseline is off: the windows that it predicts worst, and the motion in them.
 
-#include "ensemble/campaign.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/observer.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/campaign.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/diagnosis/diagnosis.hpp"
 #include "studies/diagnosis/prediction.hpp"
 

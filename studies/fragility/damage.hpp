@@ -12,8 +12,8 @@
 /// and further that a block falls (or all do), and that an epistyle loses its seat. A structure that has fallen has
 /// reached every level. The top of a colonnade is its last block, the epistyle at the right.
 
-#include "ensemble/outcome.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <limits>
 #include <string>

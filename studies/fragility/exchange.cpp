@@ -1,6 +1,6 @@
 #include "studies/fragility/exchange.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/fragility_exchange.hpp"
 

@@ -1,7 +1,7 @@
 #include "studies/fragility/fragility.hpp"
 
-#include "ensemble/input_error.hpp"
-#include "ensemble/motion_set.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/motion_set.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 #include "io/study_file.hpp"
 

@@ -7,7 +7,7 @@
 #include "ensemble/estimators/lack_of_fit.hpp"
 #include "ensemble/estimators/measure_ranking.hpp"
 #include "ensemble/estimators/stripe_shares.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 #include "studies/fragility/damage.hpp"
 

@@ -1,4 +1,4 @@
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/gnuplot.hpp"
 #include "studies/fragility/fragility_text.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The ground motions of a fragility study: read from their files or drawn from the seed, and measured.
 
-#include "ensemble/motion_set.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion_set.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 
 namespace stylobate {

@@ -1,6 +1,6 @@
 #include "studies/measured/boulder_data.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/hdf5.hpp"
 #include "studies/measured/table.hpp"
 

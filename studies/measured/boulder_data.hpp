@@ -1,7 +1,7 @@
 #pragma once
 /// Shake-table tests of two boulders: the measured motion of the table and whether each fell (rock_shake_table).
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <array>
 #include <filesystem>

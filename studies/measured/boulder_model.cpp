@@ -1,7 +1,7 @@
 #include "studies/measured/boulder_model.hpp"
 
-#include "ensemble/input_error.hpp"
 #include "ensemble/lanes.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/sampler.hpp"
 #include "io/study_file.hpp"
 

@@ -2,8 +2,8 @@
 /// A boulder as a planar rigid rectangle on the shaking table: what a test does to it, by the engine.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/realization.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/realization.hpp"
+#include "ensemble/model/study.hpp"
 #include "studies/measured/boulder_data.hpp"
 #include "studies/measured/fall_table.hpp"
 

@@ -1,6 +1,6 @@
 #include "studies/measured/double_pulse.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 #include "studies/measured/table.hpp"
 

@@ -2,9 +2,9 @@
 /// What blocks of several slendernesses do in tests, and which of them the outcomes make most likely.
 
 #include "ensemble/executor.hpp"
-#include "ensemble/motion.hpp"
-#include "ensemble/outcome.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "studies/measured/mesh_stance.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

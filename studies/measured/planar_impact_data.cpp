@@ -1,6 +1,6 @@
 #include "studies/measured/planar_impact_data.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "studies/measured/table.hpp"
 

@@ -1,6 +1,6 @@
 #include "studies/twins/twins.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
 

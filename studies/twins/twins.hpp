@@ -3,7 +3,7 @@
 /// foretold. Flips are computed from the rows of the results whenever they are asked for.
 
 #include "ensemble/estimators/mean_and_median.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 #include "studies/twins/flips.hpp"
 

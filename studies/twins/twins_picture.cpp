@@ -1,4 +1,4 @@
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/plot_maps.hpp"
 #include "studies/twins/twins_text.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Loads that are reached slowly and held: what the engine's contacts can carry at rest.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "tests/hidden/answer.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/toml_document.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "tests/hidden/diagnosis_summary.hpp"
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "tests/json.hpp"
 
 #include <fstream>

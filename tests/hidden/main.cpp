@@ -1,6 +1,6 @@
 /// hidden_campaigns: makes virtual shake-table campaigns with hidden effects, and scores diagnoses of them.
 
-#include "ensemble/input_error.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/measured_file.hpp"
 #include "io/suggest.hpp"

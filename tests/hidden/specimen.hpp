@@ -1,7 +1,7 @@
 #pragma once
 /// The specimens of the virtual laboratory: as planned, as made, and as put on the table.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "tests/hidden/draws.hpp"
 #include "tests/hidden/shaking.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A virtual campaign from its seed: specimen, motions, runs, what the cameras saw, and what was hidden.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 #include "tests/hidden/hidden_effect.hpp"
 #include "tests/hidden/shake.hpp"
 

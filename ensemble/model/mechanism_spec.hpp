@@ -2,7 +2,7 @@
 /// The mechanisms that a study can name: one table says what each is, from which studies are read, written, perturbed
 /// and explained. The equations are in `kernels/mechanisms/` and, for the base, in `base_motion.hpp`.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "ensemble/collapse_criterion.hpp"
+#include "ensemble/model/collapse_criterion.hpp"
 
 #include <fmt/format.h>
 

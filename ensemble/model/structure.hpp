@@ -2,7 +2,7 @@
 /// What stands on the ground: columns of drums, and the epistyles that lie on them. Plain data, SI units; and where
 /// each block of it stands at rest.
 
-#include "ensemble/realization.hpp"
+#include "ensemble/model/realization.hpp"
 
 #include <optional>
 #include <string>

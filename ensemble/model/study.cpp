@@ -1,4 +1,4 @@
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 /// The ground motions of a fragility study, and how strong each is by every intensity measure, as plain data.
 
-#include "ensemble/motion.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <cstddef>
 #include <memory>

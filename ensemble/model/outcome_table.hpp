@@ -1,7 +1,7 @@
 #pragma once
 /// Measured outcomes without histories: what shook a specimen, and whether it fell. Plain data, SI units.
 
-#include "ensemble/campaign.hpp"
+#include "ensemble/model/campaign.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 /// When a block counts as fallen, in words: the one statement that pages, texts and the study reference use.
 
-#include "ensemble/study.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "ensemble/nominal.hpp"
+#include "ensemble/model/nominal.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 ///
 /// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
-#include "ensemble/mechanism_spec.hpp"
-#include "ensemble/motion.hpp"
-#include "ensemble/structure.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/model/motion.hpp"
+#include "ensemble/model/structure.hpp"
 #include "kernels/model.hpp"
 
 #include <algorithm>

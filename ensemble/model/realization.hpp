@@ -1,7 +1,7 @@
 #pragma once
 /// One perturbed structure and its base motion: a pure function of (study, seed, index). Plain data, SI units.
 
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 #include "kernels/model.hpp"
 
 #include <cstdint>

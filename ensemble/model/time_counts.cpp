@@ -1,4 +1,4 @@
-#include "ensemble/time_counts.hpp"
+#include "ensemble/model/time_counts.hpp"
 
 #include <algorithm>
 #include <bit>

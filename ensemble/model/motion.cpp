@@ -1,4 +1,4 @@
-#include "ensemble/motion.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <algorithm>
 #include <cassert>

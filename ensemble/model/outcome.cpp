@@ -1,4 +1,4 @@
-#include "ensemble/outcome.hpp"
+#include "ensemble/model/outcome.hpp"
 
 namespace stylobate {
 

@@ -1,4 +1,4 @@
-#include "ensemble/motion_set.hpp"
+#include "ensemble/model/motion_set.hpp"
 
 #include <fmt/format.h>
 

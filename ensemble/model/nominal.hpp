@@ -1,8 +1,8 @@
 #pragma once
 /// The values that the perturbed quantities of a study have without perturbation.
 
-#include "ensemble/structure.hpp"
-#include "ensemble/study.hpp"
+#include "ensemble/model/structure.hpp"
+#include "ensemble/model/study.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "ensemble/mechanism_spec.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
 
 #include <algorithm>
 #include <iterator>
