@@ -1,7 +1,7 @@
 #include "ensemble/base_motion.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
-#include "ensemble/scales.hpp"
+#include "ensemble/statics/scales.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "ensemble/lanes.hpp"
 
-#include "ensemble/extension.hpp"
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "kernels/step.hpp"
 
 #include <algorithm>

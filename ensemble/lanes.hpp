@@ -6,8 +6,8 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/aligned.hpp"
-#include "ensemble/scales.hpp"
 #include "ensemble/single_bundle.hpp"
+#include "ensemble/statics/scales.hpp"
 #include "ensemble/watch.hpp"
 #include "kernels/isa.hpp"
 

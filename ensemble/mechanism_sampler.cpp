@@ -1,7 +1,7 @@
 #include "ensemble/mechanism_sampler.hpp"
 
-#include "ensemble/extension.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/statics/extension.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/structure.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>
 

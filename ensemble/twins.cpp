@@ -2,7 +2,7 @@
 
 #include "ensemble/lanes.hpp"
 #include "ensemble/numerics/slope.hpp"
-#include "ensemble/scales.hpp"
+#include "ensemble/statics/scales.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>

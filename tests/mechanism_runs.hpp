@@ -1,8 +1,8 @@
 #pragma once
 /// Realizations with every mechanism, and runs of them whose every bit can be compared.
 
-#include "ensemble/extension.hpp"
 #include "ensemble/lanes.hpp"
+#include "ensemble/statics/extension.hpp"
 #include "studies/verification/colonnade.hpp"
 #include "studies/verification/model.hpp"
 #include "tests/outcome_bits.hpp"

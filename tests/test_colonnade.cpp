@@ -1,9 +1,9 @@
 /// Structures that are no stack: their rest, contacts between blocks that were no neighbours, falls.
 
 #include "ensemble/limit_states.hpp"
-#include "ensemble/settle.hpp"
-#include "ensemble/static_state.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/settle.hpp"
+#include "ensemble/statics/static_state.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "studies/verification/colonnade.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "io/study_file.hpp"
 
 #include <fmt/format.h>

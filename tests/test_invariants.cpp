@@ -5,7 +5,7 @@
 #include "studies/verification/reference_solver.hpp"
 #include "studies/verification/rocking_block.hpp"
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 
 #include <gtest/gtest.h>
 

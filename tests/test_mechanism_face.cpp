@@ -1,8 +1,8 @@
 /// Mechanisms of the faces and contact forms, each against its closed form, through the real kernel.
 
-#include "ensemble/extension.hpp"
-#include "ensemble/static_state.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/static_state.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "studies/verification/rocking_block.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 /// What must hold with any mechanism: a structure stays where it rests, the safe step is safe, the energies balance.
 
-#include "ensemble/settle.hpp"
-#include "ensemble/static_state.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/settle.hpp"
+#include "ensemble/statics/static_state.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "tests/mechanism_runs.hpp"
 
 #include <Eigen/Dense>

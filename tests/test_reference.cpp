@@ -3,7 +3,7 @@
 #include "studies/verification/model.hpp"
 #include "studies/verification/reference_solver.hpp"
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The safe step and the linear vibrations, against published digits and against a stack assembled another way.
 
 #include "ensemble/lanes.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "bench/peers/overturning.hpp"
 #include "bench/peers/rocking.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/rocking_block.hpp"
 #include "studies/version.hpp"

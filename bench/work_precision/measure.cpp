@@ -2,7 +2,7 @@
 
 #include "bench/scenes.hpp"
 #include "ensemble/executor.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/rigid_block.hpp"
 #include "studies/verification/rocking_block.hpp"

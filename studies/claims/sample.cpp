@@ -1,8 +1,8 @@
 #include "studies/claims/sample.hpp"
 
 #include "ensemble/base_motion.hpp"
-#include "ensemble/scales.hpp"
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/scales.hpp"
+#include "ensemble/statics/step_bound.hpp"
 #include "ensemble/synthetic_motion.hpp"
 
 #include <algorithm>

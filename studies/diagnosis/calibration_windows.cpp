@@ -3,7 +3,7 @@
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/sampler.hpp"
 #include "ensemble/specimen.hpp"
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "io/measured_motion.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 /// The contact by itself: overlap, static rest, restitution, free fall.
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/reference_solver.hpp"

@@ -1,6 +1,6 @@
 /// Two columns that carry a cap: the rigid rocking frame, and the static limit.
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/colonnade.hpp"
 #include "studies/verification/held_load.hpp"

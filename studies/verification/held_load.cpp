@@ -1,7 +1,7 @@
 #include "studies/verification/held_load.hpp"
 
-#include "ensemble/scales.hpp"
-#include "ensemble/settle.hpp"
+#include "ensemble/statics/scales.hpp"
+#include "ensemble/statics/settle.hpp"
 #include "studies/verification/model.hpp"
 
 namespace stylobate::verification {

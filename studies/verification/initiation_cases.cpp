@@ -1,6 +1,6 @@
 /// How blocks begin to move from rest.
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/initiation.hpp"
 #include "studies/verification/model.hpp"

@@ -5,7 +5,7 @@
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
 #include "ensemble/lanes.hpp"
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 
 #include <algorithm>
 #include <cmath>

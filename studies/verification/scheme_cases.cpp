@@ -1,6 +1,6 @@
 /// The integration in time: order, period, what it conserves, when it grows, and the balance of energy.
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/stack_vibration.hpp"

@@ -1,6 +1,6 @@
 /// Loads that are as good as static: where joints open, where a block topples, how much the column bends.
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/held_load.hpp"
 #include "studies/verification/limit_analysis.hpp"

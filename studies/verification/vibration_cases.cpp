@@ -1,6 +1,6 @@
 /// Small vibrations of stacks at rest.
 
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/picture.hpp"

@@ -1,4 +1,4 @@
-#include "ensemble/scales.hpp"
+#include "ensemble/statics/scales.hpp"
 
 #include <algorithm>
 #include <cmath>

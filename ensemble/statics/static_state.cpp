@@ -1,8 +1,8 @@
-#include "ensemble/static_state.hpp"
+#include "ensemble/statics/static_state.hpp"
 
-#include "ensemble/bedding.hpp"
-#include "ensemble/extension.hpp"
-#include "ensemble/settle.hpp"
+#include "ensemble/statics/bedding.hpp"
+#include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/settle.hpp"
 
 #include <algorithm>
 #include <cmath>

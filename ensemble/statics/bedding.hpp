@@ -1,7 +1,7 @@
 #pragma once
 /// How a bed carries a force that is given: its depth and rotation under it.
 
-#include "ensemble/extension.hpp"
+#include "ensemble/statics/extension.hpp"
 
 namespace stylobate {
 

@@ -1,6 +1,6 @@
-#include "ensemble/step_bound.hpp"
+#include "ensemble/statics/step_bound.hpp"
 
-#include "ensemble/extension.hpp"
+#include "ensemble/statics/extension.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>

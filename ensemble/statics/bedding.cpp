@@ -1,4 +1,4 @@
-#include "ensemble/bedding.hpp"
+#include "ensemble/statics/bedding.hpp"
 
 #include <cmath>
 

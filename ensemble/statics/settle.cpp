@@ -1,4 +1,4 @@
-#include "ensemble/settle.hpp"
+#include "ensemble/statics/settle.hpp"
 
 #include <Eigen/Dense>
 

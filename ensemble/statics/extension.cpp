@@ -1,4 +1,4 @@
-#include "ensemble/extension.hpp"
+#include "ensemble/statics/extension.hpp"
 
 #include <algorithm>
 #include <cmath>

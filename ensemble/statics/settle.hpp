@@ -1,8 +1,8 @@
 #pragma once
 /// Static equilibrium of blocks under their contact forces.
 
-#include "ensemble/extension.hpp"
 #include "ensemble/model/realization.hpp"
+#include "ensemble/statics/extension.hpp"
 #include "kernels/overlap.hpp"
 
 #include <vector>
