@@ -8,9 +8,9 @@
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/motion/shaking.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/point_set.hpp"
-#include "ensemble/shaking.hpp"
 
 #include <array>
 #include <cstdint>

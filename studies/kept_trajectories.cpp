@@ -1,7 +1,7 @@
 #include "studies/kept_trajectories.hpp"
 
-#include "ensemble/base_motion.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/motion/base_motion.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // What mechanisms make of the base's motion: gain, offset in time and harmonic distortion against their formulas in
 // extended precision, for every kind of motion; motions through displacements; vertical records.
 
-#include "ensemble/base_motion.hpp"
-#include "ensemble/distortion.hpp"
+#include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/distortion.hpp"
 #include "ensemble/numerics/fourier.hpp"
 #include "ensemble/sampler.hpp"
 

@@ -1,6 +1,6 @@
 // Base motion against its formulas in extended precision, and along a record against exact integration.
 
-#include "ensemble/base_motion.hpp"
+#include "ensemble/motion/base_motion.hpp"
 #include "kernels/base_motion.hpp"
 
 #include <gtest/gtest.h>

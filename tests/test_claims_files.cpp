@@ -2,7 +2,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/synthetic_motion.hpp"
+#include "ensemble/motion/synthetic_motion.hpp"
 #include "io/study_file.hpp"
 #include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"

@@ -1,9 +1,9 @@
 /// Synthetic pulses and sines: against their papers' formulas by quadrature in extended precision, their peaks, their
 /// rest at both ends; and the elementary functions beneath them.
 
-#include "ensemble/base_motion.hpp"
+#include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/numerics/elementary.hpp"
-#include "ensemble/synthetic_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 /// stated. And the way of a drawn shaking from the study to the loop.
 
 #include "ensemble/executor.hpp"
+#include "ensemble/motion/synthetic_noise.hpp"
 #include "ensemble/sampler.hpp"
-#include "ensemble/synthetic_noise.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 #pragma once
-/// The motion of the ground as an engine gets it: the same formulas as the project's own (`ensemble/base_motion.hpp`).
+/// The motion of the ground as an engine gets it: the same formulas as the project's own
+/// (`ensemble/motion/base_motion.hpp`).
 
-#include "ensemble/base_motion.hpp"
+#include "ensemble/motion/base_motion.hpp"
 
 namespace stylobate::peers {
 

@@ -1,9 +1,9 @@
 #include "studies/claims/sample.hpp"
 
-#include "ensemble/base_motion.hpp"
+#include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "ensemble/synthetic_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

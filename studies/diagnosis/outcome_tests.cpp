@@ -1,7 +1,7 @@
 #include "studies/diagnosis/outcome_tests.hpp"
 
-#include "ensemble/base_motion.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/motion/base_motion.hpp"
 #include "io/base_table.hpp"
 #include "io/ground_motion.hpp"
 #include "io/measured_motion.hpp"

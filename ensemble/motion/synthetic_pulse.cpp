@@ -1,4 +1,4 @@
-#include "ensemble/synthetic_pulse.hpp"
+#include "ensemble/motion/synthetic_pulse.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
 

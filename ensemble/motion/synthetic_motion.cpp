@@ -1,4 +1,4 @@
-#include "ensemble/synthetic_motion.hpp"
+#include "ensemble/motion/synthetic_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ensemble/synthetic_sine.hpp"
+#include "ensemble/motion/synthetic_sine.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
 

@@ -1,7 +1,7 @@
-#include "ensemble/shaking.hpp"
+#include "ensemble/motion/shaking.hpp"
 
-#include "ensemble/synthetic_motion.hpp"
-#include "ensemble/synthetic_noise.hpp"
+#include "ensemble/motion/synthetic_motion.hpp"
+#include "ensemble/motion/synthetic_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "ensemble/synthetic_noise.hpp"
+#include "ensemble/motion/synthetic_noise.hpp"
 
+#include "ensemble/motion/synthetic_sine.hpp"
 #include "ensemble/numerics/elementary.hpp"
-#include "ensemble/synthetic_sine.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/synthetic_motion.hpp"
+#include "ensemble/motion/synthetic_motion.hpp"
 #include "kernels/base_motion.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "ensemble/distortion.hpp"
+#include "ensemble/motion/distortion.hpp"
 
 #include "ensemble/numerics/fourier.hpp"
 

@@ -1,4 +1,4 @@
-#include "ensemble/base_motion.hpp"
+#include "ensemble/motion/base_motion.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
 #include "ensemble/statics/scales.hpp"

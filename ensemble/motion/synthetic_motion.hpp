@@ -4,8 +4,8 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/synthetic_pulse.hpp"
-#include "ensemble/synthetic_sine.hpp"
+#include "ensemble/motion/synthetic_pulse.hpp"
+#include "ensemble/motion/synthetic_sine.hpp"
 
 #include <span>
 #include <variant>

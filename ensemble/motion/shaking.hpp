@@ -1,11 +1,11 @@
 #pragma once
 /// How a realization is shaken: its frequency, its PGA, and what was drawn for its excitation.
 
-#include "ensemble/distortion.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/motion/distortion.hpp"
 
 #include <memory>
 #include <vector>
