@@ -4,7 +4,7 @@
 
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 namespace stylobate {
 

@@ -6,7 +6,7 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "kernels/isa.hpp"
 
 #include <cstdint>

@@ -17,7 +17,7 @@
 #include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <cstdint>
 #include <vector>

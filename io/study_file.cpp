@@ -1,7 +1,7 @@
 #include "io/study_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/plausible.hpp"
+#include "ensemble/sampling/plausible.hpp"
 #include "io/key_reader.hpp"
 #include "io/study_axis.hpp"
 #include "io/study_excitation.hpp"

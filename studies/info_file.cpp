@@ -3,7 +3,7 @@
 #include "studies/info_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/plausible.hpp"
+#include "ensemble/sampling/plausible.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_outcomes.hpp"
 #include "io/record.hpp"

@@ -3,8 +3,8 @@
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/plausible.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/plausible.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/result_store.hpp"
 
 #include <memory>

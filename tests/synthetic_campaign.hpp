@@ -4,7 +4,7 @@
 #include "ensemble/following.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 /// Scrambled Sobol points: exactly uniform, stratified, independent from cell to cell, and without bias for a known
 /// surface; and that independent numbers are what they were.
 
-#include "ensemble/point_set.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/point_set.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "measured_samples.hpp"
 
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/measured_outcomes.hpp"
 #include "io/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"

@@ -3,7 +3,7 @@
 #include "measured_samples.hpp"
 
 #include "ensemble/executor.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/base_table.hpp"
 #include "io/measured_file.hpp"

@@ -3,7 +3,7 @@
 
 #include "ensemble/following.hpp"
 #include "ensemble/lanes.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// Fragility studies: what their file may say, which structures and motions they draw, how strong those are, and which
 /// limit states an outcome has reached.
 
-#include "ensemble/drawn_motions.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/drawn_motions.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/ground_motion.hpp"
 #include "io/study_file.hpp"
 #include "studies/fragility/damage.hpp"

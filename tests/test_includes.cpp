@@ -36,7 +36,7 @@ const std::set<std::string> plain_data = {
     "ensemble/model/motion.hpp",
     "ensemble/model/observer.hpp",
     "ensemble/model/outcome.hpp",
-    "ensemble/plausible.hpp",
+    "ensemble/sampling/plausible.hpp",
     "ensemble/model/realization.hpp",
     "ensemble/numerics/run_order.hpp",
     "ensemble/model/study.hpp",
@@ -247,9 +247,9 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("kernels/step.hpp", "io/record.hpp"), "");
     EXPECT_NE(breach("kernels/step.hpp", "Eigen/Dense"), "");
     EXPECT_NE(breach("kernels/step.hpp", "fstream"), "");
-    EXPECT_NE(breach("ensemble/sampler.cpp", "io/study_file.hpp"), "");
-    EXPECT_NE(breach("ensemble/sampler.cpp", "studies/surface.hpp"), "");
-    EXPECT_NE(breach("ensemble/sampler.cpp", "hdf5.h"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study_file.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/surface.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
     EXPECT_NE(breach("io/record.cpp", "ensemble/executor.hpp"), "");
     EXPECT_NE(breach("io/record.cpp", "kernels/step.hpp"), "");
     EXPECT_NE(breach("io/record.cpp", "../ensemble/executor.hpp"), "");
@@ -258,7 +258,7 @@ TEST(Rules, FindBreaches)
 
     EXPECT_EQ(breach("kernels/step.hpp", "kernels/real.hpp"), "");
     EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
-    EXPECT_EQ(breach("ensemble/sampler.cpp", "kernels/isa.hpp"), "");
+    EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
     EXPECT_EQ(breach("io/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/run.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("tests/test_wide.cpp", "kernels/step.hpp"), "");

@@ -1,8 +1,8 @@
 /// What the mechanisms of a study make of its realizations: extensions, draws, and what cannot be built.
 
-#include "ensemble/mechanism_sampler.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/mechanism_sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>
 

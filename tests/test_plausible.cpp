@@ -1,7 +1,7 @@
 /// What no study can mean: each check at both sides of its limit, with expected values by hand, and silent for every
 /// study that is ready to run.
 
-#include "ensemble/plausible.hpp"
+#include "ensemble/sampling/plausible.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study_file.hpp"

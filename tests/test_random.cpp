@@ -1,8 +1,8 @@
 /// Counter-based random numbers, and the distributions that are drawn with them.
 
-#include "ensemble/distribution.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/sampling/distribution.hpp"
 
 #include <gtest/gtest.h>
 

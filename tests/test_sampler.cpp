@@ -1,7 +1,7 @@
 /// From study and index to a realization: geometry, mass, contacts, draws, step.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "program.hpp"
 
 #include "ensemble/estimators/elementary_effects.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/result_store.hpp"
 #include "io/study_file.hpp"
 

@@ -1,7 +1,7 @@
 /// The [structure] of a study file: the ways to write columns and colonnades, and what each misuse says.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/study_file.hpp"
 #include "studies/fragility/motions.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/study_file.hpp"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/result_store.hpp"
 
 #include <array>

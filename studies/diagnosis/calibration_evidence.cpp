@@ -1,6 +1,6 @@
 #include "studies/diagnosis/calibration_evidence.hpp"
 
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 
 #include <algorithm>

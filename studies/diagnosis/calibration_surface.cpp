@@ -1,6 +1,6 @@
 #include "studies/diagnosis/calibration_surface.hpp"
 
-#include "ensemble/distribution.hpp"
+#include "ensemble/sampling/distribution.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/calibration_windows.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/specimen.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "io/measured_motion.hpp"

@@ -1,8 +1,8 @@
 #include "studies/diagnosis/virtual_campaign.hpp"
 
-#include "ensemble/distribution.hpp"
 #include "ensemble/following.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/sampling/distribution.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/measured_motion.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"

@@ -1,7 +1,7 @@
 #include "studies/fragility/motions.hpp"
 
-#include "ensemble/drawn_motions.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/sampling/drawn_motions.hpp"
 #include "io/ground_motion.hpp"
 #include "io/record.hpp"
 

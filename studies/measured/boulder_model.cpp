@@ -2,7 +2,7 @@
 
 #include "ensemble/lanes.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "io/study_file.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "studies/measured/fall_table.hpp"
 
 #include "ensemble/lanes.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "studies/measured/score.hpp"
 
 #include <cmath>

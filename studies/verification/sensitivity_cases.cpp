@@ -2,7 +2,7 @@
 
 #include "ensemble/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "studies/verification/case.hpp"
 #include "studies/verification/model.hpp"
 #include "studies/verification/picture.hpp"

@@ -1,4 +1,4 @@
-#include "ensemble/point_set.hpp"
+#include "ensemble/sampling/point_set.hpp"
 
 #include <boost/random/sobol.hpp>
 

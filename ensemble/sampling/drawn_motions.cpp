@@ -1,8 +1,8 @@
-#include "ensemble/drawn_motions.hpp"
+#include "ensemble/sampling/drawn_motions.hpp"
 
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <fmt/format.h>
 

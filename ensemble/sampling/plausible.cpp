@@ -1,7 +1,7 @@
-#include "ensemble/plausible.hpp"
+#include "ensemble/sampling/plausible.hpp"
 
 #include "ensemble/model/structure.hpp"
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "ensemble/distribution.hpp"
+#include "ensemble/sampling/distribution.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

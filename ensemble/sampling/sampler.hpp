@@ -1,8 +1,6 @@
 #pragma once
 /// From a study and an index to one realization.
 
-#include "ensemble/distribution.hpp"
-#include "ensemble/mechanism_sampler.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/realization.hpp"
@@ -10,7 +8,9 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/shaking.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/point_set.hpp"
+#include "ensemble/sampling/distribution.hpp"
+#include "ensemble/sampling/mechanism_sampler.hpp"
+#include "ensemble/sampling/point_set.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "ensemble/sampler.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"

@@ -1,13 +1,13 @@
 #pragma once
 /// What the mechanisms of a study make of a realization.
 
-#include "ensemble/distribution.hpp"
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/point_set.hpp"
+#include "ensemble/sampling/distribution.hpp"
+#include "ensemble/sampling/point_set.hpp"
 
 #include <array>
 #include <cstdint>

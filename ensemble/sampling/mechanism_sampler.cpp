@@ -1,4 +1,4 @@
-#include "ensemble/mechanism_sampler.hpp"
+#include "ensemble/sampling/mechanism_sampler.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/statics/extension.hpp"
