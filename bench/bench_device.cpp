@@ -3,8 +3,8 @@
 
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
-#include "ensemble/executor.hpp"
-#include "ensemble/slot_tasks.hpp"
+#include "ensemble/engine/executor.hpp"
+#include "ensemble/engine/slot_tasks.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -3,7 +3,7 @@
 /// looks at the steps alone.
 
 #include "bench/scenes.hpp"
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "ensemble/following.hpp"
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>

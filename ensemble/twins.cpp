@@ -1,6 +1,6 @@
 #include "ensemble/twins.hpp"
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/statics/scales.hpp"
 

@@ -13,7 +13,7 @@
 /// whatever its size, until it meets an edge (a contact that opens, a joint that slips) which only one of the two
 /// passes; so the exponent belongs to a size.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

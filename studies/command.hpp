@@ -1,7 +1,7 @@
 #pragma once
 /// The verbs of the command line and the options that they share.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "kernels/isa.hpp"
 #include "studies/choose_realization.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// One of several rounds of a run: the realizations that have not been run before, told as a part of the whole.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/trajectory.hpp"
 

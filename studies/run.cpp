@@ -1,6 +1,6 @@
 /// `stylobate run`: from a study file to a results file.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"

@@ -2,7 +2,7 @@
 /// An adaptive surface: rounds of realizations until every cell's interval is narrow enough (ensemble/adaptive.hpp).
 
 #include "ensemble/adaptive.hpp"
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "io/result_store.hpp"
 #include "studies/loaded_study.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A surface that keeps counts of its realizations and no rows.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 

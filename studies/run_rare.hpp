@@ -6,7 +6,7 @@
 /// distribution function; a step of all chains is one batch of the executor. Which point comes next depends on the
 /// outcomes before, and these on nothing but (study, seed): so does the whole.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "io/rare_table.hpp"
 #include "io/result_store.hpp"
 #include "studies/html.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// A surface with twins: its realizations, their twins, and the pairs that are followed.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/followed_twin.hpp"
 #include "io/result_store.hpp"
 #include "studies/loaded_study.hpp"

@@ -1,6 +1,6 @@
 #include "studies/trajectory.hpp"
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/twins.hpp"
 #include "studies/block_names.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A study run by the executor, outcomes by index and as bits.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "tests/outcome_bits.hpp"
 
 #include <gtest/gtest.h>

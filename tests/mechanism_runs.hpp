@@ -1,7 +1,7 @@
 #pragma once
 /// Realizations with every mechanism, and runs of them whose every bit can be compared.
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/statics/extension.hpp"
 #include "studies/verification/colonnade.hpp"
 #include "studies/verification/model.hpp"

@@ -1,6 +1,6 @@
 /// Claim files read and refused, the page that is written from them, and a small run from file to samples.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "io/study_file.hpp"

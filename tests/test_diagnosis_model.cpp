@@ -2,7 +2,7 @@
 
 #include "measured_samples.hpp"
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/specimen.hpp"
 #include "io/base_table.hpp"

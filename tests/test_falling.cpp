@@ -1,6 +1,6 @@
 /// Full-scale columns that fall, followed until what has fallen lies: flat blows of long faces break no energy bound.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "io/study_file.hpp"

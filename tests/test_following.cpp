@@ -1,8 +1,8 @@
 /// The model along measured motion: free windows go on as the observer would have, bit by bit; the pull is the
 /// oscillator that it says it is; and nobody's neighbours matter.
 
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/following.hpp"
-#include "ensemble/lanes.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>

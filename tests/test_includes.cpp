@@ -250,9 +250,9 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study_file.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/surface.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
-    EXPECT_NE(breach("io/record.cpp", "ensemble/executor.hpp"), "");
+    EXPECT_NE(breach("io/record.cpp", "ensemble/engine/executor.hpp"), "");
     EXPECT_NE(breach("io/record.cpp", "kernels/step.hpp"), "");
-    EXPECT_NE(breach("io/record.cpp", "../ensemble/executor.hpp"), "");
+    EXPECT_NE(breach("io/record.cpp", "../ensemble/engine/executor.hpp"), "");
     EXPECT_NE(breach("studies/run.cpp", "tests/model.hpp"), "");
     EXPECT_NE(breach("studies/run.cpp", "hdf5.h"), "");
 

@@ -1,6 +1,6 @@
 /// Bad input: one message that says where, what, and what to do; exit status 2; nothing written or changed.
 
-#include "ensemble/device.hpp"
+#include "ensemble/engine/device.hpp"
 #include "program.hpp"
 
 #include "io/result_store.hpp"

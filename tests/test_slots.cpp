@@ -1,8 +1,8 @@
 /// The slots of a device, on the device that is the processor: outcomes have the bits of the processor's own lanes,
 /// with any number of slots, however they are refilled, and whatever the realizations are.
 
+#include "ensemble/engine/slots.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/slots.hpp"
 #include "io/study_file.hpp"
 #include "tests/ensemble_run.hpp"
 

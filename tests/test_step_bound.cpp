@@ -1,6 +1,6 @@
 /// The safe step and the linear vibrations, against published digits and against a stack assembled another way.
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
 #include <Eigen/Dense>

@@ -1,7 +1,7 @@
 /// Synthetic earthquakes: spectrum, envelope, independence, peak and rest; all with fixed seeds, false-alarm rates
 /// stated. And the way of a drawn shaking from the study to the loop.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study_file.hpp"

@@ -1,8 +1,8 @@
 /// Twins: the same realization but for one thing; how fast they part; how often their verdicts differ, by pairs whose
 /// truth is known.
 
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/estimators/mean_and_median.hpp"
-#include "ensemble/executor.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/twins.hpp"
 #include "io/study_file.hpp"

@@ -4,7 +4,7 @@
 
 #include "studies/claims/sample.hpp"
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 
 #include <filesystem>
 #include <functional>

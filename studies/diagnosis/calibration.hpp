@@ -14,7 +14,7 @@
 /// about the best ones, then a quadratic form through them (`calibration_surface.hpp`), then the profile of every
 /// parameter: the best score with that parameter held.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome_table.hpp"

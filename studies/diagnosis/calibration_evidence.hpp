@@ -1,7 +1,7 @@
 #pragma once
 /// What parameter sets are judged by: histories in windows, or outcomes in ensembles.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Models compared with measured histories, window by window (`ensemble/following.hpp`).
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/following_score.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"

@@ -2,7 +2,7 @@
 /// What chance gives: the evidence of campaigns with nothing hidden, kept in a file so that it is made once for a
 /// specimen and its motions, and so that an interrupted diagnosis goes on.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// A diagnosis from beginning to end. `docs/diagnosis.md` explains the stages; each is a file of this folder.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

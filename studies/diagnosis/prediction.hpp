@@ -2,7 +2,7 @@
 /// What naming a cause is worth: predictions of runs that were not used to size it, with and without it; and the test
 /// that would tell apart the causes that are left.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

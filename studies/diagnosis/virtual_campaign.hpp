@@ -7,7 +7,7 @@
 /// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
 /// the blocks were put.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

@@ -4,7 +4,7 @@
 /// with and without the cause. Slow motions and short slips are seen here that the balance of forces does not see; but
 /// the model's own contacts matter, so that each contact form judges by itself.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

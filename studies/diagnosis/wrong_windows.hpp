@@ -1,7 +1,7 @@
 #pragma once
 /// Where and how the baseline is off: the windows that it predicts worst, and the motion in them.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"

@@ -1,6 +1,6 @@
 #include "studies/measured/boulder_model.hpp"
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study_file.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// A boulder as a planar rigid rectangle on the shaking table: what a test does to it, by the engine.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/measured/boulder_data.hpp"

@@ -1,6 +1,6 @@
 #include "studies/measured/fall_table.hpp"
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "studies/measured/score.hpp"
 

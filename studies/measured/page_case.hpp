@@ -1,7 +1,7 @@
 #pragma once
 /// The pages of measured data: one case each.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -1,6 +1,6 @@
 /// What the outcome of an ensemble depends on, and on what not.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "studies/verification/case.hpp"

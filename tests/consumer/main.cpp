@@ -1,6 +1,6 @@
 /// Uses the installed libraries as an engineer's own program would: a study file in, an estimate out.
 
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "io/study_file.hpp"
 

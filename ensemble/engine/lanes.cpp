@@ -1,4 +1,4 @@
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 
 #include "ensemble/statics/extension.hpp"
 #include "ensemble/statics/static_state.hpp"

@@ -1,14 +1,14 @@
 #pragma once
 /// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
 
-#include "ensemble/limit_states.hpp"
+#include "ensemble/engine/limit_states.hpp"
+#include "ensemble/engine/single_bundle.hpp"
+#include "ensemble/engine/watch.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/numerics/aligned.hpp"
-#include "ensemble/single_bundle.hpp"
 #include "ensemble/statics/scales.hpp"
-#include "ensemble/watch.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>

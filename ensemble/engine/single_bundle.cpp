@@ -1,4 +1,4 @@
-#include "ensemble/single_bundle.hpp"
+#include "ensemble/engine/single_bundle.hpp"
 
 #include <array>
 #include <cassert>

@@ -6,9 +6,9 @@
 /// (`slot_tasks.hpp`). If so, the slot stops, its column comes back, and the host's lane takes it over and looks. So
 /// every decision, and every number of an outcome, is made by the code that the processor's own runs are made by.
 
-#include "ensemble/device.hpp"
-#include "ensemble/lanes.hpp"
-#include "ensemble/slot_tasks.hpp"
+#include "ensemble/engine/device.hpp"
+#include "ensemble/engine/lanes.hpp"
+#include "ensemble/engine/slot_tasks.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 /// Lanes whose realizations a device steps (`lanes.hpp`): the same state, watch and limit states, packed as its slots
 /// have them.
 
-#include "ensemble/lanes.hpp"
-#include "ensemble/slot_tasks.hpp"
+#include "ensemble/engine/lanes.hpp"
+#include "ensemble/engine/slot_tasks.hpp"
 
 #include <cassert>
 #include <cmath>

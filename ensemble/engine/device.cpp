@@ -1,7 +1,7 @@
-#include "ensemble/device.hpp"
+#include "ensemble/engine/device.hpp"
 
+#include "ensemble/engine/slot_tasks.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/slot_tasks.hpp"
 
 #include <cstdlib>
 #include <cstring>

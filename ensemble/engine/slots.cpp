@@ -1,4 +1,4 @@
-#include "ensemble/slots.hpp"
+#include "ensemble/engine/slots.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -1,8 +1,8 @@
-#include "ensemble/executor.hpp"
+#include "ensemble/engine/executor.hpp"
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
+#include "ensemble/engine/slots.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/slots.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>

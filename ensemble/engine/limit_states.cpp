@@ -1,4 +1,4 @@
-#include "ensemble/limit_states.hpp"
+#include "ensemble/engine/limit_states.hpp"
 
 #include "kernels/bundle.hpp"
 

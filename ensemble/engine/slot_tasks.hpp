@@ -5,7 +5,7 @@
 /// A slot is a place for one realization. Its numbers are a column of the device's memory: row r of slot s is number
 /// r * slots + s, so that threads side by side read and write side by side.
 
-#include "ensemble/watch.hpp"
+#include "ensemble/engine/watch.hpp"
 #include "kernels/base_motion.hpp"
 #include "kernels/instantiate.hpp"
 

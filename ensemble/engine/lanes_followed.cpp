@@ -1,6 +1,6 @@
 /// Lanes whose realizations are followed from outside (`lanes.hpp`).
 
-#include "ensemble/lanes.hpp"
+#include "ensemble/engine/lanes.hpp"
 
 #include <algorithm>
 #include <cassert>
