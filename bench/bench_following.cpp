@@ -1,7 +1,7 @@
 /// Measured motion followed in lockstep against one at a time: the same jobs, code and results, by lanes in a register.
 
 #include "bench/scenes.hpp"
-#include "ensemble/following.hpp"
+#include "ensemble/tracking/following.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,10 +1,10 @@
 #pragma once
 /// Campaigns that the engine itself has "measured": a column with known parameters, seen by cameras with noise.
 
-#include "ensemble/following.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/sampler.hpp"
+#include "ensemble/tracking/following.hpp"
 
 #include <cmath>
 #include <numbers>

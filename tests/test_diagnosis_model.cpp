@@ -4,7 +4,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "io/base_table.hpp"
 #include "io/measured_file.hpp"
 #include "io/study_file.hpp"

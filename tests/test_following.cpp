@@ -2,8 +2,8 @@
 /// oscillator that it says it is; and nobody's neighbours matter.
 
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/following.hpp"
 #include "ensemble/sampling/sampler.hpp"
+#include "ensemble/tracking/following.hpp"
 
 #include <gtest/gtest.h>
 

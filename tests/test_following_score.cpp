@@ -1,7 +1,7 @@
 /// The score of free windows against closed forms, and what cameras saw as the model sees it.
 
-#include "ensemble/following_score.hpp"
 #include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/tracking/following_score.hpp"
 
 #include <gtest/gtest.h>
 

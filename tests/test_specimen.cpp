@@ -1,6 +1,6 @@
 /// Measured specimens as structures: every block and joint finds its place, and what cannot be built is named.
 
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "io/measured_file.hpp"
 #include "measured_samples.hpp"
 

@@ -1,6 +1,6 @@
 /// Where the baseline is off, and the motion that is drawn there.
 
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/wrong_windows.hpp"

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/calibration.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
 #include "io/toml_document.hpp"

@@ -2,8 +2,8 @@
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/specimen.hpp"
 #include "ensemble/statics/static_state.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "io/measured_motion.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/direct_tests.hpp"
 

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/rest_tests.hpp"
 
-#include "ensemble/following_score.hpp"
 #include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/tracking/following_score.hpp"
 #include "studies/diagnosis/direct_findings.hpp"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 ///
 /// k, one for each joint, is fitted to what is scored.
 
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/track.hpp"
 

@@ -1,9 +1,9 @@
 #include "studies/diagnosis/virtual_campaign.hpp"
 
-#include "ensemble/following.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/distribution.hpp"
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "io/measured_motion.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 

@@ -3,7 +3,7 @@
 #include "studies/diagnosis/slip_score.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 
 #include <fmt/format.h>
 

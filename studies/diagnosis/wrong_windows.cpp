@@ -1,6 +1,6 @@
 #include "studies/diagnosis/wrong_windows.hpp"
 
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
 

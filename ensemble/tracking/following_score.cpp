@@ -1,4 +1,4 @@
-#include "ensemble/following_score.hpp"
+#include "ensemble/tracking/following_score.hpp"
 
 #include <algorithm>
 #include <cmath>

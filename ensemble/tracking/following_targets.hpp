@@ -1,9 +1,9 @@
 #pragma once
 /// From what cameras saw to what the model is pulled towards and compared with.
 
-#include "ensemble/following.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/motion.hpp"
+#include "ensemble/tracking/following.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "ensemble/following.hpp"
+#include "ensemble/tracking/following.hpp"
 
 #include "ensemble/engine/lanes.hpp"
 

@@ -1,4 +1,4 @@
-#include "ensemble/following_targets.hpp"
+#include "ensemble/tracking/following_targets.hpp"
 
 #include <algorithm>
 #include <cmath>

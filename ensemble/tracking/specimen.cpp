@@ -1,4 +1,4 @@
-#include "ensemble/specimen.hpp"
+#include "ensemble/tracking/specimen.hpp"
 
 #include "ensemble/model/input_error.hpp"
 
