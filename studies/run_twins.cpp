@@ -1,6 +1,6 @@
 #include "studies/run_twins.hpp"
 
-#include "ensemble/twins.hpp"
+#include "ensemble/replicas/twins.hpp"
 #include "studies/round.hpp"
 #include "studies/trajectory.hpp"
 

@@ -1,7 +1,7 @@
 #include "studies/trajectory.hpp"
 
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/twins.hpp"
+#include "ensemble/replicas/twins.hpp"
 #include "studies/block_names.hpp"
 
 #include <cmath>

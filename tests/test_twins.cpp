@@ -4,7 +4,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/estimators/mean_and_median.hpp"
 #include "ensemble/numerics/slope.hpp"
-#include "ensemble/twins.hpp"
+#include "ensemble/replicas/twins.hpp"
 #include "io/study_file.hpp"
 #include "studies/twins/flips.hpp"
 #include "tests/outcome_bits.hpp"

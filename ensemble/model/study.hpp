@@ -261,7 +261,7 @@ struct Twin {
     friend bool operator==(const Twin&, const Twin&) = default;
 };
 
-/// Twins of every realization of a surface: how sure a verdict is, and what decides it (ensemble/twins.hpp).
+/// Twins of every realization of a surface: how sure a verdict is, and what decides it (ensemble/replicas/twins.hpp).
 struct TwinsSpec {
     std::vector<Twin> kinds; ///< moves, then the step, the precision and the forms
     int block = 0;           ///< the drum that is moved, in layout order

@@ -1,4 +1,4 @@
-#include "ensemble/twins.hpp"
+#include "ensemble/replicas/twins.hpp"
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/numerics/slope.hpp"
