@@ -7,7 +7,7 @@
 /// Adaptive runs of the study itself, with seeds of their own, are then held against it. `scripts/adaptive.sh` makes
 /// all files.
 
-#include "ensemble/adaptive.hpp"
+#include "ensemble/estimators/surface/adaptive.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/result_store.hpp"
 

@@ -1,8 +1,9 @@
 #pragma once
-/// An adaptive surface: rounds of realizations until every cell's interval is narrow enough (ensemble/adaptive.hpp).
+/// An adaptive surface: rounds of realizations until every cell's interval is narrow enough
+/// (ensemble/estimators/surface/adaptive.hpp).
 
-#include "ensemble/adaptive.hpp"
 #include "ensemble/engine/executor.hpp"
+#include "ensemble/estimators/surface/adaptive.hpp"
 #include "io/result_store.hpp"
 #include "studies/loaded_study.hpp"
 

@@ -1,6 +1,6 @@
 /// The allocation over known surfaces: what it costs, and how often its intervals hold the truth.
 
-#include "ensemble/adaptive.hpp"
+#include "ensemble/estimators/surface/adaptive.hpp"
 
 #include <gtest/gtest.h>
 

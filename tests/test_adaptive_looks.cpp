@@ -1,6 +1,6 @@
 /// The looks at a cell of an adaptive surface: their exact coverage against simulation, and what it must be.
 
-#include "ensemble/adaptive_looks.hpp"
+#include "ensemble/estimators/surface/adaptive_looks.hpp"
 
 #include <gtest/gtest.h>
 

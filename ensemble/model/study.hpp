@@ -139,7 +139,7 @@ struct Axis {
 /// Confidence of the intervals of an adaptive surface.
 inline constexpr double adaptive_level = 0.95;
 
-/// Realizations where they are needed (ensemble/adaptive.hpp), instead of as many in each cell.
+/// Realizations where they are needed (ensemble/estimators/surface/adaptive.hpp), instead of as many in each cell.
 struct AdaptiveSpec {
     std::uint64_t budget = 0;  ///< realizations of the whole surface, at most
     std::uint64_t minimum = 8; ///< of each cell

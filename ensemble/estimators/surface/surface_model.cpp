@@ -1,4 +1,4 @@
-#include "ensemble/surface_model.hpp"
+#include "ensemble/estimators/surface/surface_model.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
 

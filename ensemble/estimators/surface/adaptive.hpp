@@ -16,9 +16,9 @@
 ///
 /// Where the budget does not reach, the widest cells come first; their intervals stay right, and wider than asked for.
 
-#include "ensemble/adaptive_looks.hpp"
+#include "ensemble/estimators/surface/adaptive_looks.hpp"
+#include "ensemble/estimators/surface/surface_model.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/surface_model.hpp"
 
 #include <cstdint>
 #include <vector>

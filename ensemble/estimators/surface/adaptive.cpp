@@ -1,4 +1,4 @@
-#include "ensemble/adaptive.hpp"
+#include "ensemble/estimators/surface/adaptive.hpp"
 
 #include <algorithm>
 #include <cassert>

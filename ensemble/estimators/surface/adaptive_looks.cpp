@@ -1,4 +1,4 @@
-#include "ensemble/adaptive_looks.hpp"
+#include "ensemble/estimators/surface/adaptive_looks.hpp"
 
 #include <algorithm>
 #include <cassert>
