@@ -5,11 +5,11 @@
 /// Outcomes are drawn from curves that are known (`tests/fragility_truth.hpp`); no mechanics. `scripts/coverage.sh`
 /// writes the tables into docs/fragility_statistics.md.
 
-#include "ensemble/estimators/dispersion_shares.hpp"
-#include "ensemble/estimators/lack_of_fit.hpp"
-#include "ensemble/estimators/record_bootstrap.hpp"
-#include "ensemble/estimators/record_share.hpp"
-#include "ensemble/estimators/stripe_shares.hpp"
+#include "ensemble/estimators/fragility/dispersion_shares.hpp"
+#include "ensemble/estimators/fragility/lack_of_fit.hpp"
+#include "ensemble/estimators/fragility/record_bootstrap.hpp"
+#include "ensemble/estimators/fragility/record_share.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "tests/fragility_truth.hpp"
 #include "tests/nested_truth.hpp"
 

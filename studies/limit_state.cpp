@@ -1,6 +1,6 @@
 #include "studies/limit_state.hpp"
 
-#include "ensemble/estimators/record_share.hpp"
+#include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/numerics/interval.hpp"
 
 #include <fmt/format.h>

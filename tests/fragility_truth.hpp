@@ -1,8 +1,8 @@
 #pragma once
 /// Outcomes drawn from a known fragility curve, with records that differ.
 
-#include "ensemble/estimators/fragility_data.hpp"
-#include "ensemble/estimators/link.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
+#include "ensemble/estimators/fragility/link.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 /// Responses of a nested design whose components of variance are known.
 
-#include "ensemble/estimators/dispersion_shares.hpp"
-#include "ensemble/estimators/link.hpp"
+#include "ensemble/estimators/fragility/dispersion_shares.hpp"
+#include "ensemble/estimators/fragility/link.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <array>

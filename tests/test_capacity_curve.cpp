@@ -1,6 +1,6 @@
 /// Curves from capacities: known truths, records that never reach, coverage, resurrection.
 
-#include "ensemble/estimators/capacity_curve.hpp"
+#include "ensemble/estimators/fragility/capacity_curve.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 

@@ -1,6 +1,6 @@
 /// The shares of the dispersion: known components, unequal counts, a direct sum over pairs, coverage.
 
-#include "ensemble/estimators/dispersion_shares.hpp"
+#include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "nested_truth.hpp"
 

@@ -1,8 +1,8 @@
 /// Ten thousand repeats: the intervals of curves and of shares of the dispersion hold the truth in 95 +- 1 % of them,
 /// give or take two standard errors of the repeats themselves (.0044).
 
-#include "ensemble/estimators/curve_target.hpp"
-#include "ensemble/estimators/dispersion_shares.hpp"
+#include "ensemble/estimators/fragility/curve_target.hpp"
+#include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "fragility_truth.hpp"
 #include "nested_truth.hpp"
 

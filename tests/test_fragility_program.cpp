@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include "ensemble/estimators/record_share.hpp"
+#include "ensemble/estimators/fragility/record_share.hpp"
 #include "io/result_store.hpp"
 #include "kernels/isa.hpp"
 

@@ -48,7 +48,7 @@ const std::set<std::string> plain_data = {
     "ensemble/model/time_counts.hpp",
     "ensemble/numerics/fourier.hpp",
     "ensemble/model/mechanism_spec.hpp",
-    "ensemble/estimators/fragility_model.hpp",
+    "ensemble/estimators/fragility/fragility_model.hpp",
 };
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.

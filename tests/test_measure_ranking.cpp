@@ -1,7 +1,7 @@
 /// Intensity measures ranked: the one that drives the outcome comes first and is sufficient, the others are not.
 
-#include "ensemble/estimators/link.hpp"
-#include "ensemble/estimators/measure_ranking.hpp"
+#include "ensemble/estimators/fragility/link.hpp"
+#include "ensemble/estimators/fragility/measure_ranking.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 

@@ -1,8 +1,8 @@
 /// The interval of a share by records: Clopper's and Pearson's where records are all or nothing, never narrower on the
 /// side of damage where damage appears, and its coverage where few records are damaged.
 
-#include "ensemble/estimators/record_share.hpp"
-#include "ensemble/estimators/stripe_shares.hpp"
+#include "ensemble/estimators/fragility/record_share.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "fragility_truth.hpp"
 
 #include <boost/math/distributions/beta.hpp>

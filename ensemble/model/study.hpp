@@ -172,7 +172,7 @@ struct RecordSpec {
 };
 
 /// Intervals of curves come from how the motions differ; fewer tell nothing
-/// (`ensemble/estimators/fragility_curve.hpp`).
+/// (`ensemble/estimators/fragility/fragility_curve.hpp`).
 inline constexpr int fewest_motions = 8;
 
 /// A fragility study: motions x stripes x structures, `Study::realizations` structures under each motion in each

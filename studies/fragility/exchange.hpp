@@ -1,7 +1,7 @@
 #pragma once
 /// A fragility study as functions for other tools.
 
-#include "ensemble/estimators/fragility_model.hpp"
+#include "ensemble/estimators/fragility/fragility_model.hpp"
 #include "studies/fragility/fragility.hpp"
 
 #include <filesystem>

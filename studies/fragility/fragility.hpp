@@ -2,11 +2,11 @@
 /// What a fragility study says: curves of all its limit states with their intervals, whether their form holds, and
 /// where the scatter comes from. Computed from the rows of its results whenever it is asked for.
 
-#include "ensemble/estimators/dispersion_shares.hpp"
-#include "ensemble/estimators/fragility_curve.hpp"
-#include "ensemble/estimators/lack_of_fit.hpp"
-#include "ensemble/estimators/measure_ranking.hpp"
-#include "ensemble/estimators/stripe_shares.hpp"
+#include "ensemble/estimators/fragility/dispersion_shares.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
+#include "ensemble/estimators/fragility/lack_of_fit.hpp"
+#include "ensemble/estimators/fragility/measure_ranking.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 #include "studies/fragility/damage.hpp"

@@ -1,6 +1,6 @@
-#include "ensemble/estimators/capacity_curve.hpp"
+#include "ensemble/estimators/fragility/capacity_curve.hpp"
 
-#include "ensemble/estimators/fragility_curve.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 

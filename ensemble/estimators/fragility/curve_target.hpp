@@ -1,7 +1,7 @@
 #pragma once
 /// What is asked of a fitted curve: a number that its coefficients determine, with its intervals.
 
-#include "ensemble/estimators/binomial_regression.hpp"
+#include "ensemble/estimators/fragility/binomial_regression.hpp"
 
 #include <limits>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/fragility_data.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

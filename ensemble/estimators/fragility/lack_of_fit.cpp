@@ -1,4 +1,4 @@
-#include "ensemble/estimators/lack_of_fit.hpp"
+#include "ensemble/estimators/fragility/lack_of_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

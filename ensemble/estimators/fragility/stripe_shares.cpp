@@ -1,6 +1,6 @@
-#include "ensemble/estimators/stripe_shares.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 
-#include "ensemble/estimators/record_share.hpp"
+#include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/curve_target.hpp"
+#include "ensemble/estimators/fragility/curve_target.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
 

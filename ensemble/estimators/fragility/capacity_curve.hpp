@@ -5,7 +5,7 @@
 /// intensity run before, so what is observed are intervals: (below, at], (0, at] where the first run reached it, and
 /// (below, infinity) where none did. Their likelihood needs no spacing and no capacity for every record.
 
-#include "ensemble/estimators/curve_target.hpp"
+#include "ensemble/estimators/fragility/curve_target.hpp"
 
 #include <span>
 #include <string>

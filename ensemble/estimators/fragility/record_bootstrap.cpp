@@ -1,4 +1,4 @@
-#include "ensemble/estimators/record_bootstrap.hpp"
+#include "ensemble/estimators/fragility/record_bootstrap.hpp"
 
 #include "ensemble/numerics/random.hpp"
 

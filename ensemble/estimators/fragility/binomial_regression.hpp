@@ -1,8 +1,8 @@
 #pragma once
 /// Regression of counts on predictors through a link, by maximum likelihood.
 
-#include "ensemble/estimators/fragility_data.hpp"
-#include "ensemble/estimators/link.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
+#include "ensemble/estimators/fragility/link.hpp"
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/record_share.hpp"
+#include "ensemble/estimators/fragility/record_share.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/binomial_regression.hpp"
+#include "ensemble/estimators/fragility/binomial_regression.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

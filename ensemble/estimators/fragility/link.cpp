@@ -1,4 +1,4 @@
-#include "ensemble/estimators/link.hpp"
+#include "ensemble/estimators/fragility/link.hpp"
 
 #include <boost/math/special_functions/erf.hpp>
 

@@ -1,6 +1,6 @@
-#include "ensemble/estimators/fragility_curve.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 
-#include "ensemble/estimators/record_bootstrap.hpp"
+#include "ensemble/estimators/fragility/record_bootstrap.hpp"
 #include "ensemble/model/input_error.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "ensemble/estimators/measure_ranking.hpp"
+#include "ensemble/estimators/fragility/measure_ranking.hpp"
 
-#include "ensemble/estimators/fragility_curve.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/model/input_error.hpp"
 
 #include <boost/math/distributions/students_t.hpp>

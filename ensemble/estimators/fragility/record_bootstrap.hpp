@@ -1,7 +1,7 @@
 #pragma once
 /// Curves fitted again to records drawn with replacement.
 
-#include "ensemble/estimators/curve_target.hpp"
+#include "ensemble/estimators/fragility/curve_target.hpp"
 
 #include <span>
 

@@ -6,7 +6,7 @@
 /// there are several measures) are tested by the sums of their scores over each record, which are independent:
 /// Hotelling's T2 of the records' efficient scores, against F(terms, records - terms).
 
-#include "ensemble/estimators/curve_target.hpp"
+#include "ensemble/estimators/fragility/curve_target.hpp"
 
 #include <string>
 
