@@ -1,7 +1,7 @@
 #include "studies/sensitivity.hpp"
 
-#include "ensemble/estimators/elementary_effects.hpp"
-#include "ensemble/estimators/sobol_indices.hpp"
+#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
+#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
 #include "io/study_names.hpp"

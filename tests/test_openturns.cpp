@@ -5,7 +5,7 @@
 
 #include "program.hpp"
 
-#include "ensemble/estimators/sobol_indices.hpp"
+#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 #include "io/result_store.hpp"
 #include "tests/sensitivity_functions.hpp"
 

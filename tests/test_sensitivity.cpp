@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include "ensemble/estimators/elementary_effects.hpp"
+#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/result_store.hpp"
 #include "io/study_file.hpp"

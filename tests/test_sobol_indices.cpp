@@ -1,8 +1,8 @@
 /// Sobol's indices and Morris' effects of functions whose indices are known in closed form, and how often the
 /// intervals hold them.
 
-#include "ensemble/estimators/elementary_effects.hpp"
-#include "ensemble/estimators/sobol_indices.hpp"
+#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
+#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 #include "tests/sensitivity_functions.hpp"
 
 #include <fmt/format.h>

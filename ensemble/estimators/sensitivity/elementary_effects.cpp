@@ -1,4 +1,4 @@
-#include "ensemble/estimators/elementary_effects.hpp"
+#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
 
 #include <cmath>
 #include <stdexcept>

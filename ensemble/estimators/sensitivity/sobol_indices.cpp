@@ -1,4 +1,4 @@
-#include "ensemble/estimators/sobol_indices.hpp"
+#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 
 #include <cmath>
 #include <numeric>

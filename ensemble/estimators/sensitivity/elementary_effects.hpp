@@ -18,7 +18,7 @@
 ///
 /// Intervals: `bootstrap_rows`.
 
-#include "ensemble/estimators/sobol_indices.hpp"
+#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 
 namespace stylobate {
 
