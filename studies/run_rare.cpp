@@ -1,6 +1,6 @@
 #include "studies/run_rare.hpp"
 
-#include "ensemble/estimators/subset_simulation.hpp"
+#include "ensemble/estimators/rare/subset_simulation.hpp"
 #include "studies/round.hpp"
 #include "studies/trajectory.hpp"
 
