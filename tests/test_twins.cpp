@@ -2,7 +2,7 @@
 /// truth is known.
 
 #include "ensemble/engine/executor.hpp"
-#include "ensemble/estimators/mean_and_median.hpp"
+#include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "io/study_file.hpp"

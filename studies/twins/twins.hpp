@@ -2,7 +2,7 @@
 /// What a surface with twins says: how sure the verdict of each cell is, what decides it, and how long it can be
 /// foretold. Flips are computed from the rows of the results whenever they are asked for.
 
-#include "ensemble/estimators/mean_and_median.hpp"
+#include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
 #include "studies/twins/flips.hpp"

@@ -27,7 +27,7 @@
 ///
 /// Every number is a function of (seed, repeat, evaluation, element): the same run comes out however a batch is done.
 
-#include "ensemble/estimators/row_bootstrap.hpp"
+#include "ensemble/estimators/resampling/row_bootstrap.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/mean_and_median.hpp"
+#include "ensemble/estimators/resampling/mean_and_median.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
 
