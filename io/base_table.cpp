@@ -1,11 +1,11 @@
 #include "io/base_table.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
 #include "io/ground_motion.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_motion.hpp"
 #include "io/record_parser.hpp"
-#include "io/suggest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

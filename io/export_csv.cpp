@@ -1,7 +1,7 @@
 #include "io/export_csv.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/result_layout.hpp"
 
 #include <algorithm>

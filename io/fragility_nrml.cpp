@@ -1,5 +1,5 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/csv_fields.hpp"
+#include "io/files/csv_fields.hpp"
 #include "io/fragility_exchange.hpp"
 #include "io/fragility_measure.hpp"
 

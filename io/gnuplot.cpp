@@ -1,9 +1,9 @@
 #include "io/gnuplot.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/temporary_folder.hpp"
-#include "io/utf8.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/temporary_folder.hpp"
+#include "io/files/utf8.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv_fields.hpp"
-#include "io/key_reader.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/csv_fields.hpp"
+#include "io/files/key_reader.hpp"
+#include "io/files/suggest.hpp"
 #include "io/measured_layout.hpp"
-#include "io/suggest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/file_handle.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/file_handle.hpp"
+#include "io/files/hdf5.hpp"
+#include "io/files/suggest.hpp"
 #include "io/measured_layout.hpp"
-#include "io/suggest.hpp"
 
 #include <fmt/format.h>
 

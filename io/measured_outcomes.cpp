@@ -1,9 +1,9 @@
 #include "io/measured_outcomes.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/csv_fields.hpp"
+#include "io/files/csv_fields.hpp"
+#include "io/files/suggest.hpp"
 #include "io/measured_layout.hpp"
-#include "io/suggest.hpp"
 
 #include <fmt/format.h>
 

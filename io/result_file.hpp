@@ -1,8 +1,8 @@
 #pragma once
 /// A results file that exists: what its reader and its resuming writer share.
 
-#include "io/file_handle.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/file_handle.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/result_layout.hpp"
 #include "io/result_seal.hpp"
 #include "io/row_journal.hpp"

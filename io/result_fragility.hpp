@@ -1,8 +1,8 @@
 #pragma once
-/// /fragility of a results file; for the writer and the reader alone, as `io/hdf5.hpp` is.
+/// /fragility of a results file; for the writer and the reader alone, as `io/files/hdf5.hpp` is.
 
+#include "io/files/hdf5.hpp"
 #include "io/fragility_table.hpp"
-#include "io/hdf5.hpp"
 
 namespace stylobate {
 

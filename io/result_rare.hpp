@@ -1,7 +1,7 @@
 #pragma once
-/// /rare of a results file; for the writer and the reader alone, as `io/hdf5.hpp` is.
+/// /rare of a results file; for the writer and the reader alone, as `io/files/hdf5.hpp` is.
 
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/rare_table.hpp"
 
 namespace stylobate {

@@ -2,7 +2,7 @@
 /// The seal of a results file: its first bytes, in front of the HDF5 part. It holds a checksum over every byte that
 /// does not change while rows are written, so that damage is found before the HDF5 library meets it.
 
-#include "io/file_handle.hpp"
+#include "io/files/file_handle.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 /// The trajectory of a realization, as a part of a results file and as bytes.
 
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/result_store.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// The group /twins of a results file: pairs that were followed.
 
 #include "ensemble/model/followed_twin.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 /// A record is written as a whole and is there when its checksum is right, so that a process that is killed at any
 /// moment loses nothing that was added; what it wrote of a last one is ignored, and overwritten when the run goes on.
 
-#include "io/file_handle.hpp"
+#include "io/files/file_handle.hpp"
 
 #include <chrono>
 #include <cstdint>

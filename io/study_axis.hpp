@@ -2,7 +2,7 @@
 /// An axis of a study file: { from, to, count, spacing }.
 
 #include "ensemble/model/study.hpp"
-#include "io/key_reader.hpp"
+#include "io/files/key_reader.hpp"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
-#include "io/key_reader.hpp"
+#include "io/files/key_reader.hpp"
+#include "io/files/suggest.hpp"
 #include "io/study_axis.hpp"
 #include "io/study_excitation.hpp"
 #include "io/study_fragility.hpp"
@@ -13,7 +14,6 @@
 #include "io/study_sensitivity.hpp"
 #include "io/study_structure.hpp"
 #include "io/study_twins.hpp"
-#include "io/suggest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "io/study_mechanisms.hpp"
 
+#include "io/files/toml_document.hpp"
 #include "io/study_excitation.hpp"
 #include "io/study_names.hpp"
-#include "io/toml_document.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

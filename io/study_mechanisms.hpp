@@ -2,7 +2,7 @@
 /// The [mechanisms] section of a study file, read and written by the one table of `ensemble/model/mechanism_spec.hpp`.
 
 #include "ensemble/model/study.hpp"
-#include "io/key_reader.hpp"
+#include "io/files/key_reader.hpp"
 
 #include <string>
 #include <utility>

@@ -1,10 +1,10 @@
 /// The canonical text of a study: every value, in one order, with numbers that read back to the same bits.
 
 #include "ensemble/model/nominal.hpp"
+#include "io/files/toml_document.hpp"
 #include "io/study_file.hpp"
 #include "io/study_mechanisms.hpp"
 #include "io/study_names.hpp"
-#include "io/toml_document.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// The [twins] of a study file.
 
 #include "ensemble/model/study.hpp"
-#include "io/key_reader.hpp"
+#include "io/files/key_reader.hpp"
 
 namespace stylobate {
 

@@ -2,7 +2,7 @@
 /// The part of a results file that holds counts instead of rows.
 
 #include "ensemble/numerics/run_order.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/result_store.hpp"
 #include "io/tally.hpp"
 

@@ -1,7 +1,7 @@
 /// `stylobate calibrate`: contact parameters from measured response.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_outcomes.hpp"
 #include "io/study_file.hpp"

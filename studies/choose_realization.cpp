@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
+#include "io/files/suggest.hpp"
 #include "io/plot_axis.hpp"
-#include "io/suggest.hpp"
 #include "studies/loaded_study.hpp"
 
 #include <fmt/format.h>

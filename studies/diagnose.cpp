@@ -1,7 +1,7 @@
 /// `stylobate diagnose`: from a measured campaign to a diagnosis.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/measured_file.hpp"
 #include "io/study_file.hpp"
 #include "studies/command.hpp"

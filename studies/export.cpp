@@ -1,8 +1,8 @@
 /// `stylobate export`: results in other tools' formats.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
 #include "io/export_csv.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/plot_rare.hpp"
 #include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"

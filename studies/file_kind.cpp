@@ -1,9 +1,9 @@
 #include "studies/file_kind.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/csv_fields.hpp"
-#include "io/file_handle.hpp"
-#include "io/hdf5_label.hpp"
+#include "io/files/csv_fields.hpp"
+#include "io/files/file_handle.hpp"
+#include "io/files/hdf5_label.hpp"
 #include "io/record.hpp"
 #include "io/result_seal.hpp"
 

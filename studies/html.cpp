@@ -1,7 +1,7 @@
 #include "studies/html.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/utf8.hpp"
+#include "io/files/utf8.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "studies/html_figure.hpp"
 
-#include "io/utf8.hpp"
+#include "io/files/utf8.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Machine-readable summaries on standard output.
 
-#include "io/utf8.hpp"
+#include "io/files/utf8.hpp"
 
 #include <fmt/format.h>
 

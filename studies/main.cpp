@@ -1,7 +1,7 @@
 /// The command line.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/suggest.hpp"
+#include "io/files/suggest.hpp"
 #include "studies/command.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/version.hpp"

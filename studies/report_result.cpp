@@ -1,12 +1,12 @@
 /// The page of a result.
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/temporary_folder.hpp"
 #include "io/plot_rare.hpp"
 #include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
 #include "io/study_file.hpp"
-#include "io/temporary_folder.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/report.hpp"

@@ -1,8 +1,8 @@
 /// Pages and figures: what comes from elsewhere is text and never markup; figures hold what they are given.
 
 #include "ensemble/model/collapse_criterion.hpp"
+#include "io/files/temporary_folder.hpp"
 #include "io/study_file.hpp"
-#include "io/temporary_folder.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/html.hpp"
 #include "studies/html_figure.hpp"

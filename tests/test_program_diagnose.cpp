@@ -1,6 +1,6 @@
 /// `stylobate diagnose`, as its user runs it: what it refuses, and what it says of data that lack something.
 
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 #include "tests/program.hpp"
 
 #include <cmath>

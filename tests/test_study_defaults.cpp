@@ -3,8 +3,8 @@
 /// the text is found by itself.
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/toml_document.hpp"
 #include "io/study_file.hpp"
-#include "io/toml_document.hpp"
 
 #include <gtest/gtest.h>
 

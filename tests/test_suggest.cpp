@@ -1,6 +1,6 @@
 /// "Did you mean": distances by hand, and silence where nothing is near.
 
-#include "io/suggest.hpp"
+#include "io/files/suggest.hpp"
 
 #include <gtest/gtest.h>
 

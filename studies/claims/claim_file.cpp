@@ -1,7 +1,7 @@
 #include "studies/claims/claim_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/key_reader.hpp"
+#include "io/files/key_reader.hpp"
 #include "io/study_ranges.hpp"
 #include "studies/claims/claim_text.hpp"
 

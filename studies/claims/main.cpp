@@ -1,7 +1,7 @@
 /// `stylobate_claims`: runs claim files and writes the page of their verdicts.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"
 #include "studies/claims/claim_page.hpp"

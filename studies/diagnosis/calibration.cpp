@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/tracking/specimen.hpp"
+#include "io/files/toml_document.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
-#include "io/toml_document.hpp"
 #include "studies/diagnosis/calibration_evidence.hpp"
 #include "studies/diagnosis/calibration_search.hpp"
 #include "studies/diagnosis/friction_judgement.hpp"

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/calibration_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"
 

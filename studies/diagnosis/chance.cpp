@@ -1,8 +1,8 @@
 #include "studies/diagnosis/chance.hpp"
 
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/toml_document.hpp"
 #include "io/result_seal.hpp"
-#include "io/toml_document.hpp"
 #include "studies/diagnosis/virtual_campaign.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 #include "studies/version.hpp"

@@ -1,9 +1,9 @@
 #include "studies/diagnosis/diagnosis_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/file_handle.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/file_handle.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/result_seal.hpp"
 #include "studies/diagnosis/diagnosis_fields.hpp"
 

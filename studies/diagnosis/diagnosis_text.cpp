@@ -1,6 +1,6 @@
 #include "studies/diagnosis/diagnosis_text.hpp"
 
-#include "io/utf8.hpp"
+#include "io/files/utf8.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
 
 #include <fmt/format.h>

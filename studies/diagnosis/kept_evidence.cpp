@@ -1,7 +1,7 @@
 #include "studies/diagnosis/kept_evidence.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/file_handle.hpp"
+#include "io/files/file_handle.hpp"
 #include "io/result_seal.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "studies/fragility/exchange.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/fragility_exchange.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "studies/measured/boulder_data.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 #include "studies/measured/table.hpp"
 
 #include <fmt/format.h>

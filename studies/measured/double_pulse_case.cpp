@@ -1,7 +1,7 @@
 /// The case of the block under a double pulse: which unstated parameter moves the boundary between falling and
 /// standing.
 
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/measured/double_pulse.hpp"
 #include "studies/measured/logistic.hpp"
 #include "studies/measured/page_case.hpp"

@@ -8,7 +8,7 @@
 /// Exit status: 0 done (data that are absent are skipped, with a message), 2 bad input, 1 anything else.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/command.hpp"
 #include "studies/measured/boulder_data.hpp"
 #include "studies/measured/double_pulse.hpp"

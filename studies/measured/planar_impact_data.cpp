@@ -1,7 +1,7 @@
 #include "studies/measured/planar_impact_data.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/measured/table.hpp"
 
 #include <fmt/format.h>

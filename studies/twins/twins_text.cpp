@@ -1,6 +1,6 @@
 #include "studies/twins/twins_text.hpp"
 
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 /// Exit status: 0 all passed, 1 at least one failed, 2 bad input.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "kernels/isa.hpp"
 #include "studies/verification/page.hpp"
 #include "studies/version.hpp"

@@ -1,7 +1,7 @@
 #include "tests/hidden/answer.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/toml_document.hpp"
+#include "io/files/toml_document.hpp"
 
 #include <fmt/format.h>
 

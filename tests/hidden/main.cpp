@@ -1,9 +1,9 @@
 /// hidden_campaigns: makes virtual shake-table campaigns with hidden effects, and scores diagnoses of them.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/suggest.hpp"
 #include "io/measured_file.hpp"
-#include "io/suggest.hpp"
 #include "tests/hidden/answer.hpp"
 #include "tests/hidden/coverage.hpp"
 #include "tests/hidden/detectability.hpp"

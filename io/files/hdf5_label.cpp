@@ -1,6 +1,6 @@
-#include "io/hdf5_label.hpp"
+#include "io/files/hdf5_label.hpp"
 
-#include "io/hdf5.hpp"
+#include "io/files/hdf5.hpp"
 
 namespace stylobate {
 

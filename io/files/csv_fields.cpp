@@ -1,7 +1,7 @@
-#include "io/csv_fields.hpp"
+#include "io/files/csv_fields.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/file_handle.hpp"
+#include "io/files/file_handle.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "io/toml_document.hpp"
+#include "io/files/toml_document.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

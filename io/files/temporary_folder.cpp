@@ -1,4 +1,4 @@
-#include "io/temporary_folder.hpp"
+#include "io/files/temporary_folder.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

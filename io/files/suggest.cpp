@@ -1,4 +1,4 @@
-#include "io/suggest.hpp"
+#include "io/files/suggest.hpp"
 
 #include <algorithm>
 #include <array>

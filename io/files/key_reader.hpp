@@ -2,7 +2,7 @@
 /// Checked access to the keys of one table of a TOML file. Every refusal is an InputError that names file and line,
 /// key, value, what is allowed and what to do.
 
-#include "io/toml_document.hpp"
+#include "io/files/toml_document.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
-#include "io/key_reader.hpp"
+#include "io/files/key_reader.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/suggest.hpp"
+#include "io/files/suggest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

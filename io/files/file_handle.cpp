@@ -1,4 +1,4 @@
-#include "io/file_handle.hpp"
+#include "io/files/file_handle.hpp"
 
 #include "ensemble/model/input_error.hpp"
 
