@@ -1,7 +1,7 @@
 #pragma once
 /// The picture of a rare event: how the chains came down to its probability, and what each repeat found.
 
-#include "io/rare_table.hpp"
+#include "io/tables/rare_table.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 /// The picture of a sensitivity study: for each outcome, bars of the factors' indices with their intervals.
 
-#include "io/sensitivity_table.hpp"
+#include "io/tables/sensitivity_table.hpp"
 
 #include <filesystem>
 #include <string>

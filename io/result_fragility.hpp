@@ -2,7 +2,7 @@
 /// /fragility of a results file; for the writer and the reader alone, as `io/files/hdf5.hpp` is.
 
 #include "io/files/hdf5.hpp"
-#include "io/fragility_table.hpp"
+#include "io/tables/fragility_table.hpp"
 
 namespace stylobate {
 

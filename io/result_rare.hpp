@@ -2,7 +2,7 @@
 /// /rare of a results file; for the writer and the reader alone, as `io/files/hdf5.hpp` is.
 
 #include "io/files/hdf5.hpp"
-#include "io/rare_table.hpp"
+#include "io/tables/rare_table.hpp"
 
 namespace stylobate {
 

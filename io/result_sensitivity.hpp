@@ -2,7 +2,7 @@
 /// /sensitivity of a results file; for the writer and the reader alone, as `io/files/hdf5.hpp` is.
 
 #include "io/files/hdf5.hpp"
-#include "io/sensitivity_table.hpp"
+#include "io/tables/sensitivity_table.hpp"
 
 namespace stylobate {
 

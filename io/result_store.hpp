@@ -5,9 +5,9 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "io/fragility_table.hpp"
-#include "io/rare_table.hpp"
-#include "io/sensitivity_table.hpp"
+#include "io/tables/fragility_table.hpp"
+#include "io/tables/rare_table.hpp"
+#include "io/tables/sensitivity_table.hpp"
 #include "io/tally.hpp"
 
 #include <cstdint>

@@ -7,8 +7,8 @@
 /// outcomes before, and these on nothing but (study, seed): so does the whole.
 
 #include "ensemble/engine/executor.hpp"
-#include "io/rare_table.hpp"
 #include "io/result_store.hpp"
+#include "io/tables/rare_table.hpp"
 #include "studies/html.hpp"
 #include "studies/json.hpp"
 #include "studies/loaded_study.hpp"

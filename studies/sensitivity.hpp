@@ -11,7 +11,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/result_store.hpp"
-#include "io/sensitivity_table.hpp"
+#include "io/tables/sensitivity_table.hpp"
 #include "studies/html.hpp"
 #include "studies/json.hpp"
 

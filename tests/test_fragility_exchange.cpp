@@ -1,7 +1,7 @@
 /// Fragility functions in NRML, JSON and CSV: round trips, OpenQuake's numbers, the schema, one message for each fault.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/fragility_exchange.hpp"
+#include "io/tables/fragility_exchange.hpp"
 #include "json.hpp"
 
 #include <gtest/gtest.h>

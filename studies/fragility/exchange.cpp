@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/fragility_exchange.hpp"
+#include "io/tables/fragility_exchange.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "io/fragility_exchange.hpp"
+#include "io/tables/fragility_exchange.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/fragility_measure.hpp"
+#include "io/tables/fragility_measure.hpp"
 
 #include <fmt/format.h>
 

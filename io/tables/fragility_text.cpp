@@ -1,4 +1,4 @@
-#include "io/fragility_exchange.hpp"
+#include "io/tables/fragility_exchange.hpp"
 
 #include <fmt/format.h>
 

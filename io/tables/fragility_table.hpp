@@ -1,7 +1,7 @@
 #pragma once
 /// What a fragility study found, as plain data: /fragility of a results file.
 
-#include "io/sensitivity_table.hpp"
+#include "io/tables/sensitivity_table.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
-#include "io/fragility_exchange.hpp"
-#include "io/fragility_measure.hpp"
+#include "io/tables/fragility_exchange.hpp"
+#include "io/tables/fragility_measure.hpp"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
