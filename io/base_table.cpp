@@ -5,7 +5,7 @@
 #include "io/ground_motion.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_motion.hpp"
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 /// From a record to a base motion: baseline, integration, intensity measures.
 
 #include "ensemble/model/motion.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "io/study_fragility.hpp"
 
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 #include "io/study_axis.hpp"
 #include "io/study_excitation.hpp"
 #include "io/study_names.hpp"

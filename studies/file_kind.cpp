@@ -4,7 +4,7 @@
 #include "io/files/csv_fields.hpp"
 #include "io/files/file_handle.hpp"
 #include "io/files/hdf5_label.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 #include "io/result_seal.hpp"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "ensemble/sampling/plausible.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_outcomes.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 #include "io/result_store.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/base_table.hpp"
 #include "io/ground_motion.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 #include "io/result_layout.hpp"
 #include "io/study_file.hpp"
 #include "io/study_names.hpp"

@@ -1,6 +1,6 @@
 /// `stylobate record`: what a ground motion is.
 
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/ground_motion.hpp"
 #include "studies/command.hpp"

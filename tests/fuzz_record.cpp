@@ -5,7 +5,7 @@
 /// properties.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 
 #include <cmath>
 #include <cstddef>

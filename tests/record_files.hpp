@@ -2,7 +2,7 @@
 /// Small ground-motion files of each format, made up, and what is in them.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -244,22 +244,22 @@ TEST(House, LinksBetweenTextsLeadSomewhere)
 TEST(Rules, FindBreaches)
 {
     EXPECT_NE(breach("kernels/step.hpp", "ensemble/model/study.hpp"), "");
-    EXPECT_NE(breach("kernels/step.hpp", "io/record.hpp"), "");
+    EXPECT_NE(breach("kernels/step.hpp", "io/records/record.hpp"), "");
     EXPECT_NE(breach("kernels/step.hpp", "Eigen/Dense"), "");
     EXPECT_NE(breach("kernels/step.hpp", "fstream"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study_file.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/surface.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
-    EXPECT_NE(breach("io/record.cpp", "ensemble/engine/executor.hpp"), "");
-    EXPECT_NE(breach("io/record.cpp", "kernels/step.hpp"), "");
-    EXPECT_NE(breach("io/record.cpp", "../ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "kernels/step.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "../ensemble/engine/executor.hpp"), "");
     EXPECT_NE(breach("studies/run.cpp", "tests/model.hpp"), "");
     EXPECT_NE(breach("studies/run.cpp", "hdf5.h"), "");
 
     EXPECT_EQ(breach("kernels/step.hpp", "kernels/real.hpp"), "");
     EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
     EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
-    EXPECT_EQ(breach("io/record.cpp", "ensemble/model/study.hpp"), "");
+    EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/run.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("tests/test_wide.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("tests/test_result_store.cpp", "hdf5.h"), "");

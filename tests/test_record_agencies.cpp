@@ -3,7 +3,7 @@
 
 #include "record_files.hpp"
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <algorithm>
 #include <tuple>

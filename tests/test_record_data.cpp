@@ -4,7 +4,7 @@
 #include "csv_line.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "io/base_table.hpp"
 #include "io/ground_motion.hpp"
 #include "io/measured_motion.hpp"
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 #include "io/study_names.hpp"
 #include "io/study_ranges.hpp"
 

@@ -1,7 +1,7 @@
 /// What the headers of agencies share, and the two layouts in which samples stand below them: columns of a fixed
 /// width, and numbers between blanks.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 ///
 /// The kinds: 1 uncorrected and 2 corrected acceleration; 3 velocity, 4 displacement and 5, 6 spectra are refused.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

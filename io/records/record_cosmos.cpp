@@ -17,7 +17,7 @@
 /// volume 0. Channels of velocity and displacement, and such blocks below an acceleration, are read for their shape
 /// and left out; a file that has nothing else is refused.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 /// A header line says "IN UNITS OF G", or in words of its own "The units are (g)". The sister files of velocity and
 /// displacement, .VT2 and .DT2, have the same header but for the words of that line, and are refused.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

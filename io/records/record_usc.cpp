@@ -9,7 +9,7 @@
 /// So each sample stays at its time with its value, the PGA is that of the file to the last bit, and nothing is
 /// smoothed, which a grid as wide as the mean spacing would do to a peak between two of its points.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 /// an acceleration and says its sampling interval in a comment: "# dt = 0.01". The unit is never guessed: it is given
 /// with the file.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

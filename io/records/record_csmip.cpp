@@ -10,7 +10,7 @@
 /// either case of letters, "STATION NO." above the station's name, and "CHAN 1: 90 DEG" above the event's name.
 /// Volume 3 (spectra) is refused.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

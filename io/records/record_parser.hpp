@@ -1,7 +1,7 @@
 #pragma once
 /// What a parser of ground-motion files is, and what all of them share. One parser, one file.
 
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 
 #include <cstddef>
 #include <filesystem>

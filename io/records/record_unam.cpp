@@ -17,7 +17,7 @@
 /// the rows beyond are copies of the last one counted: the writer's padding. Such copies are left out; any other row
 /// beyond the count is refused.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 /// "subtracted the average of whole data", and so is the acceleration here: (count - mean of all counts) x scale. The
 /// header does not count the values: there are rate x duration of them.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 ///
 /// The uncorrected V1A has no velocities and displacements; those of V2A are read for their shape and left out.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 /// The values begin below the last key, USER5; headers of other lengths occur (43 lines in the first ITACA). Velocity,
 /// displacement and spectra, told by DATA_TYPE, are refused.
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 /// A component: "* VOL1DS FILE: ..." and 12 more lines of text, 7 lines of integers and 7 of reals (both cut after
 /// column 70), the ninth real being the sampling rate, then the values, 10E13.6, and a line "/&".
 
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 

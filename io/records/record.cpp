@@ -1,7 +1,7 @@
-#include "io/record.hpp"
+#include "io/records/record.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/record_parser.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 
