@@ -6,7 +6,7 @@
 #include "io/plot_sensitivity.hpp"
 #include "io/plot_slice.hpp"
 #include "io/plot_surface.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/report.hpp"

@@ -5,7 +5,7 @@
 #include "ensemble/numerics/run_order.hpp"
 #include "io/plot_order.hpp"
 #include "io/plot_strip.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"

@@ -4,7 +4,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/plot_surface.hpp"
 #include "io/result_store.hpp"
-#include "io/study_names.hpp"
+#include "io/study/study_names.hpp"
 #include "studies/block_names.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// A calibration with something in every field, and hard characters in its texts. Its numbers are made up.
 
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/measured_file.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/calibration_surface.hpp"
 #include "tests/synthetic_campaign.hpp"

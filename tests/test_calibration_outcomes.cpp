@@ -4,7 +4,7 @@
 
 #include "ensemble/sampling/sampler.hpp"
 #include "io/measured_outcomes.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/outcome_tests.hpp"
 

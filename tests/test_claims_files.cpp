@@ -3,7 +3,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"
 #include "studies/claims/claim_page.hpp"

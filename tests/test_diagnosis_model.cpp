@@ -7,7 +7,7 @@
 #include "ensemble/tracking/specimen.hpp"
 #include "io/base_table.hpp"
 #include "io/measured_file.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/pipeline.hpp"

@@ -2,7 +2,7 @@
 /// no number of a block decides which fell first.
 
 #include "ensemble/engine/lanes.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>

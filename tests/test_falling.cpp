@@ -3,7 +3,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/ground_motion.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/fragility/damage.hpp"
 #include "studies/fragility/motions.hpp"
 

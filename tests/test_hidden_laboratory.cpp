@@ -1,7 +1,7 @@
 /// The virtual laboratory of the hidden-effect tests: its two contact laws against closed forms of rigid blocks, its
 /// table, its effects and what it calls detectable.
 
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "tests/hidden/detectability.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/collapse_criterion.hpp"
 #include "io/files/temporary_folder.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/html.hpp"
 #include "studies/html_figure.hpp"

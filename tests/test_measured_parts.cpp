@@ -2,7 +2,7 @@
 /// against known answers; and the data themselves, where they lie beside the checkout.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/measured/boulder_model.hpp"
 #include "studies/measured/double_pulse.hpp"
 #include "studies/measured/logistic.hpp"

@@ -4,7 +4,7 @@
 #include "ensemble/sampling/plausible.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "program.hpp"
 
 #include "io/result_store.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <random>
 

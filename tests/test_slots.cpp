@@ -3,7 +3,7 @@
 
 #include "ensemble/engine/slots.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>

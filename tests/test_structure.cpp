@@ -5,7 +5,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

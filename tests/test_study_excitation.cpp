@@ -1,7 +1,7 @@
 /// The synthetic excitations of a study file: what is read, and what is refused with which words.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

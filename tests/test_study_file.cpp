@@ -1,7 +1,7 @@
 /// The study file: defaults, every kind of mistake with its line and the words that help, settings.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

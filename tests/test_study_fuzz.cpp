@@ -2,7 +2,7 @@
 /// message, or is a study whose canonical text reads back to itself. Nothing else may happen.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Mechanisms and contact forms in a study file: what is read, written and refused, and with which words.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The canonical text of a study: it reads back to itself, and is equal for equal studies only.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/twins.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/twins/flips.hpp"
 #include "tests/outcome_bits.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A study as plain data: what a study file says, with every default filled in. SI units throughout.
 ///
-/// `io/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
+/// `io/study/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/motion.hpp"

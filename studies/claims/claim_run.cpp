@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/result_store.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"

@@ -6,8 +6,8 @@
 #include "io/ground_motion.hpp"
 #include "io/measured_motion.hpp"
 #include "io/records/record.hpp"
-#include "io/study_names.hpp"
-#include "io/study_ranges.hpp"
+#include "io/study/study_names.hpp"
+#include "io/study/study_ranges.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/pipeline.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/chance.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"

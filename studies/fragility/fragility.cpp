@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/numerics/quantiles.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

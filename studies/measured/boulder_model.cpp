@@ -3,7 +3,7 @@
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "studies/measured/double_pulse.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/measured/table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 /// The case of the boulders on the shaking table: fits on one half of the ground motions, judges on the other.
 
 #include "io/files/atomic_file.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/measured/boulder_report.hpp"
 #include "studies/measured/logistic.hpp"
 #include "studies/measured/split.hpp"

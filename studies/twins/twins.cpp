@@ -1,8 +1,8 @@
 #include "studies/twins/twins.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_file.hpp"
-#include "io/study_names.hpp"
+#include "io/study/study_file.hpp"
+#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "io/study_file.hpp"
+#include "io/study/study_file.hpp"
 
 #include <cstdio>
 

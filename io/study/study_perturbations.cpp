@@ -1,9 +1,9 @@
-#include "io/study_perturbations.hpp"
+#include "io/study/study_perturbations.hpp"
 
 #include "ensemble/model/nominal.hpp"
-#include "io/study_mechanisms.hpp"
-#include "io/study_names.hpp"
-#include "io/study_ranges.hpp"
+#include "io/study/study_mechanisms.hpp"
+#include "io/study/study_names.hpp"
+#include "io/study/study_ranges.hpp"
 
 #include <fmt/format.h>
 

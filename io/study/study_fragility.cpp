@@ -1,10 +1,10 @@
-#include "io/study_fragility.hpp"
+#include "io/study/study_fragility.hpp"
 
 #include "io/records/record.hpp"
-#include "io/study_axis.hpp"
-#include "io/study_excitation.hpp"
-#include "io/study_names.hpp"
-#include "io/study_ranges.hpp"
+#include "io/study/study_axis.hpp"
+#include "io/study/study_excitation.hpp"
+#include "io/study/study_names.hpp"
+#include "io/study/study_ranges.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>

@@ -1,8 +1,8 @@
-#include "io/study_mechanisms.hpp"
+#include "io/study/study_mechanisms.hpp"
 
 #include "io/files/toml_document.hpp"
-#include "io/study_excitation.hpp"
-#include "io/study_names.hpp"
+#include "io/study/study_excitation.hpp"
+#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

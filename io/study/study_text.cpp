@@ -2,9 +2,9 @@
 
 #include "ensemble/model/nominal.hpp"
 #include "io/files/toml_document.hpp"
-#include "io/study_file.hpp"
-#include "io/study_mechanisms.hpp"
-#include "io/study_names.hpp"
+#include "io/study/study_file.hpp"
+#include "io/study/study_mechanisms.hpp"
+#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "io/study_excitation.hpp"
+#include "io/study/study_excitation.hpp"
 
-#include "io/study_names.hpp"
-#include "io/study_ranges.hpp"
+#include "io/study/study_names.hpp"
+#include "io/study/study_ranges.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "io/study_sensitivity.hpp"
+#include "io/study/study_sensitivity.hpp"
 
 #include "io/files/suggest.hpp"
-#include "io/study_names.hpp"
+#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
-#include "io/study_twins.hpp"
+#include "io/study/study_twins.hpp"
 
-#include "io/study_names.hpp"
+#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 

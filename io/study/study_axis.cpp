@@ -1,6 +1,6 @@
-#include "io/study_axis.hpp"
+#include "io/study/study_axis.hpp"
 
-#include "io/study_names.hpp"
+#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "io/study_structure.hpp"
+#include "io/study/study_structure.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study_names.hpp"
-#include "io/study_ranges.hpp"
+#include "io/study/study_names.hpp"
+#include "io/study/study_ranges.hpp"
 
 #include <fmt/format.h>
 
