@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
-#include "io/ground_motion.hpp"
 #include "io/measured_file.hpp"
 #include "io/measured_motion.hpp"
+#include "io/motion/ground_motion.hpp"
 #include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>

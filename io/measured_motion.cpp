@@ -1,8 +1,8 @@
 #include "io/measured_motion.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/ground_motion.hpp"
 #include "io/measured_noise.hpp"
+#include "io/motion/ground_motion.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/base_table.hpp"
-#include "io/ground_motion.hpp"
+#include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
 #include "io/result_layout.hpp"
 #include "io/study/study_file.hpp"

@@ -2,7 +2,7 @@
 
 #include "io/records/record.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "io/ground_motion.hpp"
+#include "io/motion/ground_motion.hpp"
 #include "studies/command.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/json.hpp"

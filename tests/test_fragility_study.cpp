@@ -5,7 +5,7 @@
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/ground_motion.hpp"
+#include "io/motion/ground_motion.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/fragility/damage.hpp"
 #include "studies/fragility/motions.hpp"

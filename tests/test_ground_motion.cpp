@@ -2,8 +2,8 @@
 /// were computed by another program for real records.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/band_pass.hpp"
-#include "io/ground_motion.hpp"
+#include "io/motion/band_pass.hpp"
+#include "io/motion/ground_motion.hpp"
 #include "tests/csv_line.hpp"
 
 #include <fmt/format.h>

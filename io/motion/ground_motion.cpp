@@ -1,7 +1,7 @@
-#include "io/ground_motion.hpp"
+#include "io/motion/ground_motion.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/band_pass.hpp"
+#include "io/motion/band_pass.hpp"
 
 #include <fmt/format.h>
 

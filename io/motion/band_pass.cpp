@@ -1,4 +1,4 @@
-#include "io/band_pass.hpp"
+#include "io/motion/band_pass.hpp"
 
 #include "ensemble/numerics/fourier.hpp"
 
