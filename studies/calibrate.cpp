@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/measured_file.hpp"
-#include "io/measured_outcomes.hpp"
+#include "io/measured/measured_file.hpp"
+#include "io/measured/measured_outcomes.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
 #include "studies/command.hpp"

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"

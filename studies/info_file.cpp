@@ -4,8 +4,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
-#include "io/measured_file.hpp"
-#include "io/measured_outcomes.hpp"
+#include "io/measured/measured_file.hpp"
+#include "io/measured/measured_outcomes.hpp"
 #include "io/records/record.hpp"
 #include "io/result_store.hpp"
 #include "io/study/study_file.hpp"

@@ -1,7 +1,7 @@
 #include "studies/loaded_study.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/base_table.hpp"
+#include "io/measured/base_table.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
 #include "io/result_layout.hpp"

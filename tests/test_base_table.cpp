@@ -1,9 +1,9 @@
 /// Tables of samples as base motions: what is read, and what is refused with which words.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/base_table.hpp"
-#include "io/measured_file.hpp"
-#include "io/measured_motion.hpp"
+#include "io/measured/base_table.hpp"
+#include "io/measured/measured_file.hpp"
+#include "io/measured/measured_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Calibration finds what a campaign was made with, says how well it knows it, and says what it cannot know.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/calibration_surface.hpp"

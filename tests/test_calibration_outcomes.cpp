@@ -3,7 +3,7 @@
 #include "measured_samples.hpp"
 
 #include "ensemble/sampling/sampler.hpp"
-#include "io/measured_outcomes.hpp"
+#include "io/measured/measured_outcomes.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/outcome_tests.hpp"

@@ -4,7 +4,7 @@
 #include "program.hpp"
 #include "synthetic_campaign.hpp"
 
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -3,7 +3,7 @@
 #include "measured_samples.hpp"
 #include "program.hpp"
 
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 
 namespace stylobate {
 namespace {

@@ -1,7 +1,7 @@
 /// Measured campaigns in files: what is written is read again bit by bit, what other programs write is read, and what
 /// is damaged is refused.
 
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 #include "measured_samples.hpp"
 
 #include <gtest/gtest.h>

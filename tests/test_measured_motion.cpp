@@ -1,7 +1,7 @@
 /// The table's motion from noisy sensors, against a truth in closed form.
 
-#include "io/measured_file.hpp"
-#include "io/measured_motion.hpp"
+#include "io/measured/measured_file.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "measured_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Tables of outcomes: what they mean, and what is refused.
 
-#include "io/measured_outcomes.hpp"
+#include "io/measured/measured_outcomes.hpp"
 #include "measured_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "program.hpp"
 
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "tests/calibration_sample.hpp"

@@ -1,7 +1,7 @@
 /// Measured specimens as structures: every block and joint finds its place, and what cannot be built is named.
 
 #include "ensemble/tracking/specimen.hpp"
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 #include "measured_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "io/measured_motion.hpp"
+#include "io/measured/measured_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
-#include "io/base_table.hpp"
-#include "io/measured_motion.hpp"
+#include "io/measured/base_table.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
 #include "io/study/study_names.hpp"

@@ -4,7 +4,7 @@
 #include "ensemble/sampling/distribution.hpp"
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "io/measured_motion.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/suggest.hpp"
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 #include "tests/hidden/answer.hpp"
 #include "tests/hidden/coverage.hpp"
 #include "tests/hidden/detectability.hpp"

@@ -1,8 +1,8 @@
 /// Whether a specimen can be: sizes, densities, and what touches what.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/measured_check.hpp"
-#include "io/measured_layout.hpp"
+#include "io/measured/measured_check.hpp"
+#include "io/measured/measured_layout.hpp"
 
 #include <fmt/format.h>
 

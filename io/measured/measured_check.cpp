@@ -1,8 +1,8 @@
-#include "io/measured_check.hpp"
+#include "io/measured/measured_check.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/measured_layout.hpp"
-#include "io/measured_noise.hpp"
+#include "io/measured/measured_layout.hpp"
+#include "io/measured/measured_noise.hpp"
 
 #include <fmt/format.h>
 

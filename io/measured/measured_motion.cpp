@@ -1,7 +1,7 @@
-#include "io/measured_motion.hpp"
+#include "io/measured/measured_motion.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/measured_noise.hpp"
+#include "io/measured/measured_noise.hpp"
 #include "io/motion/ground_motion.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "io/files/file_handle.hpp"
 #include "io/files/hdf5.hpp"
 #include "io/files/suggest.hpp"
-#include "io/measured_layout.hpp"
+#include "io/measured/measured_layout.hpp"
 
 #include <fmt/format.h>
 

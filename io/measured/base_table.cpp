@@ -1,9 +1,9 @@
-#include "io/base_table.hpp"
+#include "io/measured/base_table.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
-#include "io/measured_file.hpp"
-#include "io/measured_motion.hpp"
+#include "io/measured/measured_file.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record_parser.hpp"
 

@@ -3,7 +3,7 @@
 #include "io/files/csv_fields.hpp"
 #include "io/files/key_reader.hpp"
 #include "io/files/suggest.hpp"
-#include "io/measured_layout.hpp"
+#include "io/measured/measured_layout.hpp"
 
 #include <fmt/format.h>
 

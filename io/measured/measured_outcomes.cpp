@@ -1,9 +1,9 @@
-#include "io/measured_outcomes.hpp"
+#include "io/measured/measured_outcomes.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/suggest.hpp"
-#include "io/measured_layout.hpp"
+#include "io/measured/measured_layout.hpp"
 
 #include <fmt/format.h>
 

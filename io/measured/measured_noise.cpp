@@ -1,4 +1,4 @@
-#include "io/measured_noise.hpp"
+#include "io/measured/measured_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

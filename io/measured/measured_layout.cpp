@@ -1,4 +1,4 @@
-#include "io/measured_layout.hpp"
+#include "io/measured/measured_layout.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/records/record_parser.hpp"

@@ -1,7 +1,7 @@
-#include "io/measured_file.hpp"
+#include "io/measured/measured_file.hpp"
 
-#include "io/measured_check.hpp"
-#include "io/measured_layout.hpp"
+#include "io/measured/measured_check.hpp"
+#include "io/measured/measured_layout.hpp"
 
 #include <system_error>
 
