@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "io/files/suggest.hpp"
-#include "io/plot_axis.hpp"
+#include "io/plots/plot_axis.hpp"
 #include "studies/loaded_study.hpp"
 
 #include <fmt/format.h>

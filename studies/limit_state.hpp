@@ -3,7 +3,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "ensemble/model/time_counts.hpp"
-#include "io/plot_order.hpp"
+#include "io/plots/plot_order.hpp"
 #include "io/result_store.hpp"
 
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "io/plot_surface.hpp"
+#include "io/plots/plot_surface.hpp"
 #include "io/result_store.hpp"
 #include "io/study/study_names.hpp"
 #include "studies/block_names.hpp"

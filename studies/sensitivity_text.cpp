@@ -2,7 +2,7 @@
 
 #include "studies/sensitivity.hpp"
 
-#include "io/plot_surface.hpp"
+#include "io/plots/plot_surface.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// A picture decoded: its pixels, and where its colours are.
 
 #include "export_cases.hpp"
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 
 #include <array>
 #include <map>

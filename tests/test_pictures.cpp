@@ -1,13 +1,13 @@
 /// Pictures decoded and their colours counted; what gnuplot is told; what is said when there is no picture.
 
 #include "export_cases.hpp"
-#include "io/gnuplot.hpp"
-#include "io/plot_axis.hpp"
-#include "io/plot_maps.hpp"
-#include "io/plot_rare.hpp"
-#include "io/plot_slice.hpp"
-#include "io/plot_strip.hpp"
-#include "io/plot_surface.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_axis.hpp"
+#include "io/plots/plot_maps.hpp"
+#include "io/plots/plot_rare.hpp"
+#include "io/plots/plot_slice.hpp"
+#include "io/plots/plot_strip.hpp"
+#include "io/plots/plot_surface.hpp"
 #include "pixels.hpp"
 
 #include <functional>

@@ -1,6 +1,6 @@
 /// The picture of the falls: where its curves are, and what is said when there is none.
 
-#include "io/plot_order.hpp"
+#include "io/plots/plot_order.hpp"
 #include "pixels.hpp"
 
 namespace stylobate {

@@ -1,6 +1,6 @@
 /// What is told and drawn of indices: columns that do not collide, too few samples, bars that are not cut.
 
-#include "io/plot_sensitivity.hpp"
+#include "io/plots/plot_sensitivity.hpp"
 #include "studies/sensitivity.hpp"
 
 #include <gtest/gtest.h>

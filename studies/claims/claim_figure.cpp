@@ -1,6 +1,6 @@
 #include "studies/claims/claim_figure.hpp"
 
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 #include "studies/claims/claim_text.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 #include "studies/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/plot_maps.hpp"
+#include "io/plots/plot_maps.hpp"
 #include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>

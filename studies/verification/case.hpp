@@ -45,7 +45,7 @@ double aitken(const std::vector<double>& values);
 /// @pre one value more than exponents
 double richardson(std::vector<double> values, double factor, const std::vector<double>& exponents);
 
-/// A picture to be drawn with `io/gnuplot.hpp`.
+/// A picture to be drawn with `io/plots/gnuplot.hpp`.
 struct Picture {
     std::string name; ///< of the file, without folder and extension
     std::string caption;

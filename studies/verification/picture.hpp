@@ -1,7 +1,7 @@
 #pragma once
-/// Small pictures of the verification page, as scripts for `io/gnuplot.hpp`.
+/// Small pictures of the verification page, as scripts for `io/plots/gnuplot.hpp`.
 
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 #include "studies/verification/case.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "io/contour.hpp"
+#include "io/plots/contour.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "io/plot_axis.hpp"
+#include "io/plots/plot_axis.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -1,9 +1,9 @@
-#include "io/plot_order.hpp"
+#include "io/plots/plot_order.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/gnuplot.hpp"
-#include "io/plot_order_parts.hpp"
-#include "io/plot_surface.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_order_parts.hpp"
+#include "io/plots/plot_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"

@@ -1,5 +1,5 @@
-#include "io/gnuplot.hpp"
-#include "io/plot_order_parts.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_order_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

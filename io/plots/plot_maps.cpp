@@ -1,8 +1,8 @@
-#include "io/plot_maps.hpp"
+#include "io/plots/plot_maps.hpp"
 
-#include "io/contour.hpp"
-#include "io/gnuplot.hpp"
-#include "io/plot_axis.hpp"
+#include "io/plots/contour.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_axis.hpp"
 
 #include <fmt/format.h>
 

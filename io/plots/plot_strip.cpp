@@ -1,7 +1,7 @@
-#include "io/plot_strip.hpp"
+#include "io/plots/plot_strip.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 /// What the two forms of the picture of falls share: a table beside the curves, or a drawing of the structure above
 /// them.
 
-#include "io/plot_order.hpp"
+#include "io/plots/plot_order.hpp"
 
 #include <cstdint>
 #include <filesystem>

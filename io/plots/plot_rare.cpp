@@ -1,7 +1,7 @@
-#include "io/plot_rare.hpp"
+#include "io/plots/plot_rare.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/gnuplot.hpp"
+#include "io/plots/gnuplot.hpp"
 
 #include <fmt/format.h>
 

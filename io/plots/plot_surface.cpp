@@ -1,9 +1,9 @@
-#include "io/plot_surface.hpp"
+#include "io/plots/plot_surface.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/contour.hpp"
-#include "io/gnuplot.hpp"
-#include "io/plot_axis.hpp"
+#include "io/plots/contour.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_axis.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "io/plot_sensitivity.hpp"
+#include "io/plots/plot_sensitivity.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/gnuplot.hpp"
-#include "io/plot_surface.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_surface.hpp"
 
 #include <fmt/format.h>
 
