@@ -9,7 +9,7 @@
 
 #include "ensemble/estimators/surface/adaptive.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 /// Which realization of a result is meant: by its index, or by where it stands and how it ended.
 
 #include "ensemble/model/study.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <cstdint>
 #include <optional>

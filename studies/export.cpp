@@ -1,13 +1,13 @@
 /// `stylobate export`: results in other tools' formats.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/export_csv.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/plots/plot_rare.hpp"
 #include "io/plots/plot_sensitivity.hpp"
 #include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_surface.hpp"
-#include "io/result_store.hpp"
+#include "io/store/export_csv.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/command.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/fragility/exchange.hpp"

@@ -5,7 +5,7 @@
 #include "io/files/file_handle.hpp"
 #include "io/files/hdf5_label.hpp"
 #include "io/records/record.hpp"
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 
 #include <fmt/format.h>
 

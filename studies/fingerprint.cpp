@@ -1,6 +1,6 @@
 #include "studies/fingerprint.hpp"
 
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_outcomes.hpp"
 #include "io/records/record.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
 #include "studies/diagnosis/calibration_file.hpp"

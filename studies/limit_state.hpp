@@ -4,7 +4,7 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/model/time_counts.hpp"
 #include "io/plots/plot_order.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <functional>
 #include <string>

@@ -4,7 +4,7 @@
 #include "io/measured/base_table.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
-#include "io/result_layout.hpp"
+#include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
 #include "studies/block_names.hpp"

@@ -5,7 +5,7 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/sampling/plausible.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <memory>
 #include <optional>

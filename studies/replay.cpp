@@ -1,8 +1,8 @@
 /// `stylobate replay`: one realization of a result again, with its trajectory.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/result_layout.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_layout.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/command.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/json.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The pages of `stylobate report`.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/command.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis.hpp"

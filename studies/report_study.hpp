@@ -2,7 +2,7 @@
 /// A study on the pages of `stylobate report`.
 
 #include "ensemble/model/study.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/html.hpp"
 
 #include <string>

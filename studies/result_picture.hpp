@@ -1,7 +1,7 @@
 #pragma once
 /// The pictures of a results file: what `export` writes and `report` shows.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/command.hpp"
 #include "studies/limit_state.hpp"
 

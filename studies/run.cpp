@@ -3,7 +3,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/plot_surface.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/study/study_names.hpp"
 #include "studies/block_names.hpp"
 #include "studies/command.hpp"

@@ -4,7 +4,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/estimators/surface/adaptive.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/loaded_study.hpp"
 
 #include <functional>

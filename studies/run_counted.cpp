@@ -1,6 +1,6 @@
 #include "studies/run_counted.hpp"
 
-#include "io/tally_store.hpp"
+#include "io/store/tally_store.hpp"
 #include "studies/surface.hpp"
 #include "studies/trajectory.hpp"
 

@@ -7,7 +7,7 @@
 /// outcomes before, and these on nothing but (study, seed): so does the whole.
 
 #include "ensemble/engine/executor.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/tables/rare_table.hpp"
 #include "studies/html.hpp"
 #include "studies/json.hpp"

@@ -3,7 +3,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/followed_twin.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/loaded_study.hpp"
 
 #include <functional>

@@ -10,7 +10,7 @@
 ///   residual_displacement   its size, likewise
 
 #include "ensemble/model/study.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/tables/sensitivity_table.hpp"
 #include "studies/html.hpp"
 #include "studies/json.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The surface of the probability of a limit state, from its realizations.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/limit_state.hpp"
 
 #include <vector>

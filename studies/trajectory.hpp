@@ -3,7 +3,7 @@
 
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/loaded_study.hpp"
 

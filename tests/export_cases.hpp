@@ -2,7 +2,7 @@
 /// What the tests of exports and pictures share: a folder, a surface, a trajectory.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <algorithm>
 #include <cmath>

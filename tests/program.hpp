@@ -2,7 +2,7 @@
 /// Runs the program as its user does: in a folder of its own, with arguments, and sees what it prints and leaves
 /// behind.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "json.hpp"
 
 #include <gtest/gtest.h>

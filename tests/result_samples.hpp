@@ -2,7 +2,7 @@
 /// What the tests of the result store share: rows of arbitrary bits, and a folder of one's own.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "tests/outcome_bits.hpp"
 
 #include <bit>

@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/surface.hpp"

@@ -3,7 +3,7 @@
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/block_names.hpp"
 #include "studies/trajectory.hpp"

@@ -1,8 +1,8 @@
 /// CSV files read back bit by bit; contours of known functions; refusals.
 
 #include "export_cases.hpp"
-#include "io/export_csv.hpp"
 #include "io/plots/contour.hpp"
+#include "io/store/export_csv.hpp"
 
 #include <bit>
 #include <map>

@@ -4,7 +4,7 @@
 #include "program.hpp"
 
 #include "ensemble/estimators/fragility/record_share.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>

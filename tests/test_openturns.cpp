@@ -6,7 +6,7 @@
 #include "program.hpp"
 
 #include "ensemble/estimators/sensitivity/sobol_indices.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "tests/sensitivity_functions.hpp"
 
 #include <openturns/JansenSensitivityAlgorithm.hxx>

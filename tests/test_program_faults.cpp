@@ -3,7 +3,7 @@
 #include "ensemble/engine/device.hpp"
 #include "program.hpp"
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 
 #include <random>

@@ -4,7 +4,7 @@
 #include "program.hpp"
 #include "record_files.hpp"
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <sstream>
 

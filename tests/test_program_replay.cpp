@@ -3,7 +3,7 @@
 
 #include "program.hpp"
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "program.hpp"
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/result_picture.hpp"
 

@@ -4,7 +4,7 @@
 #include "program.hpp"
 
 #include "ensemble/numerics/interval.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 /// Faults around the result store: nothing lost to a kill, every damage noticed, nothing changed by a refusal.
 
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 #include "result_samples.hpp"
 
 #include <algorithm>

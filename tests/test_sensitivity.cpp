@@ -5,7 +5,7 @@
 
 #include "ensemble/estimators/sensitivity/elementary_effects.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 
 #include <cmath>

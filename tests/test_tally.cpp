@@ -3,7 +3,7 @@
 
 #include "result_samples.hpp"
 
-#include "io/tally_store.hpp"
+#include "io/store/tally_store.hpp"
 
 #include <algorithm>
 #include <csignal>

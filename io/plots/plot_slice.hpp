@@ -1,7 +1,7 @@
 #pragma once
 /// The picture of fragility slices: the probability of a limit state against PGA at given frequencies.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <filesystem>
 #include <string>

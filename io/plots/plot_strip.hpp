@@ -1,7 +1,7 @@
 #pragma once
 /// The picture of one realization: the structure at chosen times, its falls, and its displacements.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 /// The picture of a surface of the probability of a limit state.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #include "studies/claims/claim_run.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/surface.hpp"

@@ -6,7 +6,7 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <array>
 #include <cstdint>

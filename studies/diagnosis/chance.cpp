@@ -2,7 +2,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/toml_document.hpp"
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 #include "studies/diagnosis/virtual_campaign.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 #include "studies/version.hpp"

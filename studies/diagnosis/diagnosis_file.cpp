@@ -4,7 +4,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_handle.hpp"
 #include "io/files/hdf5.hpp"
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 #include "studies/diagnosis/diagnosis_fields.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/file_handle.hpp"
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 
 #include <array>
 #include <cstring>

@@ -8,7 +8,7 @@
 #include "ensemble/estimators/fragility/measure_ranking.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/study.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/fragility/damage.hpp"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/study.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 namespace stylobate {
 

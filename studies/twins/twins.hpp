@@ -4,7 +4,7 @@
 
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/study.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/twins/flips.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// Results as comma-separated values: a header line, the unit in the column's name, numbers that read back bit by bit.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <filesystem>
 #include <vector>

@@ -2,7 +2,7 @@
 /// The names, types and units of everything in a results file, written once for the writer and the reader, and the
 /// bytes of a chunk of rows.
 
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <algorithm>
 #include <cstddef>

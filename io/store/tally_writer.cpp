@@ -1,7 +1,7 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/result_file.hpp"
-#include "io/tally_file.hpp"
-#include "io/tally_store.hpp"
+#include "io/store/result_file.hpp"
+#include "io/store/tally_file.hpp"
+#include "io/store/tally_store.hpp"
 
 #include <algorithm>
 #include <chrono>

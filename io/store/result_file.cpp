@@ -1,4 +1,4 @@
-#include "io/result_file.hpp"
+#include "io/store/result_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/tally.hpp"
+#include "io/store/tally.hpp"
 
 #include <cmath>
 #include <iterator>

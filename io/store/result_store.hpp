@@ -5,10 +5,10 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/numerics/interval.hpp"
+#include "io/store/tally.hpp"
 #include "io/tables/fragility_table.hpp"
 #include "io/tables/rare_table.hpp"
 #include "io/tables/sensitivity_table.hpp"
-#include "io/tally.hpp"
 
 #include <cstdint>
 #include <filesystem>

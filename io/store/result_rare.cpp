@@ -1,4 +1,4 @@
-#include "io/result_rare.hpp"
+#include "io/store/result_rare.hpp"
 
 namespace stylobate {
 

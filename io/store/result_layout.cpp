@@ -1,4 +1,4 @@
-#include "io/result_layout.hpp"
+#include "io/store/result_layout.hpp"
 
 #include "ensemble/model/mechanism_spec.hpp"
 

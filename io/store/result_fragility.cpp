@@ -1,4 +1,4 @@
-#include "io/result_fragility.hpp"
+#include "io/store/result_fragility.hpp"
 
 namespace stylobate {
 

@@ -1,8 +1,8 @@
-#include "io/export_csv.hpp"
+#include "io/store/export_csv.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/result_layout.hpp"
+#include "io/store/result_layout.hpp"
 
 #include <algorithm>
 #include <array>

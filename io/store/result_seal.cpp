@@ -1,7 +1,7 @@
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/result_layout.hpp"
+#include "io/store/result_layout.hpp"
 
 #include <algorithm>
 #include <array>

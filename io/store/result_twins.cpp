@@ -1,4 +1,4 @@
-#include "io/result_twins.hpp"
+#include "io/store/result_twins.hpp"
 
 #include <string>
 

@@ -3,9 +3,9 @@
 
 #include "io/files/file_handle.hpp"
 #include "io/files/hdf5.hpp"
-#include "io/result_layout.hpp"
-#include "io/result_seal.hpp"
-#include "io/row_journal.hpp"
+#include "io/store/result_layout.hpp"
+#include "io/store/result_seal.hpp"
+#include "io/store/row_journal.hpp"
 
 #include <optional>
 #include <unordered_map>

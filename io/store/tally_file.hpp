@@ -3,8 +3,8 @@
 
 #include "ensemble/numerics/run_order.hpp"
 #include "io/files/hdf5.hpp"
-#include "io/result_store.hpp"
-#include "io/tally.hpp"
+#include "io/store/result_store.hpp"
+#include "io/store/tally.hpp"
 
 namespace stylobate {
 

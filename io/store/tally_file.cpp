@@ -1,6 +1,6 @@
-#include "io/tally_file.hpp"
+#include "io/store/tally_file.hpp"
 
-#include "io/result_file.hpp"
+#include "io/store/result_file.hpp"
 
 #include <algorithm>
 

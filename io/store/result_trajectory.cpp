@@ -1,6 +1,6 @@
-#include "io/result_trajectory.hpp"
+#include "io/store/result_trajectory.hpp"
 
-#include "io/result_file.hpp"
+#include "io/store/result_file.hpp"
 
 #include <cstring>
 #include <stdexcept>

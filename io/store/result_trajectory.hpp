@@ -2,7 +2,7 @@
 /// The trajectory of a realization, as a part of a results file and as bytes.
 
 #include "io/files/hdf5.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <cstddef>
 #include <span>

@@ -1,6 +1,6 @@
-#include "io/row_journal.hpp"
+#include "io/store/row_journal.hpp"
 
-#include "io/result_seal.hpp"
+#include "io/store/result_seal.hpp"
 
 #include <algorithm>
 #include <cstring>

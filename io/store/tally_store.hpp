@@ -3,7 +3,7 @@
 /// `io/FORMAT.md` describes it; `ResultReader` reads it.
 
 #include "ensemble/numerics/run_order.hpp"
-#include "io/result_store.hpp"
+#include "io/store/result_store.hpp"
 
 namespace stylobate {
 
