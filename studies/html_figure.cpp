@@ -464,7 +464,7 @@ Html figure_svg(const Figure& figure, double height)
     return Html::ready(Drawing(figure, height).svg());
 }
 
-Html bar_svg(double value, MaybeReal mark, double most)
+Html bar_svg(double value, std::optional<double> mark, double most)
 {
     constexpr double length = 96;
     const auto px = [&](double v) { return std::clamp(v / most, 0.0, 1.0) * length; };

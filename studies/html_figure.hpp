@@ -1,8 +1,10 @@
 #pragma once
 /// Figures of a page, drawn as SVG.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/figure.hpp"
 #include "studies/html.hpp"
+
+#include <optional>
 
 namespace stylobate {
 
@@ -15,6 +17,6 @@ Html figure_svg(const Figure& figure, double height = 330);
 
 /// A bar from 0 for a cell of a table, with a mark: how large a gain is, and how large chance makes it.
 /// @param most what the full width stands for, > 0
-Html bar_svg(double value, MaybeReal mark, double most);
+Html bar_svg(double value, std::optional<double> mark, double most);
 
 } // namespace stylobate

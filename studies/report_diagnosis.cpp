@@ -79,7 +79,7 @@ public:
 private:
     void figures(FigurePlace place)
     {
-        for (const Figure& figure : d_.figures)
+        for (const DiagnosisFigure& figure : d_.figures)
             if (figure.place == place) {
                 Html caption = Html::ready("<b>" + html_escaped(figure.title) + "</b> ");
                 caption += figure.caption;

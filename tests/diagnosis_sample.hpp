@@ -8,9 +8,9 @@
 
 namespace stylobate {
 
-inline Figure sample_figure()
+inline DiagnosisFigure sample_figure()
 {
-    Figure figure;
+    DiagnosisFigure figure;
     figure.place = FigurePlace::wrong;
     figure.title = "Run 004, block 2, rotation";
     figure.caption = "Measured against the ensemble of the calibrated baseline; the band holds 95 % of it.";
@@ -149,14 +149,14 @@ inline Diagnosis filled_diagnosis()
     d.method = {"The baseline was calibrated first, then each mechanism was fitted beside it."};
     d.cost = {61234, 450000, 1234567890123, 212.5, 2, 6.8};
 
-    Figure bars;
+    DiagnosisFigure bars;
     bars.place = FigurePlace::gain;
     bars.title = "Error by run";
     bars.y_label = "error";
     bars.x_ticks = {"004", "005"};
     bars.series = {{"baseline", SeriesKind::bars, {0, 1}, {1.1, 0.9}, {1.0, 0.8}, {1.2, 1.0}},
                    {"extended", SeriesKind::bars, {0, 1}, {0.6, 0.5}, {0.5, 0.4}, {0.7, 0.6}}};
-    Figure marks;
+    DiagnosisFigure marks;
     marks.place = FigurePlace::candidates;
     marks.title = "Gain by amplitude <i>";
     marks.x_label = "peak acceleration [m/s²]";

@@ -140,7 +140,7 @@ TEST(WrongWindows, DrawsMeasuredAndSimulatedWhereTheModelIsWrong)
     EXPECT_EQ(found.figures.size() % 2, 0U);
     const WrongStretch& worst = found.stretches.front();
     for (std::size_t i = 0; i < 2; ++i) {
-        const Figure& figure = found.figures[i];
+        const DiagnosisFigure& figure = found.figures[i];
         EXPECT_EQ(figure.place, FigurePlace::wrong);
         EXPECT_NE(figure.title.find("Run " + worst.run + ", block " + std::to_string(worst.block)), std::string::npos)
             << figure.title;
@@ -155,7 +155,7 @@ TEST(WrongWindows, DrawsMeasuredAndSimulatedWhereTheModelIsWrong)
         EXPECT_GT(model.x.size(), 100U);
     }
     // the window that is worst is marked in the figure of its coordinate
-    const Figure& of = found.figures[worst.coordinate == "theta" ? 1 : 0];
+    const DiagnosisFigure& of = found.figures[worst.coordinate == "theta" ? 1 : 0];
     if (worst.coordinate != "y") {
         ASSERT_EQ(of.series.size(), 3U);
         const FigureSeries& spans = of.series[2];

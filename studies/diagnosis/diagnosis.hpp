@@ -4,6 +4,8 @@
 /// What is not known or could not be estimated is `std::nullopt`, never a number that stands for it. Texts are plain
 /// UTF-8 sentences without markup. Blocks and joints are counted from 0, as in the measured file; block -1 is the base.
 
+#include "studies/figure.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -185,38 +187,11 @@ struct DiagnosisCost {
     friend bool operator==(const DiagnosisCost&, const DiagnosisCost&) = default;
 };
 
-enum class SeriesKind {
-    line,   ///< x, y; with low and high: a band about it
-    points, ///< x, y; with low and high: error bars
-    band,   ///< x, low, high; y is empty
-    bars,   ///< x, y from 0; with low and high: error bars
-    spans   ///< stretches of the axis from x to y, marked over the whole height
-};
-
-/// NaN in y, low or high leaves a gap.
-struct FigureSeries {
-    std::string name; ///< for the legend; empty: not in it
-    SeriesKind kind = SeriesKind::line;
-    std::vector<double> x;
-    std::vector<double> y;    ///< as many as x; of a band: empty
-    std::vector<double> low;  ///< as many as x, or empty
-    std::vector<double> high; ///< as many as x, or empty
-};
-
 /// To which part of the page a figure belongs.
 enum class FigurePlace { verdict, data, baseline, wrong, candidates, unexplained, gain, next_test };
 
-/// A figure as data; who shows it draws it.
-struct Figure {
+struct DiagnosisFigure : Figure {
     FigurePlace place = FigurePlace::wrong;
-    std::string title;
-    std::string caption;
-    std::string x_label; ///< with unit: "time [s]"
-    std::string y_label;
-    bool x_log = false;
-    bool y_log = false;
-    std::vector<std::string> x_ticks; ///< names instead of numbers, at x = 0, 1, 2, ...; empty: numbers
-    std::vector<FigureSeries> series;
 };
 
 struct Diagnosis {
@@ -253,7 +228,7 @@ struct Diagnosis {
     std::vector<Missing> missing;
     std::vector<std::string> method; ///< in short: one paragraph each
     DiagnosisCost cost;
-    std::vector<Figure> figures;
+    std::vector<DiagnosisFigure> figures;
 };
 
 /// Words of the file, the JSON object and the pages.

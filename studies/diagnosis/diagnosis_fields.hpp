@@ -172,18 +172,25 @@ void visit_fields(std::type_identity<FigureSeries>, F f)
     f("high", &FigureSeries::high);
 }
 
-template <class F>
-void visit_fields(std::type_identity<Figure>, F f)
+/// A field of the figure itself, as one of the diagnosis' figure.
+template <class Field>
+constexpr auto of_figure(Field Figure::*field)
 {
-    f("place", &Figure::place);
-    f("title", &Figure::title);
-    f("caption", &Figure::caption);
-    f("x_label", &Figure::x_label);
-    f("y_label", &Figure::y_label);
-    f("x_log", &Figure::x_log);
-    f("y_log", &Figure::y_log);
-    f("x_ticks", &Figure::x_ticks);
-    f("series", &Figure::series);
+    return static_cast<Field DiagnosisFigure::*>(field);
+}
+
+template <class F>
+void visit_fields(std::type_identity<DiagnosisFigure>, F f)
+{
+    f("place", &DiagnosisFigure::place);
+    f("title", of_figure(&Figure::title));
+    f("caption", of_figure(&Figure::caption));
+    f("x_label", of_figure(&Figure::x_label));
+    f("y_label", of_figure(&Figure::y_label));
+    f("x_log", of_figure(&Figure::x_log));
+    f("y_log", of_figure(&Figure::y_log));
+    f("x_ticks", of_figure(&Figure::x_ticks));
+    f("series", of_figure(&Figure::series));
 }
 
 template <class F>

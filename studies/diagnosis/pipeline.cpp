@@ -86,9 +86,9 @@ std::string size_text(const Candidate& c)
 }
 
 /// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
-Figure candidates_figure(const std::vector<Candidate>& candidates)
+DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
 {
-    Figure figure;
+    DiagnosisFigure figure;
     figure.place = FigurePlace::candidates;
     figure.title = "What each cause would explain, and what chance would";
     figure.caption =
@@ -139,9 +139,9 @@ CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Stu
 }
 
 /// What sliding joints say of friction, sample by sample.
-std::optional<Figure> friction_figure(const BalanceEvidence& balance, const Campaign& campaign)
+std::optional<DiagnosisFigure> friction_figure(const BalanceEvidence& balance, const Campaign& campaign)
 {
-    Figure figure;
+    DiagnosisFigure figure;
     figure.place = FigurePlace::data;
     figure.title = "Friction of the joints that slide, from the balance of forces";
     figure.caption =
@@ -170,9 +170,9 @@ std::optional<Figure> friction_figure(const BalanceEvidence& balance, const Camp
 }
 
 /// Where the joints turn that rock, sample by sample.
-std::optional<Figure> turning_figure(const BalanceEvidence& balance)
+std::optional<DiagnosisFigure> turning_figure(const BalanceEvidence& balance)
 {
-    Figure figure;
+    DiagnosisFigure figure;
     figure.place = FigurePlace::data;
     figure.title = "Where rocking joints carry, from the balance of forces";
     figure.caption =

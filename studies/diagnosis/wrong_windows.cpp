@@ -106,9 +106,9 @@ Unit unit_of(BlockCoordinate coordinate, double largest)
 }
 
 /// One coordinate of a block about its worst window: what was seen with its noise, what the baseline makes of it.
-Figure curve_figure(const Stretch& stretch, const std::string& run, BlockCoordinate coordinate,
-                    const std::vector<std::size_t>& windows, const std::vector<WindowPlace>& places,
-                    const std::vector<WindowCurve>& curves, const Excess& excess)
+DiagnosisFigure curve_figure(const Stretch& stretch, const std::string& run, BlockCoordinate coordinate,
+                             const std::vector<std::size_t>& windows, const std::vector<WindowPlace>& places,
+                             const std::vector<WindowCurve>& curves, const Excess& excess)
 {
     const auto c = static_cast<std::size_t>(coordinate);
     double largest = 0;
@@ -151,7 +151,7 @@ Figure curve_figure(const Stretch& stretch, const std::string& run, BlockCoordin
             wrong.y.push_back(place.end_s);
         }
     }
-    Figure figure;
+    DiagnosisFigure figure;
     figure.place = FigurePlace::wrong;
     figure.title = fmt::format("Run {}, {}, {}.", run, block_words(stretch.block),
                                coordinate == BlockCoordinate::theta ? "rotation" : "horizontal displacement");

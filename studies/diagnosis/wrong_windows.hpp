@@ -16,7 +16,7 @@ namespace stylobate {
 struct WrongWindows {
     std::vector<WrongStretch> stretches; ///< worst first
     /// Measured and simulated x and rotation over each other, about the worst windows of the worst runs.
-    std::vector<Figure> figures;
+    std::vector<DiagnosisFigure> figures;
 };
 
 /// Where the baseline is off by more than noise and a lag of some milliseconds make.

@@ -1,0 +1,39 @@
+#pragma once
+/// A figure as plain data: `html_figure.hpp` draws it.
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+enum class SeriesKind {
+    line,   ///< x, y; with low and high: a band about it
+    points, ///< x, y; with low and high: error bars
+    band,   ///< x, low, high; y is empty
+    bars,   ///< x, y from 0; with low and high: error bars
+    spans   ///< stretches of the axis from x to y, marked over the whole height
+};
+
+/// NaN in y, low or high leaves a gap.
+struct FigureSeries {
+    std::string name; ///< for the legend; empty: not in it
+    SeriesKind kind = SeriesKind::line;
+    std::vector<double> x;
+    std::vector<double> y;    ///< as many as x; of a band: empty
+    std::vector<double> low;  ///< as many as x, or empty
+    std::vector<double> high; ///< as many as x, or empty
+};
+
+/// A figure as data; who shows it draws it.
+struct Figure {
+    std::string title;
+    std::string caption;
+    std::string x_label; ///< with unit: "time [s]"
+    std::string y_label;
+    bool x_log = false;
+    bool y_log = false;
+    std::vector<std::string> x_ticks; ///< names instead of numbers, at x = 0, 1, 2, ...; empty: numbers
+    std::vector<FigureSeries> series;
+};
+
+} // namespace stylobate
