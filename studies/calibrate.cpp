@@ -12,8 +12,8 @@
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/fingerprint.hpp"
-#include "studies/json.hpp"
 #include "studies/output_path.hpp"
+#include "studies/report/json.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

@@ -12,10 +12,10 @@
 #include "studies/file_kind.hpp"
 #include "studies/fragility/exchange.hpp"
 #include "studies/fragility/fragility_text.hpp"
-#include "studies/json.hpp"
 #include "studies/limit_state.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/output_path.hpp"
+#include "studies/report/json.hpp"
 #include "studies/result_picture.hpp"
 #include "studies/twins/twins_text.hpp"
 

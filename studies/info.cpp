@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "studies/command.hpp"
 #include "studies/info_file.hpp"
-#include "studies/json.hpp"
+#include "studies/report/json.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

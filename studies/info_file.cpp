@@ -14,8 +14,8 @@
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
 #include "studies/file_kind.hpp"
-#include "studies/json.hpp"
 #include "studies/loaded_study.hpp"
+#include "studies/report/json.hpp"
 #include "studies/report_study.hpp"
 
 #include <fmt/format.h>

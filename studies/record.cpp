@@ -5,7 +5,7 @@
 #include "io/motion/ground_motion.hpp"
 #include "studies/command.hpp"
 #include "studies/file_kind.hpp"
-#include "studies/json.hpp"
+#include "studies/report/json.hpp"
 
 #include <fmt/format.h>
 

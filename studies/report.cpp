@@ -8,9 +8,9 @@
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "studies/file_kind.hpp"
-#include "studies/json.hpp"
 #include "studies/loaded_study.hpp"
 #include "studies/output_path.hpp"
+#include "studies/report/json.hpp"
 #include "studies/result_picture.hpp"
 
 #include <fmt/format.h>

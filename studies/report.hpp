@@ -5,7 +5,7 @@
 #include "studies/command.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis.hpp"
-#include "studies/html.hpp"
+#include "studies/report/html.hpp"
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "studies/console.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
-#include "studies/html_figure.hpp"
 #include "studies/report.hpp"
+#include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 /// The page of a diagnosis.
 
 #include "studies/diagnosis/diagnosis_words.hpp"
-#include "studies/html_figure.hpp"
 #include "studies/report.hpp"
+#include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/html.hpp"
+#include "studies/report/html.hpp"
 
 #include <string>
 #include <utility>

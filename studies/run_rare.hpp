@@ -9,9 +9,9 @@
 #include "ensemble/engine/executor.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/rare_table.hpp"
-#include "studies/html.hpp"
-#include "studies/json.hpp"
 #include "studies/loaded_study.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/json.hpp"
 
 #include <functional>
 #include <string>

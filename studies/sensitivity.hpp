@@ -12,8 +12,8 @@
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/sensitivity_table.hpp"
-#include "studies/html.hpp"
-#include "studies/json.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/json.hpp"
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 #include "bench/peers/table.hpp"
 
-#include "studies/json.hpp"
+#include "studies/report/json.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 /// A diagnosis for other programs.
 
 #include "studies/diagnosis/diagnosis.hpp"
-#include "studies/json.hpp"
+#include "studies/report/json.hpp"
 
 namespace stylobate {
 

@@ -2,8 +2,8 @@
 /// A fragility study in words, as JSON, as a section of a page, and as a picture.
 
 #include "studies/fragility/fragility.hpp"
-#include "studies/html.hpp"
-#include "studies/json.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/json.hpp"
 
 #include <filesystem>
 #include <functional>

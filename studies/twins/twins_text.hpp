@@ -1,8 +1,8 @@
 #pragma once
 /// A surface with twins in words, as JSON, as a section of a page, as tables and as pictures.
 
-#include "studies/html.hpp"
-#include "studies/json.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/json.hpp"
 #include "studies/twins/twins.hpp"
 
 #include <filesystem>

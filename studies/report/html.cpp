@@ -1,4 +1,4 @@
-#include "studies/html.hpp"
+#include "studies/report/html.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/utf8.hpp"

@@ -1,4 +1,4 @@
-#include "studies/html_figure.hpp"
+#include "studies/report/html_figure.hpp"
 
 #include "io/files/utf8.hpp"
 

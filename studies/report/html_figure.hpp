@@ -1,8 +1,8 @@
 #pragma once
 /// Figures of a page, drawn as SVG.
 
-#include "studies/figure.hpp"
-#include "studies/html.hpp"
+#include "studies/report/figure.hpp"
+#include "studies/report/html.hpp"
 
 #include <optional>
 
