@@ -10,11 +10,11 @@
 #include "studies/console.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
+#include "studies/experiment/version.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/fingerprint.hpp"
 #include "studies/output_path.hpp"
 #include "studies/report/json.hpp"
-#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

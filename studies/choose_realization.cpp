@@ -4,7 +4,7 @@
 #include "ensemble/model/motion_set.hpp"
 #include "io/files/suggest.hpp"
 #include "io/plots/plot_axis.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <fmt/format.h>
 

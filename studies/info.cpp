@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/command.hpp"
+#include "studies/experiment/version.hpp"
 #include "studies/info_file.hpp"
 #include "studies/report/json.hpp"
-#include "studies/version.hpp"
 
 #include <fmt/format.h>
 #include <tbb/info.h>

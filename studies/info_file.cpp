@@ -13,8 +13,8 @@
 #include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/diagnosis_file.hpp"
 #include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/experiment/loaded_study.hpp"
 #include "studies/file_kind.hpp"
-#include "studies/loaded_study.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report_study.hpp"
 

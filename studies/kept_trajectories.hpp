@@ -1,7 +1,7 @@
 #pragma once
 /// Which trajectories a single study keeps, and how large they will be, before anything runs.
 
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <cstdint>
 #include <string>

@@ -4,13 +4,13 @@
 #include "io/store/result_layout.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/command.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/trajectory.hpp"
+#include "studies/experiment/version.hpp"
 #include "studies/file_kind.hpp"
-#include "studies/loaded_study.hpp"
 #include "studies/output_path.hpp"
 #include "studies/report/json.hpp"
 #include "studies/result_picture.hpp"
-#include "studies/trajectory.hpp"
-#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include "io/plots/plot_order.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/trajectory.hpp"
 #include "studies/surface.hpp"
-#include "studies/trajectory.hpp"
 
 #include <fmt/format.h>
 

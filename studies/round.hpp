@@ -2,8 +2,8 @@
 /// One of several rounds of a run: the realizations that have not been run before, told as a part of the whole.
 
 #include "ensemble/engine/executor.hpp"
-#include "studies/loaded_study.hpp"
-#include "studies/trajectory.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/trajectory.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/estimators/surface/adaptive.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <functional>
 #include <optional>

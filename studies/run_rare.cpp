@@ -1,8 +1,8 @@
 #include "studies/run_rare.hpp"
 
 #include "ensemble/estimators/rare/subset_simulation.hpp"
+#include "studies/experiment/trajectory.hpp"
 #include "studies/round.hpp"
-#include "studies/trajectory.hpp"
 
 #include <fmt/format.h>
 

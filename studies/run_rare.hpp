@@ -9,7 +9,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/rare_table.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 

@@ -1,8 +1,8 @@
 #include "studies/run_twins.hpp"
 
 #include "ensemble/replicas/twins.hpp"
+#include "studies/experiment/trajectory.hpp"
 #include "studies/round.hpp"
-#include "studies/trajectory.hpp"
 
 #include <numeric>
 

@@ -4,7 +4,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/followed_twin.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <functional>
 #include <vector>

@@ -5,8 +5,8 @@
 #include "ensemble/numerics/random.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/block_names.hpp"
-#include "studies/trajectory.hpp"
+#include "studies/experiment/block_names.hpp"
+#include "studies/experiment/trajectory.hpp"
 #include "tests/ensemble_run.hpp"
 
 #include <gtest/gtest.h>

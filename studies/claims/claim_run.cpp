@@ -3,9 +3,9 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/trajectory.hpp"
 #include "studies/surface.hpp"
-#include "studies/trajectory.hpp"
 
 #include <fmt/format.h>
 

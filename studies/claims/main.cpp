@@ -8,7 +8,7 @@
 #include "studies/claims/claim_run.hpp"
 #include "studies/command.hpp"
 #include "studies/console.hpp"
-#include "studies/version.hpp"
+#include "studies/experiment/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

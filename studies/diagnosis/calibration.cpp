@@ -9,7 +9,7 @@
 #include "studies/diagnosis/calibration_search.hpp"
 #include "studies/diagnosis/friction_judgement.hpp"
 #include "studies/diagnosis/kept_evidence.hpp"
-#include "studies/version.hpp"
+#include "studies/experiment/version.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include "studies/diagnosis/prediction.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 #include "studies/diagnosis/wrong_windows.hpp"
-#include "studies/version.hpp"
+#include "studies/experiment/version.hpp"
 
 #include <fmt/format.h>
 

@@ -10,10 +10,10 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "studies/command.hpp"
+#include "studies/experiment/version.hpp"
 #include "studies/measured/boulder_data.hpp"
 #include "studies/measured/double_pulse.hpp"
 #include "studies/measured/page_case.hpp"
-#include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

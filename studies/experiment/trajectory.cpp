@@ -1,8 +1,8 @@
-#include "studies/trajectory.hpp"
+#include "studies/experiment/trajectory.hpp"
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/replicas/twins.hpp"
-#include "studies/block_names.hpp"
+#include "studies/experiment/block_names.hpp"
 
 #include <cmath>
 

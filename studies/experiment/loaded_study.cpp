@@ -1,4 +1,4 @@
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/measured/base_table.hpp"
@@ -7,10 +7,10 @@
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
-#include "studies/block_names.hpp"
+#include "studies/experiment/block_names.hpp"
+#include "studies/experiment/version.hpp"
 #include "studies/fragility/motions.hpp"
 #include "studies/limit_state.hpp"
-#include "studies/version.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "studies/block_names.hpp"
+#include "studies/experiment/block_names.hpp"
 
 #include "ensemble/model/structure.hpp"
 

@@ -5,7 +5,7 @@
 #include "ensemble/model/realization.hpp"
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
-#include "studies/loaded_study.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <cstdint>
 
