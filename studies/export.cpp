@@ -13,7 +13,7 @@
 #include "studies/file_kind.hpp"
 #include "studies/fragility/exchange.hpp"
 #include "studies/fragility/fragility_text.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 #include "studies/output_path.hpp"
 #include "studies/report/json.hpp"
 #include "studies/result_picture.hpp"

@@ -4,7 +4,7 @@
 #include "io/files/suggest.hpp"
 #include "studies/command.hpp"
 #include "studies/experiment/version.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include "io/plots/plot_surface.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/fragility/fragility_text.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 #include "studies/report.hpp"
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"

@@ -3,7 +3,7 @@
 
 #include "io/store/result_store.hpp"
 #include "studies/command.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 
 #include <cstdint>
 #include <filesystem>

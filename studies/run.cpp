@@ -13,7 +13,7 @@
 #include "studies/file_kind.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/kept_trajectories.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 #include "studies/report/json.hpp"
 #include "studies/run_adaptive.hpp"
 #include "studies/run_counted.hpp"

@@ -1,7 +1,7 @@
 #include "studies/run_adaptive.hpp"
 
 #include "studies/experiment/trajectory.hpp"
-#include "studies/round.hpp"
+#include "studies/kinds/round.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "studies/experiment/loaded_study.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/rare/subset_simulation.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/round.hpp"
+#include "studies/kinds/round.hpp"
 
 #include <fmt/format.h>
 

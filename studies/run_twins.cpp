@@ -2,7 +2,7 @@
 
 #include "ensemble/replicas/twins.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/round.hpp"
+#include "studies/kinds/round.hpp"
 
 #include <numeric>
 

@@ -5,7 +5,7 @@
 
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 #include "studies/surface.hpp"
 
 #include <random>

@@ -2,7 +2,7 @@
 
 #include "program.hpp"
 #include "studies/console.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 #include "studies/surface.hpp"
 
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "studies/experiment/block_names.hpp"
 #include "studies/experiment/version.hpp"
 #include "studies/fragility/motions.hpp"
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "studies/limit_state.hpp"
+#include "studies/kinds/limit_state.hpp"
 
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/numerics/interval.hpp"
