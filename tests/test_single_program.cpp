@@ -5,7 +5,7 @@
 
 #include "io/store/result_store.hpp"
 #include "studies/console.hpp"
-#include "studies/kept_trajectories.hpp"
+#include "studies/kinds/single/kept_trajectories.hpp"
 
 namespace stylobate {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/kept_trajectories.hpp"
+#include "studies/kinds/single/kept_trajectories.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
