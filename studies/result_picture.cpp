@@ -8,7 +8,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/surface.hpp"
+#include "studies/kinds/surface/surface.hpp"
 
 #include <fmt/format.h>
 

@@ -248,7 +248,7 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("kernels/step.hpp", "Eigen/Dense"), "");
     EXPECT_NE(breach("kernels/step.hpp", "fstream"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study/study_file.hpp"), "");
-    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/surface.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/kinds/surface/surface.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
     EXPECT_NE(breach("io/records/record.cpp", "ensemble/engine/executor.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "kernels/step.hpp"), "");

@@ -3,7 +3,7 @@
 #include "program.hpp"
 #include "studies/console.hpp"
 #include "studies/kinds/limit_state.hpp"
-#include "studies/surface.hpp"
+#include "studies/kinds/surface/surface.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "studies/surface.hpp"
+#include "studies/kinds/surface/surface.hpp"
 
 namespace stylobate {
 

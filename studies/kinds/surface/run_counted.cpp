@@ -1,8 +1,8 @@
-#include "studies/run_counted.hpp"
+#include "studies/kinds/surface/run_counted.hpp"
 
 #include "io/store/tally_store.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/surface.hpp"
+#include "studies/kinds/surface/surface.hpp"
 
 namespace stylobate {
 
