@@ -1,4 +1,4 @@
-#include "studies/run_adaptive.hpp"
+#include "studies/kinds/adaptive/run_adaptive.hpp"
 
 #include "studies/experiment/trajectory.hpp"
 #include "studies/kinds/round.hpp"
