@@ -1,7 +1,7 @@
 /// What is told and drawn of indices: columns that do not collide, too few samples, bars that are not cut.
 
 #include "io/plots/plot_sensitivity.hpp"
-#include "studies/sensitivity.hpp"
+#include "studies/kinds/sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "studies/sensitivity.hpp"
+#include "studies/kinds/sensitivity/sensitivity.hpp"
 
 #include "ensemble/estimators/sensitivity/elementary_effects.hpp"
 #include "ensemble/estimators/sensitivity/sobol_indices.hpp"

@@ -1,6 +1,6 @@
 /// What a sensitivity study found, in words, as JSON and as a page.
 
-#include "studies/sensitivity.hpp"
+#include "studies/kinds/sensitivity/sensitivity.hpp"
 
 #include "io/plots/plot_surface.hpp"
 
