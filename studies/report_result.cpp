@@ -10,11 +10,11 @@
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/kinds/adaptive/run_adaptive.hpp"
 #include "studies/kinds/limit_state.hpp"
+#include "studies/kinds/rare/run_rare.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 #include "studies/report.hpp"
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"
-#include "studies/run_rare.hpp"
 #include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>

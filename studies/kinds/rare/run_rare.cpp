@@ -1,4 +1,4 @@
-#include "studies/run_rare.hpp"
+#include "studies/kinds/rare/run_rare.hpp"
 
 #include "ensemble/estimators/rare/subset_simulation.hpp"
 #include "studies/experiment/trajectory.hpp"
