@@ -14,10 +14,10 @@
 #include "studies/fragility/exchange.hpp"
 #include "studies/fragility/fragility_text.hpp"
 #include "studies/kinds/limit_state.hpp"
+#include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/output_path.hpp"
 #include "studies/report/json.hpp"
 #include "studies/result_picture.hpp"
-#include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>
 

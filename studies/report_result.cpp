@@ -11,11 +11,11 @@
 #include "studies/kinds/adaptive/run_adaptive.hpp"
 #include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/rare/run_rare.hpp"
+#include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 #include "studies/report.hpp"
 #include "studies/report_study.hpp"
 #include "studies/result_picture.hpp"
-#include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>
 

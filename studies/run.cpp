@@ -15,13 +15,13 @@
 #include "studies/kinds/adaptive/run_adaptive.hpp"
 #include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/rare/run_rare.hpp"
+#include "studies/kinds/replicas/run_twins.hpp"
+#include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 #include "studies/kinds/single/kept_trajectories.hpp"
 #include "studies/kinds/surface/run_counted.hpp"
 #include "studies/kinds/surface/surface.hpp"
 #include "studies/report/json.hpp"
-#include "studies/run_twins.hpp"
-#include "studies/twins/twins_text.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

@@ -6,7 +6,7 @@
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/twins/flips.hpp"
+#include "studies/kinds/replicas/flips.hpp"
 #include "tests/outcome_bits.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "studies/twins/twins_text.hpp"
+#include "studies/kinds/replicas/twins_text.hpp"
 
 #include "io/files/atomic_file.hpp"
 

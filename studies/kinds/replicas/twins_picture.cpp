@@ -1,6 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "studies/twins/twins_text.hpp"
+#include "studies/kinds/replicas/twins_text.hpp"
 
 #include <fmt/format.h>
 

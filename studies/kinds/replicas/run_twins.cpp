@@ -1,4 +1,4 @@
-#include "studies/run_twins.hpp"
+#include "studies/kinds/replicas/run_twins.hpp"
 
 #include "ensemble/replicas/twins.hpp"
 #include "studies/experiment/trajectory.hpp"

@@ -1,4 +1,4 @@
-#include "studies/twins/twins.hpp"
+#include "studies/kinds/replicas/twins.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"

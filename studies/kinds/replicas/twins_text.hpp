@@ -1,9 +1,9 @@
 #pragma once
 /// A surface with twins in words, as JSON, as a section of a page, as tables and as pictures.
 
+#include "studies/kinds/replicas/twins.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
-#include "studies/twins/twins.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/twins/flips.hpp"
+#include "studies/kinds/replicas/flips.hpp"
 
 #include <array>
 #include <cstdint>

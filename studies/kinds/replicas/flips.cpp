@@ -1,4 +1,4 @@
-#include "studies/twins/flips.hpp"
+#include "studies/kinds/replicas/flips.hpp"
 
 #include "ensemble/numerics/interval.hpp"
 
