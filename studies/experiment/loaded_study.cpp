@@ -9,7 +9,7 @@
 #include "io/study/study_names.hpp"
 #include "studies/experiment/block_names.hpp"
 #include "studies/experiment/version.hpp"
-#include "studies/fragility/motions.hpp"
+#include "studies/kinds/fragility/motions.hpp"
 #include "studies/kinds/limit_state.hpp"
 
 #include <fmt/format.h>

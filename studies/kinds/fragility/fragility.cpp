@@ -1,4 +1,4 @@
-#include "studies/fragility/fragility.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"

@@ -1,4 +1,4 @@
-#include "studies/fragility/damage.hpp"
+#include "studies/kinds/fragility/damage.hpp"
 
 #include <fmt/format.h>
 

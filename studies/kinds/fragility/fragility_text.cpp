@@ -1,4 +1,4 @@
-#include "studies/fragility/fragility_text.hpp"
+#include "studies/kinds/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// A fragility study as functions for other tools.
 
 #include "ensemble/estimators/fragility/fragility_model.hpp"
-#include "studies/fragility/fragility.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <filesystem>
 #include <string>

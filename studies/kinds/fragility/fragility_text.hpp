@@ -1,7 +1,7 @@
 #pragma once
 /// A fragility study in words, as JSON, as a section of a page, and as a picture.
 
-#include "studies/fragility/fragility.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/fragility/exchange.hpp"
+#include "studies/kinds/fragility/exchange.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"

@@ -1,6 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "studies/fragility/fragility_text.hpp"
+#include "studies/kinds/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/fragility/damage.hpp"
+#include "studies/kinds/fragility/damage.hpp"
 
 #include <cstdint>
 #include <optional>
