@@ -6,7 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/console.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
-#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/output_path.hpp"

@@ -4,7 +4,7 @@
 #include "io/store/result_store.hpp"
 #include "studies/command.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/report/html.hpp"
 
 #include <string>

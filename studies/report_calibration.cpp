@@ -1,7 +1,7 @@
 /// The page of a calibration.
 
 #include "studies/console.hpp"
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report.hpp"
 #include "studies/report/html_figure.hpp"
 

@@ -1,6 +1,6 @@
 /// The page of a diagnosis.
 
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report.hpp"
 #include "studies/report/html_figure.hpp"
 

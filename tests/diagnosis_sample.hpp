@@ -1,7 +1,7 @@
 #pragma once
 /// A diagnosis with something in every field, and hard characters in its texts. Its numbers are made up.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <cmath>
 #include <limits>

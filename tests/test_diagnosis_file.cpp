@@ -1,8 +1,8 @@
 /// The file of a diagnosis: what is written is read, whole or not at all, and nothing damaged is believed.
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/diagnosis/diagnosis_fields.hpp"
-#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_fields.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/diagnosis_sample.hpp"
 #include "tests/result_samples.hpp"
 

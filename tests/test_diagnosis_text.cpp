@@ -1,8 +1,8 @@
 /// A diagnosis as JSON and as a page of text.
 
-#include "studies/diagnosis/diagnosis_json.hpp"
-#include "studies/diagnosis/diagnosis_text.hpp"
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "tests/diagnosis_sample.hpp"
 #include "tests/json.hpp"
 

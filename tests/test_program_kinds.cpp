@@ -4,7 +4,7 @@
 
 #include "io/measured/measured_file.hpp"
 #include "studies/diagnosis/calibration_file.hpp"
-#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/calibration_sample.hpp"
 #include "tests/diagnosis_sample.hpp"
 #include "tests/measured_samples.hpp"

@@ -1,6 +1,6 @@
 /// `stylobate report`, as its user runs it.
 
-#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/diagnosis_sample.hpp"
 #include "tests/program.hpp"
 

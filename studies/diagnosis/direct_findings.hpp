@@ -2,7 +2,7 @@
 /// How direct tests tell what they found.
 
 #include "studies/diagnosis/balance_fit.hpp"
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <string>
 

@@ -8,7 +8,7 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/balance_fit.hpp"
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/track.hpp"
 
 #include <vector>

@@ -4,7 +4,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/chance.hpp"
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/diagnosis/friction_judgement.hpp"
 #include "studies/diagnosis/prediction.hpp"
 #include "studies/diagnosis/window_evidence.hpp"

@@ -6,7 +6,7 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/diagnosis/decision.hpp"
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,7 @@
 
 #include "ensemble/numerics/random.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/diagnosis/virtual_campaign.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 

@@ -8,7 +8,7 @@
 #include "ensemble/model/study.hpp"
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/decision.hpp"
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/track.hpp"
 
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
 

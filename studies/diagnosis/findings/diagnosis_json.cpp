@@ -1,6 +1,6 @@
-#include "studies/diagnosis/diagnosis_json.hpp"
+#include "studies/diagnosis/findings/diagnosis_json.hpp"
 
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 #pragma once
 /// The file of a diagnosis (HDF5). `io/FORMAT.md` describes it.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <filesystem>
 

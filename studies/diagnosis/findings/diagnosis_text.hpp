@@ -1,7 +1,7 @@
 #pragma once
 /// A diagnosis as a page of plain text.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <string>
 

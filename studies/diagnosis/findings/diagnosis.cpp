@@ -1,4 +1,4 @@
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <algorithm>
 

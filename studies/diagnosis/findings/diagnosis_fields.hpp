@@ -3,7 +3,7 @@
 ///
 /// `visit_fields(std::type_identity<T>(), f)` calls f(name, &T::field) for each field of T, in the order of the file.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <type_traits>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A diagnosis for other programs.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/report/json.hpp"
 
 namespace stylobate {

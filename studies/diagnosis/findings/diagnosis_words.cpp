@@ -1,4 +1,4 @@
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include "ensemble/model/mechanism_spec.hpp"
 

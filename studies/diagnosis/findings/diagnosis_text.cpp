@@ -1,7 +1,7 @@
-#include "studies/diagnosis/diagnosis_text.hpp"
+#include "studies/diagnosis/findings/diagnosis_text.hpp"
 
 #include "io/files/utf8.hpp"
-#include "studies/diagnosis/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A diagnosis in words: what its page, its text and its headings say alike.
 
-#include "studies/diagnosis/diagnosis.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <string>
 

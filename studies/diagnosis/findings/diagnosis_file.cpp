@@ -1,11 +1,11 @@
-#include "studies/diagnosis/diagnosis_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_handle.hpp"
 #include "io/files/hdf5.hpp"
 #include "io/store/result_seal.hpp"
-#include "studies/diagnosis/diagnosis_fields.hpp"
+#include "studies/diagnosis/findings/diagnosis_fields.hpp"
 
 #include <cmath>
 #include <limits>
