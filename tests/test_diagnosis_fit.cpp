@@ -1,7 +1,7 @@
 /// Smoothing by local cubics and the robust regression of the diagnosis, against what mathematics says of them.
 
-#include "studies/diagnosis/robust_fit.hpp"
-#include "studies/diagnosis/smoothing.hpp"
+#include "studies/diagnosis/laws/robust_fit.hpp"
+#include "studies/diagnosis/laws/smoothing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "formula_motions.hpp"
 
-#include "studies/diagnosis/law_samples.hpp"
+#include "studies/diagnosis/laws/law_samples.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/cause_model.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/pipeline.hpp"
-#include "studies/diagnosis/track.hpp"
 
 #include <gtest/gtest.h>
 

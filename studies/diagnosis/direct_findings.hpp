@@ -1,8 +1,8 @@
 #pragma once
 /// How direct tests tell what they found.
 
-#include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
+#include "studies/diagnosis/laws/balance_fit.hpp"
 
 #include <string>
 

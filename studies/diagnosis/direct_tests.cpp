@@ -1,8 +1,8 @@
 #include "studies/diagnosis/direct_tests.hpp"
 
 #include "studies/diagnosis/direct_findings.hpp"
+#include "studies/diagnosis/laws/ride.hpp"
 #include "studies/diagnosis/rest_tests.hpp"
-#include "studies/diagnosis/ride.hpp"
 #include "studies/diagnosis/vertical_test.hpp"
 
 #include <fmt/format.h>

@@ -7,9 +7,9 @@
 /// rest (wedges, offsets of drums) is seen at once, too.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/balance_fit.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <vector>
 

@@ -13,8 +13,8 @@
 /// `docs/calibration.md`. Where the interval is wide, or rests on too few windows, the friction is not determined.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/law_samples.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/law_samples.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <cstddef>
 #include <limits>

@@ -9,7 +9,7 @@
 #include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/decision.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <optional>
 #include <string>

@@ -9,7 +9,7 @@
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 /// motion, as no harmonic of the shaking or of the rocking does.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/ride.hpp"
+#include "studies/diagnosis/laws/ride.hpp"
 
 namespace stylobate {
 

@@ -8,10 +8,10 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/balance_fit.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
 #include "studies/diagnosis/cause_model.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/balance_fit.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <cstdint>
 #include <string>

@@ -2,8 +2,8 @@
 /// The parts of runs in which the lowest block, or the table itself, rides on the base: what direct tests look at.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/robust_fit.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/robust_fit.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <algorithm>
 #include <cmath>

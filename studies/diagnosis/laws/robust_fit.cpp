@@ -1,4 +1,4 @@
-#include "studies/diagnosis/robust_fit.hpp"
+#include "studies/diagnosis/laws/robust_fit.hpp"
 
 #include <Eigen/Cholesky>
 

@@ -3,7 +3,7 @@
 /// half widths, and the time scales and thresholds that the specimen's size and the cameras' noise set.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/smoothing.hpp"
+#include "studies/diagnosis/laws/smoothing.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/smoothing.hpp"
+#include "studies/diagnosis/laws/smoothing.hpp"
 
 #include <Eigen/Dense>
 

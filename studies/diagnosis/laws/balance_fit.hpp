@@ -6,7 +6,7 @@
 /// with what varies from specimen to specimen anyway beside it: the common friction, each joint's own, how far inside
 /// the corners the blocks turn (contacts are not rigid), each joint's own, the blocks' centres of mass.
 
-#include "studies/diagnosis/law_samples.hpp"
+#include "studies/diagnosis/laws/law_samples.hpp"
 
 #include <limits>
 #include <optional>

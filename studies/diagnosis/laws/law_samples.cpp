@@ -1,4 +1,4 @@
-#include "studies/diagnosis/law_samples.hpp"
+#include "studies/diagnosis/laws/law_samples.hpp"
 
 #include <Eigen/Dense>
 

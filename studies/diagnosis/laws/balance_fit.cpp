@@ -1,6 +1,6 @@
-#include "studies/diagnosis/balance_fit.hpp"
+#include "studies/diagnosis/laws/balance_fit.hpp"
 
-#include "studies/diagnosis/robust_fit.hpp"
+#include "studies/diagnosis/laws/robust_fit.hpp"
 
 #include <fmt/format.h>
 

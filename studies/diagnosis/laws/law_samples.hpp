@@ -13,7 +13,7 @@
 /// No contact stiffness and no damping enters, and no simulation: nothing here is chaotic, and the noise is known.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include <vector>
 

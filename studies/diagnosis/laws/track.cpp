@@ -1,4 +1,4 @@
-#include "studies/diagnosis/track.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/ride.hpp"
+#include "studies/diagnosis/laws/ride.hpp"
 
 #include <fmt/format.h>
 
