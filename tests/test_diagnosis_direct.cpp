@@ -2,7 +2,7 @@
 
 #include "measured_samples.hpp"
 
-#include "studies/diagnosis/direct_tests.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "formula_motions.hpp"
 
-#include "studies/diagnosis/friction_judgement.hpp"
+#include "studies/diagnosis/tests/friction_judgement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "io/study/study_names.hpp"
 #include "studies/diagnosis/calibration_evidence.hpp"
 #include "studies/diagnosis/calibration_search.hpp"
-#include "studies/diagnosis/friction_judgement.hpp"
 #include "studies/diagnosis/kept_evidence.hpp"
+#include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/experiment/version.hpp"
 
 #include <fmt/format.h>

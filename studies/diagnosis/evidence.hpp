@@ -2,9 +2,9 @@
 /// What a campaign says for each cause, by every way of looking at it, and the same of campaigns with nothing hidden.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/direct_tests.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
 #include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <map>
 #include <optional>

@@ -2,11 +2,11 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/chance.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/friction_judgement.hpp"
 #include "studies/diagnosis/prediction.hpp"
+#include "studies/diagnosis/tests/cause_model.hpp"
+#include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/diagnosis/window_evidence.hpp"
 #include "studies/diagnosis/wrong_windows.hpp"
 #include "studies/experiment/version.hpp"

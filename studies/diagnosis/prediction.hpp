@@ -6,10 +6,10 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/decision.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <optional>
 #include <string>

@@ -11,7 +11,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/cause_model.hpp"
+#include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <cstdint>
 #include <string>

@@ -9,9 +9,9 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
-#include "studies/diagnosis/cause_model.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
 #include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <cstdint>
 #include <string>

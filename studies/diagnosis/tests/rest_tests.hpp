@@ -1,7 +1,7 @@
 #pragma once
 /// What lies askew before the shaking: wedges and offsets of drums.
 
-#include "studies/diagnosis/direct_tests.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 namespace stylobate {
 

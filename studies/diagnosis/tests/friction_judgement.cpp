@@ -1,8 +1,8 @@
-#include "studies/diagnosis/friction_judgement.hpp"
+#include "studies/diagnosis/tests/friction_judgement.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/diagnosis/direct_tests.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/direct_findings.hpp"
+#include "studies/diagnosis/tests/direct_findings.hpp"
 
 #include <cmath>
 

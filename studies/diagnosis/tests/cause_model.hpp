@@ -4,8 +4,8 @@
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/diagnosis/direct_tests.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <vector>
 

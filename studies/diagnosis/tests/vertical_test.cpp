@@ -1,4 +1,4 @@
-#include "studies/diagnosis/vertical_test.hpp"
+#include "studies/diagnosis/tests/vertical_test.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
-#include "studies/diagnosis/direct_tests.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
-#include "studies/diagnosis/direct_findings.hpp"
 #include "studies/diagnosis/laws/ride.hpp"
-#include "studies/diagnosis/rest_tests.hpp"
-#include "studies/diagnosis/vertical_test.hpp"
+#include "studies/diagnosis/tests/direct_findings.hpp"
+#include "studies/diagnosis/tests/rest_tests.hpp"
+#include "studies/diagnosis/tests/vertical_test.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/cause_model.hpp"
+#include "studies/diagnosis/tests/cause_model.hpp"
 
 #include "ensemble/model/mechanism_spec.hpp"
 

@@ -1,8 +1,8 @@
-#include "studies/diagnosis/rest_tests.hpp"
+#include "studies/diagnosis/tests/rest_tests.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/tracking/following_score.hpp"
-#include "studies/diagnosis/direct_findings.hpp"
+#include "studies/diagnosis/tests/direct_findings.hpp"
 
 #include <fmt/format.h>
 
