@@ -2,7 +2,7 @@
 /// and the diagnosis says the same.
 
 #include "studies/diagnosis/calibration.hpp"
-#include "studies/diagnosis/pipeline.hpp"
+#include "studies/diagnosis/decision/pipeline.hpp"
 #include "tests/hidden/virtual_campaign.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "formula_motions.hpp"
 
-#include "studies/diagnosis/evidence.hpp"
+#include "studies/diagnosis/decision/evidence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "synthetic_campaign.hpp"
 
 #include "studies/diagnosis/calibration.hpp"
-#include "studies/diagnosis/chance.hpp"
+#include "studies/diagnosis/decision/chance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// What chance gives and the rule that names causes, on evidence that is written down here.
 
-#include "studies/diagnosis/decision.hpp"
+#include "studies/diagnosis/decision/decision.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/diagnosis/calibration.hpp"
+#include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/laws/track.hpp"
-#include "studies/diagnosis/pipeline.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
-#include "studies/diagnosis/wrong_windows.hpp"
+#include "studies/diagnosis/decision/wrong_windows.hpp"
 #include "tests/synthetic_campaign.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "studies/diagnosis/prediction.hpp"
+#include "studies/diagnosis/decision/prediction.hpp"
 
 #include "ensemble/numerics/random.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/virtual_campaign.hpp"
-#include "studies/diagnosis/window_evidence.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/decision.hpp"
+#include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <cstdint>

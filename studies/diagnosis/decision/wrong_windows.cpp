@@ -1,4 +1,4 @@
-#include "studies/diagnosis/wrong_windows.hpp"
+#include "studies/diagnosis/decision/wrong_windows.hpp"
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/calibration_windows.hpp"

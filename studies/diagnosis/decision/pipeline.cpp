@@ -1,14 +1,14 @@
-#include "studies/diagnosis/pipeline.hpp"
+#include "studies/diagnosis/decision/pipeline.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/chance.hpp"
+#include "studies/diagnosis/decision/chance.hpp"
+#include "studies/diagnosis/decision/prediction.hpp"
+#include "studies/diagnosis/decision/window_evidence.hpp"
+#include "studies/diagnosis/decision/wrong_windows.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/prediction.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
-#include "studies/diagnosis/window_evidence.hpp"
-#include "studies/diagnosis/wrong_windows.hpp"
 #include "studies/experiment/version.hpp"
 
 #include <fmt/format.h>

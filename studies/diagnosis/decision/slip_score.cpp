@@ -1,4 +1,4 @@
-#include "studies/diagnosis/slip_score.hpp"
+#include "studies/diagnosis/decision/slip_score.hpp"
 
 #include <algorithm>
 #include <cmath>

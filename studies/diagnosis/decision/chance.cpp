@@ -1,10 +1,10 @@
-#include "studies/diagnosis/chance.hpp"
+#include "studies/diagnosis/decision/chance.hpp"
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/store/result_seal.hpp"
-#include "studies/diagnosis/virtual_campaign.hpp"
-#include "studies/diagnosis/window_evidence.hpp"
+#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/experiment/version.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/virtual_campaign.hpp"
+#include "studies/diagnosis/decision/virtual_campaign.hpp"
 
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/distribution.hpp"

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/evidence.hpp"
+#include "studies/diagnosis/decision/evidence.hpp"
 
 #include <algorithm>
 #include <cmath>

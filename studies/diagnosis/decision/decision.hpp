@@ -11,7 +11,7 @@
 ///   5  If forces of no known kind explain much more than what is named, or if something is left that nothing explains
 ///      and that chance does not give, the verdict is 'unexplained'.
 
-#include "studies/diagnosis/evidence.hpp"
+#include "studies/diagnosis/decision/evidence.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/decision.hpp"
+#include "studies/diagnosis/decision/decision.hpp"
 
 #include <fmt/format.h>
 

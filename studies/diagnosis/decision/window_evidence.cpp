@@ -1,6 +1,6 @@
-#include "studies/diagnosis/window_evidence.hpp"
+#include "studies/diagnosis/decision/window_evidence.hpp"
 
-#include "studies/diagnosis/slip_score.hpp"
+#include "studies/diagnosis/decision/slip_score.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/tracking/specimen.hpp"

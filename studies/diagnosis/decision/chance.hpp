@@ -6,7 +6,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/evidence.hpp"
+#include "studies/diagnosis/decision/evidence.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
-#include "studies/diagnosis/prediction.hpp"
 
 #include <cstddef>
 #include <vector>
