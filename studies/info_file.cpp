@@ -10,7 +10,7 @@
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
-#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/calibration/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/experiment/loaded_study.hpp"

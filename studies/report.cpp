@@ -4,8 +4,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/calibration/calibration_file.hpp"
 #include "studies/console.hpp"
-#include "studies/diagnosis/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/file_kind.hpp"

@@ -2,7 +2,7 @@
 /// A calibration with something in every field, and hard characters in its texts. Its numbers are made up.
 
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 
 #include <cmath>
 #include <limits>

@@ -3,8 +3,8 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/calibration.hpp"
-#include "studies/diagnosis/calibration_surface.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/calibration/calibration_surface.hpp"
 #include "tests/synthetic_campaign.hpp"
 
 #include <fmt/format.h>

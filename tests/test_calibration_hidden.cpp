@@ -1,7 +1,7 @@
 /// Calibrations of campaigns under contact laws that the model does not have: what is said to be determined is true,
 /// and the diagnosis says the same.
 
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "tests/hidden/virtual_campaign.hpp"
 

@@ -5,8 +5,8 @@
 #include "ensemble/sampling/sampler.hpp"
 #include "io/measured/measured_outcomes.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/calibration.hpp"
-#include "studies/diagnosis/outcome_tests.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/calibration/outcome_tests.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

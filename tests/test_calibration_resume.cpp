@@ -3,7 +3,7 @@
 #include "measured_samples.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 #include "tests/synthetic_campaign.hpp"
 
 #include <gtest/gtest.h>

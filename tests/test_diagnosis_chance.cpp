@@ -3,7 +3,7 @@
 #include "measured_samples.hpp"
 #include "synthetic_campaign.hpp"
 
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/chance.hpp"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include "io/measured/base_table.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"

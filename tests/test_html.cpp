@@ -3,7 +3,7 @@
 #include "ensemble/model/collapse_criterion.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/calibration/calibration_file.hpp"
 #include "studies/report.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"

@@ -3,7 +3,7 @@
 #include "program.hpp"
 
 #include "io/measured/measured_file.hpp"
-#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/calibration/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/calibration_sample.hpp"
 #include "tests/diagnosis_sample.hpp"

@@ -1,8 +1,8 @@
 /// Where the baseline is off, and the motion that is drawn there.
 
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/diagnosis/calibration.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/wrong_windows.hpp"
 #include "tests/synthetic_campaign.hpp"
 

@@ -1,7 +1,7 @@
 #include "studies/diagnosis/decision/prediction.hpp"
 
 #include "ensemble/numerics/random.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/virtual_campaign.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"

@@ -8,7 +8,7 @@
 /// k, one for each joint, is fitted to what is scored.
 
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 
 #include <vector>

@@ -5,7 +5,7 @@
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/measured/measured_motion.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 
 #include <fmt/format.h>
 

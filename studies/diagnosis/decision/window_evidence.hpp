@@ -8,7 +8,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"

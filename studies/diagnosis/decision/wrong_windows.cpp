@@ -1,7 +1,7 @@
 #include "studies/diagnosis/decision/wrong_windows.hpp"
 
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// A calibration as an HDF5 file; `io/FORMAT.md` says what is in it.
 
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 
 #include <cstdint>
 #include <filesystem>

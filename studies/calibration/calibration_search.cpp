@@ -1,4 +1,4 @@
-#include "studies/diagnosis/calibration_search.hpp"
+#include "studies/calibration/calibration_search.hpp"
 
 #include <fmt/format.h>
 

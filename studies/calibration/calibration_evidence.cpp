@@ -1,7 +1,7 @@
-#include "studies/diagnosis/calibration_evidence.hpp"
+#include "studies/calibration/calibration_evidence.hpp"
 
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 
 #include <algorithm>
 #include <cmath>

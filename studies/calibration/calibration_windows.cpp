@@ -1,4 +1,4 @@
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/sampling/sampler.hpp"

@@ -1,13 +1,13 @@
-#include "studies/diagnosis/calibration.hpp"
+#include "studies/calibration/calibration.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
-#include "studies/diagnosis/calibration_evidence.hpp"
-#include "studies/diagnosis/calibration_search.hpp"
-#include "studies/diagnosis/kept_evidence.hpp"
+#include "studies/calibration/calibration_evidence.hpp"
+#include "studies/calibration/calibration_search.hpp"
+#include "studies/calibration/kept_evidence.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/experiment/version.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/calibration_file.hpp"
+#include "studies/calibration/calibration_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/hdf5.hpp"

@@ -4,7 +4,7 @@
 /// What costs time are the predictions; all that follows from them is done again, and has the same bits. Each portion
 /// of parameter sets is one record, with a checksum; a record that was cut, and whatever comes after it, is made anew.
 
-#include "studies/diagnosis/calibration_evidence.hpp"
+#include "studies/calibration/calibration_evidence.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #pragma once
 /// The search itself: from a scan of the whole range to a quadratic form about the best point, and profiles.
 
-#include "studies/diagnosis/calibration.hpp"
-#include "studies/diagnosis/calibration_evidence.hpp"
-#include "studies/diagnosis/calibration_surface.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/calibration/calibration_evidence.hpp"
+#include "studies/calibration/calibration_surface.hpp"
 
 #include <cstdint>
 #include <limits>

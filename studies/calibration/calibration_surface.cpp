@@ -1,4 +1,4 @@
-#include "studies/diagnosis/calibration_surface.hpp"
+#include "studies/calibration/calibration_surface.hpp"
 
 #include "ensemble/sampling/distribution.hpp"
 

@@ -5,7 +5,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/outcome_tests.hpp"
+#include "studies/calibration/outcome_tests.hpp"
 
 #include <cstdint>
 #include <memory>

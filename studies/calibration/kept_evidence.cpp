@@ -1,4 +1,4 @@
-#include "studies/diagnosis/kept_evidence.hpp"
+#include "studies/calibration/kept_evidence.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/file_handle.hpp"

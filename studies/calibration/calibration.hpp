@@ -19,7 +19,7 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/calibration_windows.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/outcome_tests.hpp"
+#include "studies/calibration/outcome_tests.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
