@@ -16,8 +16,8 @@
 #include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/output_path.hpp"
+#include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
-#include "studies/result_picture.hpp"
 
 #include <fmt/format.h>
 

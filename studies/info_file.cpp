@@ -15,8 +15,8 @@
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/file_kind.hpp"
+#include "studies/pages/report_study.hpp"
 #include "studies/report/json.hpp"
-#include "studies/report_study.hpp"
 
 #include <fmt/format.h>
 

@@ -9,8 +9,8 @@
 #include "studies/experiment/version.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/output_path.hpp"
+#include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
-#include "studies/result_picture.hpp"
 
 #include <fmt/format.h>
 

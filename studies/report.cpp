@@ -1,6 +1,6 @@
 /// `stylobate report`: a result, a diagnosis or a calibration as one page.
 
-#include "studies/report.hpp"
+#include "studies/pages/report.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
@@ -10,8 +10,8 @@
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/file_kind.hpp"
 #include "studies/output_path.hpp"
+#include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
-#include "studies/result_picture.hpp"
 
 #include <fmt/format.h>
 

@@ -4,10 +4,10 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration_file.hpp"
-#include "studies/report.hpp"
+#include "studies/pages/report.hpp"
+#include "studies/pages/report_study.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
-#include "studies/report_study.hpp"
 #include "tests/calibration_sample.hpp"
 #include "tests/diagnosis_sample.hpp"
 

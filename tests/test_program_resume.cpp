@@ -4,7 +4,7 @@
 
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
-#include "studies/result_picture.hpp"
+#include "studies/pages/result_picture.hpp"
 
 #include <cmath>
 #include <random>

@@ -13,9 +13,9 @@
 #include "studies/kinds/rare/run_rare.hpp"
 #include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
-#include "studies/report.hpp"
-#include "studies/report_study.hpp"
-#include "studies/result_picture.hpp"
+#include "studies/pages/report.hpp"
+#include "studies/pages/report_study.hpp"
+#include "studies/pages/result_picture.hpp"
 
 #include <fmt/format.h>
 

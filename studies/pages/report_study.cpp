@@ -1,4 +1,4 @@
-#include "studies/report_study.hpp"
+#include "studies/pages/report_study.hpp"
 
 #include "ensemble/model/collapse_criterion.hpp"
 #include "ensemble/model/mechanism_spec.hpp"

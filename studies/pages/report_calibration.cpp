@@ -2,7 +2,7 @@
 
 #include "studies/console.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/report.hpp"
+#include "studies/pages/report.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 /// The page of a diagnosis.
 
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/report.hpp"
+#include "studies/pages/report.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>

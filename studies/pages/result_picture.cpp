@@ -1,4 +1,4 @@
-#include "studies/result_picture.hpp"
+#include "studies/pages/result_picture.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
