@@ -253,14 +253,14 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("io/records/record.cpp", "ensemble/engine/executor.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "kernels/step.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "../ensemble/engine/executor.hpp"), "");
-    EXPECT_NE(breach("studies/run.cpp", "tests/model.hpp"), "");
-    EXPECT_NE(breach("studies/run.cpp", "hdf5.h"), "");
+    EXPECT_NE(breach("studies/app/run.cpp", "tests/model.hpp"), "");
+    EXPECT_NE(breach("studies/app/run.cpp", "hdf5.h"), "");
 
     EXPECT_EQ(breach("kernels/step.hpp", "kernels/real.hpp"), "");
     EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
     EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
-    EXPECT_EQ(breach("studies/run.cpp", "kernels/step.hpp"), "");
+    EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("tests/test_wide.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("tests/test_result_store.cpp", "hdf5.h"), "");
 }

@@ -1,7 +1,7 @@
 /// Limit states counted by hand, and what the program says and draws of them.
 
 #include "program.hpp"
-#include "studies/console.hpp"
+#include "studies/app/console.hpp"
 #include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/surface/surface.hpp"
 

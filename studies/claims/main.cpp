@@ -2,12 +2,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
 #include "studies/claims/claim_figure.hpp"
 #include "studies/claims/claim_file.hpp"
 #include "studies/claims/claim_page.hpp"
 #include "studies/claims/claim_run.hpp"
-#include "studies/command.hpp"
-#include "studies/console.hpp"
 #include "studies/experiment/version.hpp"
 
 #include <CLI/CLI.hpp>

@@ -9,7 +9,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/command.hpp"
+#include "studies/app/command.hpp"
 #include "studies/experiment/version.hpp"
 #include "studies/measured/boulder_data.hpp"
 #include "studies/measured/double_pulse.hpp"

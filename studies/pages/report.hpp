@@ -2,8 +2,8 @@
 /// The pages of `stylobate report`.
 
 #include "io/store/result_store.hpp"
+#include "studies/app/command.hpp"
 #include "studies/calibration/calibration_file.hpp"
-#include "studies/command.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/report/html.hpp"
 

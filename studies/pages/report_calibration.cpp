@@ -1,6 +1,6 @@
 /// The page of a calibration.
 
-#include "studies/console.hpp"
+#include "studies/app/console.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/pages/report.hpp"
 #include "studies/report/html_figure.hpp"

@@ -2,7 +2,7 @@
 /// The pictures of a results file: what `export` writes and `report` shows.
 
 #include "io/store/result_store.hpp"
-#include "studies/command.hpp"
+#include "studies/app/command.hpp"
 #include "studies/kinds/limit_state.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 /// What `stylobate info FILE` prints: what a file is, what it holds, and what can be done with it.
 
-#include "studies/command.hpp"
+#include "studies/app/command.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
-#include "studies/command.hpp"
+#include "studies/app/command.hpp"
 #include "studies/experiment/version.hpp"
 #include "studies/kinds/limit_state.hpp"
 

@@ -3,8 +3,8 @@
 #include "io/records/record.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/motion/ground_motion.hpp"
-#include "studies/command.hpp"
-#include "studies/file_kind.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/file_kind.hpp"
 #include "studies/report/json.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 /// `stylobate info FILE`, kind by kind.
 
-#include "studies/info_file.hpp"
+#include "studies/app/info_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
@@ -10,11 +10,11 @@
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
+#include "studies/app/file_kind.hpp"
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/experiment/loaded_study.hpp"
-#include "studies/file_kind.hpp"
 #include "studies/pages/report_study.hpp"
 #include "studies/report/json.hpp"
 

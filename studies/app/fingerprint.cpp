@@ -1,4 +1,4 @@
-#include "studies/fingerprint.hpp"
+#include "studies/app/fingerprint.hpp"
 
 #include "io/store/result_seal.hpp"
 

@@ -4,17 +4,17 @@
 #include "io/files/atomic_file.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
+#include "studies/app/file_kind.hpp"
+#include "studies/app/fingerprint.hpp"
+#include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/command.hpp"
-#include "studies/console.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_json.hpp"
 #include "studies/diagnosis/findings/diagnosis_text.hpp"
 #include "studies/diagnosis/laws/track.hpp"
-#include "studies/file_kind.hpp"
-#include "studies/fingerprint.hpp"
-#include "studies/output_path.hpp"
 
 #include <fmt/format.h>
 

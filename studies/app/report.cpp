@@ -4,12 +4,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/app/console.hpp"
+#include "studies/app/file_kind.hpp"
+#include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration_file.hpp"
-#include "studies/console.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
-#include "studies/file_kind.hpp"
-#include "studies/output_path.hpp"
 #include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
 

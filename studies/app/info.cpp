@@ -1,9 +1,9 @@
 /// `stylobate info`, and the options that say what to run on.
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/command.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/info_file.hpp"
 #include "studies/experiment/version.hpp"
-#include "studies/info_file.hpp"
 #include "studies/report/json.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "studies/output_path.hpp"
+#include "studies/app/output_path.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/console.hpp"
+#include "studies/app/console.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "kernels/isa.hpp"
-#include "studies/choose_realization.hpp"
+#include "studies/app/choose_realization.hpp"
 
 #include <string>
 #include <vector>

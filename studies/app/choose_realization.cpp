@@ -1,4 +1,4 @@
-#include "studies/choose_realization.hpp"
+#include "studies/app/choose_realization.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
