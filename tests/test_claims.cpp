@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "studies/claims/claim_file.hpp"
-#include "studies/claims/claim_page.hpp"
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim_page.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,11 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/claims/claim_figure.hpp"
-#include "studies/claims/claim_file.hpp"
-#include "studies/claims/claim_page.hpp"
-#include "studies/claims/claim_run.hpp"
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_figure.hpp"
+#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim_page.hpp"
+#include "studies/evidence/claims/claim_run.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "studies/claims/estimate.hpp"
+#include "studies/evidence/claims/estimate.hpp"
 
 #include "ensemble/numerics/interval.hpp"
 

@@ -10,7 +10,7 @@
 /// WORDS are AXIS=LEVEL and range=NAME with commas between, or nothing: any. Where there is no such case it reads
 /// "(no such case)", and of a variant that was not run "(not run)".
 
-#include "studies/claims/verdict.hpp"
+#include "studies/evidence/claims/verdict.hpp"
 
 #include <filesystem>
 

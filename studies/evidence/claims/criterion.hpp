@@ -1,7 +1,7 @@
 #pragma once
 /// From samples to what they say about a criterion, case by case.
 
-#include "studies/claims/estimate.hpp"
+#include "studies/evidence/claims/estimate.hpp"
 
 namespace stylobate::claims {
 

@@ -4,10 +4,10 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
-#include "studies/claims/claim_figure.hpp"
-#include "studies/claims/claim_file.hpp"
-#include "studies/claims/claim_page.hpp"
-#include "studies/claims/claim_run.hpp"
+#include "studies/evidence/claims/claim_figure.hpp"
+#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim_page.hpp"
+#include "studies/evidence/claims/claim_run.hpp"
 #include "studies/experiment/version.hpp"
 
 #include <CLI/CLI.hpp>

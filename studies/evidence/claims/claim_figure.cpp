@@ -1,7 +1,7 @@
-#include "studies/claims/claim_figure.hpp"
+#include "studies/evidence/claims/claim_figure.hpp"
 
 #include "io/plots/gnuplot.hpp"
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
 

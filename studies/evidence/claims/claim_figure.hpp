@@ -1,7 +1,7 @@
 #pragma once
 /// The figures of a claim file, drawn by gnuplot: curves with intervals.
 
-#include "studies/claims/estimate.hpp"
+#include "studies/evidence/claims/estimate.hpp"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Reads the [claim] section of a study file; `README.md` describes it. The rest of the file is an ordinary study.
 
-#include "studies/claims/claim.hpp"
+#include "studies/evidence/claims/claim.hpp"
 
 #include <filesystem>
 

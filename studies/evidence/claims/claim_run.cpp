@@ -1,4 +1,4 @@
-#include "studies/claims/claim_run.hpp"
+#include "studies/evidence/claims/claim_run.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_store.hpp"

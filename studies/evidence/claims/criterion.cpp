@@ -1,7 +1,7 @@
-#include "studies/claims/criterion.hpp"
+#include "studies/evidence/claims/criterion.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
 

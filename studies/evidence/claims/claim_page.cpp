@@ -1,7 +1,7 @@
-#include "studies/claims/claim_page.hpp"
+#include "studies/evidence/claims/claim_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -275,7 +275,7 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         "stands against its neighbours proves little. An onset is the lowest PGA at which the event has probability "
         "1/2; its interval ends at PGAs that were run, or between them where onsets are compared. What each word "
         "means: "
-        "[studies/claims](../studies/claims/README.md).\n\n",
+        "[studies/claims](../studies/evidence/claims/README.md).\n\n",
         fewest == std::numeric_limits<std::size_t>::max() ? 0 : fewest, 100 * case_level, decided,
         (1 - case_level) * static_cast<double>(decided));
     page += "## Verdicts\n\n";

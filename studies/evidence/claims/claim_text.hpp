@@ -1,7 +1,7 @@
 #pragma once
 /// Events, amounts, numbers and criteria in words: for the page, and (the plain names) for the claim files.
 
-#include "studies/claims/criterion.hpp"
+#include "studies/evidence/claims/criterion.hpp"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 /// Runs the variants of a claim file, each into a result file of its own, so that an interrupted run of all claims
 /// goes on where it stopped.
 
-#include "studies/claims/sample.hpp"
+#include "studies/evidence/claims/sample.hpp"
 
 #include "ensemble/engine/executor.hpp"
 

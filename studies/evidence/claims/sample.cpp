@@ -1,4 +1,4 @@
-#include "studies/claims/sample.hpp"
+#include "studies/evidence/claims/sample.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"

@@ -1,4 +1,4 @@
-#include "studies/claims/verdict.hpp"
+#include "studies/evidence/claims/verdict.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

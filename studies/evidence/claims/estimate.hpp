@@ -1,7 +1,7 @@
 #pragma once
 /// Numbers with intervals from the realizations of a variant.
 
-#include "studies/claims/sample.hpp"
+#include "studies/evidence/claims/sample.hpp"
 
 namespace stylobate::claims {
 

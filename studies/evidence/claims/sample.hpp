@@ -1,7 +1,7 @@
 #pragma once
 /// The realizations of one variant, digested: what happened to each, cell by cell.
 
-#include "studies/claims/claim.hpp"
+#include "studies/evidence/claims/claim.hpp"
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"

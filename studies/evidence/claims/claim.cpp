@@ -1,4 +1,4 @@
-#include "studies/claims/claim.hpp"
+#include "studies/evidence/claims/claim.hpp"
 
 #include <algorithm>
 

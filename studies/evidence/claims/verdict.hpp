@@ -1,7 +1,7 @@
 #pragma once
 /// From the cases of a test to its verdict.
 
-#include "studies/claims/criterion.hpp"
+#include "studies/evidence/claims/criterion.hpp"
 
 namespace stylobate::claims {
 

@@ -1,9 +1,9 @@
-#include "studies/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/key_reader.hpp"
 #include "io/study/study_ranges.hpp"
-#include "studies/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
 
