@@ -3,8 +3,8 @@
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/statics/extension.hpp"
-#include "studies/verification/colonnade.hpp"
-#include "studies/verification/model.hpp"
+#include "studies/evidence/verification/colonnade.hpp"
+#include "studies/evidence/verification/model.hpp"
 #include "tests/outcome_bits.hpp"
 
 #include <bit>

@@ -1,9 +1,9 @@
 /// What must hold for any structure and any motion: it stays where it rests, contacts only push, friction keeps its
 /// cone, and left is as right.
 
-#include "studies/verification/model.hpp"
-#include "studies/verification/reference_solver.hpp"
-#include "studies/verification/rocking_block.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/reference_solver.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 
 #include "ensemble/statics/static_state.hpp"
 

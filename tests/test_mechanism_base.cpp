@@ -1,6 +1,6 @@
 /// Mechanisms of the base and of the air, each against its closed form, through the real kernel.
 
-#include "studies/verification/model.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 #include <gtest/gtest.h>
 

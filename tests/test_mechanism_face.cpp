@@ -3,7 +3,7 @@
 #include "ensemble/statics/extension.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "studies/verification/rocking_block.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 
 #include <gtest/gtest.h>
 

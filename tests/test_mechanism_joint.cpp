@@ -1,6 +1,6 @@
 /// Mechanisms of friction and of dowels, each against its closed form, through the real kernel.
 
-#include "studies/verification/model.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The kernel against the slow solver of `reference_solver.hpp`, step by step, on stacks that rock, slide and fly.
 
-#include "studies/verification/model.hpp"
-#include "studies/verification/reference_solver.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/reference_solver.hpp"
 
 #include "ensemble/statics/static_state.hpp"
 

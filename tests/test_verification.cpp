@@ -1,7 +1,7 @@
 /// The verification cases of `studies/verification`, one test for each: quick ones and long ones under names of their
 /// own, so that CTest can label them.
 
-#include "studies/verification/case.hpp"
+#include "studies/evidence/verification/case.hpp"
 
 #include <gtest/gtest.h>
 

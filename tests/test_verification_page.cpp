@@ -1,11 +1,11 @@
 /// The tools of the verification, by themselves: a check that fails fails, a limit is found, the page says what failed,
 /// and the oracles know cases that can be done by hand.
 
-#include "studies/verification/initiation.hpp"
-#include "studies/verification/limit_analysis.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/page.hpp"
-#include "studies/verification/rigid_block.hpp"
+#include "studies/evidence/verification/initiation.hpp"
+#include "studies/evidence/verification/limit_analysis.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/page.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <gtest/gtest.h>
 

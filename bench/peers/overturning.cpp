@@ -2,7 +2,7 @@
 
 #include "bench/peers/ground.hpp"
 #include "bench/peers/rocking.hpp"
-#include "studies/verification/rigid_block.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <cmath>
 #include <limits>

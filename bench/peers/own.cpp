@@ -5,9 +5,9 @@
 #include "bench/peers/rocking.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/statics/step_bound.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 #include "studies/experiment/version.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/rocking_block.hpp"
 
 #include <algorithm>
 #include <cmath>

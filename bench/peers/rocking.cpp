@@ -1,6 +1,6 @@
 #include "bench/peers/rocking.hpp"
 
-#include "studies/verification/rigid_block.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <cmath>
 #include <limits>

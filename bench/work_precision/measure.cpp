@@ -3,9 +3,9 @@
 #include "bench/scenes.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/rigid_block.hpp"
-#include "studies/verification/rocking_block.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 
 #include <limits>
 #include <stdexcept>

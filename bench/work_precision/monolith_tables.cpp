@@ -2,7 +2,7 @@
 
 #include "bench/work_precision/page.hpp"
 
-#include "studies/verification/case.hpp"
+#include "studies/evidence/verification/case.hpp"
 
 #include <fmt/format.h>
 
@@ -256,7 +256,7 @@ void monolith_tables(Report& report)
 {
     report.text += fmt::format("The monolith is one block of 48 x 174 mm, damping ratio .1. Oracles: quarter period "
                                "{:.6f} s from half its slenderness, overturning by half a sine of w = 4 p at "
-                               "{:.6f} g tan alpha (`studies/verification/rigid_block.hpp`).\n\n",
+                               "{:.6f} g tan alpha (`studies/evidence/verification/rigid_block.hpp`).\n\n",
                                exact_quarter_period_s(), exact_overturning_eta());
     stiffness_and_step(report);
     shear_and_step(report);

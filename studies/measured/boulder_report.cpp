@@ -1,7 +1,7 @@
 #include "studies/measured/boulder_report.hpp"
 
+#include "studies/evidence/picture.hpp"
 #include "studies/experiment/version.hpp"
-#include "studies/verification/picture.hpp"
 
 #include <fmt/format.h>
 

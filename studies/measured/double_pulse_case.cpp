@@ -2,12 +2,12 @@
 /// standing.
 
 #include "io/files/atomic_file.hpp"
+#include "studies/evidence/picture.hpp"
 #include "studies/experiment/version.hpp"
 #include "studies/measured/double_pulse.hpp"
 #include "studies/measured/logistic.hpp"
 #include "studies/measured/page_case.hpp"
 #include "studies/measured/score.hpp"
-#include "studies/verification/picture.hpp"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

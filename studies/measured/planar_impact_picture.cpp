@@ -1,5 +1,5 @@
+#include "studies/evidence/picture.hpp"
 #include "studies/measured/planar_impact_page.hpp"
-#include "studies/verification/picture.hpp"
 
 #include <algorithm>
 #include <cmath>

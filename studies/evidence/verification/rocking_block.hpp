@@ -1,7 +1,7 @@
 #pragma once
 /// Runs of one rocking block in the engine.
 
-#include "studies/verification/model.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 namespace stylobate::verification {
 

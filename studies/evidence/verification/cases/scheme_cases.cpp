@@ -1,9 +1,9 @@
 /// The integration in time: order, period, what it conserves, when it grows, and the balance of energy.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/stack_vibration.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/stack_vibration.hpp"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/picture.hpp"
-#include "studies/verification/stack_vibration.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/stack_vibration.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/verification/stack_vibration.hpp"
+#include "studies/evidence/verification/stack_vibration.hpp"
 
 #include <Eigen/Dense>
 

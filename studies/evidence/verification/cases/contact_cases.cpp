@@ -1,9 +1,9 @@
 /// The contact by itself: overlap, static rest, restitution, free fall.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/reference_solver.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/reference_solver.hpp"
 
 #include <fmt/format.h>
 

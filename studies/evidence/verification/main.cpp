@@ -5,8 +5,8 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "kernels/isa.hpp"
+#include "studies/evidence/verification/page.hpp"
 #include "studies/experiment/version.hpp"
-#include "studies/verification/page.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

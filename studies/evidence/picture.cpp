@@ -1,4 +1,4 @@
-#include "studies/verification/picture.hpp"
+#include "studies/evidence/picture.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "studies/verification/rigid_block.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <algorithm>
 #include <cmath>

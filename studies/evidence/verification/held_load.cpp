@@ -1,8 +1,8 @@
-#include "studies/verification/held_load.hpp"
+#include "studies/evidence/verification/held_load.hpp"
 
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/settle.hpp"
-#include "studies/verification/model.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 namespace stylobate::verification {
 

@@ -1,10 +1,10 @@
 /// How blocks begin to move from rest.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/initiation.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/picture.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/initiation.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 #include <fmt/format.h>
 

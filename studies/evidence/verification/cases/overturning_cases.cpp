@@ -1,10 +1,10 @@
 /// Overturning of one block by half a sine and by a full one, against the rigid block.
 
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/picture.hpp"
-#include "studies/verification/rigid_block.hpp"
-#include "studies/verification/rocking_block.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Hand-built colonnades: nothing here goes through a study file, the layout or the sampler.
 
-#include "studies/verification/model.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 namespace stylobate::model {
 

@@ -1,4 +1,4 @@
-#include "studies/verification/initiation.hpp"
+#include "studies/evidence/verification/initiation.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,6 @@
-#include "studies/verification/page.hpp"
+#include "studies/evidence/verification/page.hpp"
 
-#include "studies/verification/picture.hpp"
+#include "studies/evidence/picture.hpp"
 
 #include <algorithm>
 #include <cmath>

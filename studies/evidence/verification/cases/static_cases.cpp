@@ -1,11 +1,11 @@
 /// Loads that are as good as static: where joints open, where a block topples, how much the column bends.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/held_load.hpp"
-#include "studies/verification/limit_analysis.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/picture.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/held_load.hpp"
+#include "studies/evidence/verification/limit_analysis.hpp"
+#include "studies/evidence/verification/model.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// Small pictures of the verification page, as scripts for `io/plots/gnuplot.hpp`.
 
 #include "io/plots/gnuplot.hpp"
-#include "studies/verification/case.hpp"
+#include "studies/evidence/verification/case.hpp"
 
 #include <string>
 #include <vector>

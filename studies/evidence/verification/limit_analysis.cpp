@@ -1,4 +1,4 @@
-#include "studies/verification/limit_analysis.hpp"
+#include "studies/evidence/verification/limit_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 /// Free rocking of one block against Housner's rigid one.
 
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/rigid_block.hpp"
-#include "studies/verification/rocking_block.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 
 #include <fmt/format.h>
 

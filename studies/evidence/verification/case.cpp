@@ -1,4 +1,4 @@
-#include "studies/verification/case.hpp"
+#include "studies/evidence/verification/case.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// The verification page: every case with its oracle, its numbers and its pictures.
 
-#include "studies/verification/case.hpp"
+#include "studies/evidence/verification/case.hpp"
 
 #include <filesystem>
 #include <string>

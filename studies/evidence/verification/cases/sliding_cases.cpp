@@ -1,9 +1,9 @@
 /// A block that slides on its base.
 
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/picture.hpp"
-#include "studies/verification/rigid_slider.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/rigid_slider.hpp"
 
 #include <fmt/format.h>
 

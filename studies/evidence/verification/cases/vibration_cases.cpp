@@ -1,10 +1,10 @@
 /// Small vibrations of stacks at rest.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/model.hpp"
-#include "studies/verification/picture.hpp"
-#include "studies/verification/stack_vibration.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/stack_vibration.hpp"
 
 #include <complex>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "studies/verification/rigid_slider.hpp"
+#include "studies/evidence/verification/rigid_slider.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 /// Two columns that carry a cap: the rigid rocking frame, and the static limit.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/verification/case.hpp"
-#include "studies/verification/colonnade.hpp"
-#include "studies/verification/held_load.hpp"
-#include "studies/verification/limit_analysis.hpp"
-#include "studies/verification/picture.hpp"
-#include "studies/verification/rigid_block.hpp"
+#include "studies/evidence/picture.hpp"
+#include "studies/evidence/verification/case.hpp"
+#include "studies/evidence/verification/colonnade.hpp"
+#include "studies/evidence/verification/held_load.hpp"
+#include "studies/evidence/verification/limit_analysis.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <fmt/format.h>
 

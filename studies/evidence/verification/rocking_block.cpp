@@ -1,4 +1,4 @@
-#include "studies/verification/rocking_block.hpp"
+#include "studies/evidence/verification/rocking_block.hpp"
 
 #include <stdexcept>
 
