@@ -3,13 +3,13 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/measured/boulder_model.hpp"
-#include "studies/measured/double_pulse.hpp"
-#include "studies/measured/logistic.hpp"
-#include "studies/measured/mesh_stance.hpp"
-#include "studies/measured/page_case.hpp"
-#include "studies/measured/score.hpp"
-#include "studies/measured/split.hpp"
+#include "studies/evidence/measured/boulders/boulder_model.hpp"
+#include "studies/evidence/measured/boulders/mesh_stance.hpp"
+#include "studies/evidence/measured/double_pulse/double_pulse.hpp"
+#include "studies/evidence/measured/logistic.hpp"
+#include "studies/evidence/measured/page_case.hpp"
+#include "studies/evidence/measured/score.hpp"
+#include "studies/evidence/measured/split.hpp"
 
 #include <gtest/gtest.h>
 

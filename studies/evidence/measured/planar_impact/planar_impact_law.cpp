@@ -1,0 +1,109 @@
+#include "studies/evidence/measured/planar_impact/planar_impact_law.hpp"
+
+#include "kernels/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate::measured::impact {
+
+namespace {
+
+/// Support function h of the ellipse for the direction down, and the sine and cosine of its angle.
+struct Attitude {
+    double sine, cosine, h;
+};
+
+Attitude attitude(const Body& body, double theta)
+{
+    const double s = std::sin(theta), c = std::cos(theta);
+    return {s, c, std::sqrt(body.a * body.a * s * s + body.b * body.b * c * c)};
+}
+
+double lowest_n(const Body& body, const Attitude& at)
+{
+    return -(body.a * body.a - body.b * body.b) * at.sine * at.cosine / at.h;
+}
+
+/// Components in a frame turned by an angle.
+Velocity turned(const Velocity& v, double angle)
+{
+    const double s = std::sin(angle), c = std::cos(angle);
+    return {c * v.x + s * v.y, c * v.y - s * v.x, v.spin};
+}
+
+/// A part of the penalty's own period at a depth where the chord is a usual one: sqrt(m / (K_N chord)).
+double step_of(const Body& body, double K_N, double step_fraction)
+{
+    constexpr double usual_chord = 0.009; // [m], at 2.5 m/s and 1e8 N/m2
+    return step_fraction * std::sqrt(body.mass / (K_N * usual_chord));
+}
+
+} // namespace
+
+EllipseOverlap ellipse_overlap(const Body& body, double height, double theta)
+{
+    const Attitude at = attitude(body, theta);
+    const Arms lowest{lowest_n(body, at), at.h};
+    const double s = std::max(height / at.h, -1.0);
+    if (s >= 1)
+        return {0, 0, lowest};
+    const double half = std::acos(s), sine = std::sin(half);
+    // f - sin f cos f loses all its digits at small f, where it is 2/3 f^3 (1 - f^2/5)
+    const double segment = half < 1e-3 ? half * half * half * (2.0 / 3) * (1 - half * half / 5) : half - sine * s;
+    const double place = half < 1e-3 ? 1 - 0.3 * half * half : 2 * sine * sine * sine / (3 * segment);
+    return {body.a * body.b * segment, 2 * body.a * body.b / at.h * sine, {place * lowest.n, place * lowest.t}};
+}
+
+Arms lowest_point(const Body& body, double theta)
+{
+    const Attitude at = attitude(body, theta);
+    return {lowest_n(body, at), at.h};
+}
+
+SimulatedImpact simulate_impact(const Body& body, const ImpactLaw& law, const Velocity& before, double theta,
+                                double step_fraction)
+{
+    const double dt = step_of(body, law.K_N, step_fraction);
+    const double inertia = body.inertia() * law.inertia_ratio;
+    double angle = theta + law.turn - law.tilt;
+    double height = attitude(body, angle).h, recoil = 0, recoil_speed = 0, spring = 0;
+    Velocity v = turned(before, law.tilt);
+    bool touched = false;
+    constexpr int most = 20000;
+    for (int step = 1; step <= most; ++step) {
+        height += v.y * dt;
+        angle += v.spin * dt;
+        recoil += recoil_speed * dt;
+        const EllipseOverlap o = ellipse_overlap(body, height - recoil, angle);
+        const ContactVelocity c = at_contact(v, o.centroid);
+        if (o.area > 0)
+            touched = true;
+        else if (touched && c.n > recoil_speed)
+            return {turned(v, -law.tilt), step * dt, step, true};
+        if (o.area <= 0) {
+            spring = 0;
+            continue;
+        }
+        const double mu = law.mu_moving < 0
+                              ? law.mu
+                              : law.mu_moving + (law.mu - law.mu_moving) * std::exp(-std::fabs(c.t) / law.stribeck);
+        const double C_N = law.C_N + law.rate * law.K_N * o.area;
+        const JointLaw<double> joint{law.K_N, law.K_T, C_N / dt, law.C_T / dt, 0, 0, mu};
+        const ContactForce<double> f =
+            contact_force(joint, o.area, o.length, (recoil_speed - c.n) * dt, -c.t * dt, spring);
+        spring = f.spring;
+        // the rolling moment stops the spin at most
+        const double brake = std::min(law.rolling * f.normal * o.length, inertia * std::fabs(v.spin) / dt);
+        v.x += dt / body.mass * f.tangential;
+        v.y += dt / body.mass * f.normal;
+        v.spin += dt / inertia * (f.tangential * o.centroid.t + f.normal * o.centroid.n - std::copysign(brake, v.spin));
+        if (law.surface_mass > 0)
+            recoil_speed -= dt / law.surface_mass * f.normal;
+    }
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {{nan, nan, nan}, most * dt, most, false};
+}
+
+} // namespace stylobate::measured::impact

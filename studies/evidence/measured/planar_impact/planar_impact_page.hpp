@@ -1,0 +1,18 @@
+#pragma once
+/// The page of planar impacts: its text and its pictures.
+
+#include "studies/evidence/measured/planar_impact/planar_impact_study.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace stylobate::measured::impact {
+
+/// Markdown. @param made_by line that says with what it was computed
+std::string page_text(const ImpactStudy& study, const std::string& made_by);
+
+/// planar_impact_{errors,place,sliding}.png.
+/// @throws InputError as `run_gnuplot`
+void draw(const ImpactStudy& study, const std::filesystem::path& folder);
+
+} // namespace stylobate::measured::impact
