@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts the paper's claims (studies/paper) to the test and writes docs/claims.md with its pictures. An interrupted run
+# Puts the paper's claims (studies/evidence/paper) to the test and writes docs/claims.md with its pictures. An interrupted run
 # goes on where it stopped; complete results in results/claims are used again.
 #
 #   scripts/claims.sh                                     all of them, about half an hour on two cores
@@ -20,5 +20,5 @@ for option in "$@"; do
         ;;
     esac
 done
-build/release/studies/claims/stylobate_claims studies/paper/*.toml --data "${RECORDS:-../shared/data/records}" \
+build/release/studies/evidence/claims/stylobate_claims studies/evidence/paper/*.toml --data "${RECORDS:-../shared/data/records}" \
     "${place[@]}" "$@"

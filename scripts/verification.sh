@@ -10,7 +10,7 @@ cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 scripts/install_packages.sh
 cmake --preset release >/dev/null
 cmake --build build/release --target stylobate_verify --parallel "$(nproc)"
-verify=build/release/studies/verification/stylobate_verify
+verify=build/release/studies/evidence/verification/stylobate_verify
 if [[ $# -gt 0 ]]; then
     exec "$verify" "$@"
 fi

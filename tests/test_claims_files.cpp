@@ -177,7 +177,7 @@ TEST(ClaimText, EveryVariantOfThePaperIsAStudy)
 {
     std::size_t files = 0, studies = 0;
     std::vector<std::string> ids;
-    for (const auto& entry : fs::directory_iterator(fs::path(STYLOBATE_SOURCE_DIR) / "studies/paper")) {
+    for (const auto& entry : fs::directory_iterator(fs::path(STYLOBATE_SOURCE_DIR) / "studies/evidence/paper")) {
         if (entry.path().extension() != ".toml")
             continue;
         ++files;

@@ -220,7 +220,7 @@ TEST(House, NoTextNamesAMachine)
 TEST(House, EveryFolderSaysWhatItIs)
 {
     for (const char* folder :
-         {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "studies/verification", "bench", "tests"})
+         {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "studies/evidence/verification", "bench", "tests"})
         EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
 }
 

@@ -346,7 +346,7 @@ TEST(Plausible, AKeySilencesOneCheck)
 TEST(Plausible, EveryReadyStudyIsSilent)
 {
     int studies = 0;
-    for (const char* folder : {"studies/inputs", "studies/paper"})
+    for (const char* folder : {"studies/inputs", "studies/evidence/paper"})
         for (const auto& entry : fs::directory_iterator(root / folder)) {
             if (entry.path().extension() != ".toml")
                 continue;

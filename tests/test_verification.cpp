@@ -1,4 +1,4 @@
-/// The verification cases of `studies/verification`, one test for each: quick ones and long ones under names of their
+/// The verification cases of `studies/evidence/verification`, one test for each: quick ones and long ones under names of their
 /// own, so that CTest can label them.
 
 #include "studies/evidence/verification/case.hpp"

@@ -32,7 +32,7 @@ inline constexpr double smallest_pga_m_s2 = 1e-4;
 inline constexpr double largest_pga_m_s2 = 50;
 
 /// Reads every component of a file; the format is recognised from its content, never from its name. What each format
-/// is stands on top of its io/record_NAME.cpp.
+/// is stands on top of its io/records/record_NAME.cpp.
 ///
 /// @param unit of the acceleration: "g" (9.80665 m/s2), "g/10", "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file
 ///        must say it

@@ -263,7 +263,8 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         "discrete-element model. Here each of these conclusions is judged on ensembles: every point is at least {} "
         "realizations that differ by what nobody knows of a real structure (friction, contact stiffness, damping, "
         "sizes, placement, level, phase), and what the paper leaves open is varied. Everything on this page is written "
-        "by `scripts/claims.sh` from the files in [studies/paper](../studies/evidence/paper/README.md); no verdict and "
+        "by `scripts/claims.sh` from the files in [studies/evidence/paper](../studies/evidence/paper/README.md); no "
+        "verdict and "
         "no "
         "measured number is written by hand.\n\n"
         "How a verdict comes about: a criterion is written down before the run and judged in every case, that is in "
@@ -276,7 +277,7 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         "stands against its neighbours proves little. An onset is the lowest PGA at which the event has probability "
         "1/2; its interval ends at PGAs that were run, or between them where onsets are compared. What each word "
         "means: "
-        "[studies/claims](../studies/evidence/claims/README.md).\n\n",
+        "[studies/evidence/claims](../studies/evidence/claims/README.md).\n\n",
         fewest == std::numeric_limits<std::size_t>::max() ? 0 : fewest, 100 * case_level, decided,
         (1 - case_level) * static_cast<double>(decided));
     page += "## Verdicts\n\n";

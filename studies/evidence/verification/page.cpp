@@ -140,7 +140,8 @@ std::string page(const std::vector<RunCase>& runs, const std::string& images, co
     std::string text = fmt::format(
         "# Verification\n\nWritten by `scripts/verification.sh` from its runs; not by hand. {}\n\n"
         "{} of {} comparisons in {} cases agree with their oracle. An expected value is a closed form, an "
-        "eigenvalue, the answer of another algorithm written for it (`studies/verification`), or a number that was "
+        "eigenvalue, the answer of another algorithm written for it (`studies/evidence/verification`), or a number "
+        "that was "
         "computed elsewhere; only where it says so is the program compared with itself at another step. Two different "
         "questions are asked: whether "
         "the program solves *its* equations (these hold to many digits), and how far those are from rigid blocks "
