@@ -1,7 +1,7 @@
 /// Benchmarks say which code ran on which processor.
 
 #include "bench/processor.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -5,7 +5,7 @@
 
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
-#include "studies/kinds/limit_state.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/surface/surface.hpp"
 
 #include <random>

@@ -7,8 +7,8 @@
 #include "ensemble/sampling/sampler.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/experiment/motions.hpp"
 #include "studies/kinds/fragility/damage.hpp"
-#include "studies/kinds/fragility/motions.hpp"
 
 #include <gtest/gtest.h>
 

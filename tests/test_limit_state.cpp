@@ -2,8 +2,9 @@
 
 #include "program.hpp"
 #include "studies/app/console.hpp"
-#include "studies/kinds/limit_state.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/surface/surface.hpp"
+#include "studies/pages/fall_order.hpp"
 
 #include <cmath>
 

@@ -6,10 +6,10 @@
 #include "studies/evidence/measured/boulders/boulder_model.hpp"
 #include "studies/evidence/measured/boulders/mesh_stance.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
-#include "studies/evidence/measured/logistic.hpp"
-#include "studies/evidence/measured/page_case.hpp"
-#include "studies/evidence/measured/score.hpp"
-#include "studies/evidence/measured/split.hpp"
+#include "studies/evidence/measured/parts/logistic.hpp"
+#include "studies/evidence/measured/parts/page_case.hpp"
+#include "studies/evidence/measured/parts/score.hpp"
+#include "studies/evidence/measured/parts/split.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/kinds/fragility/motions.hpp"
+#include "studies/experiment/motions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rocking_block.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "bench/peers/table.hpp"
 
-#include "studies/experiment/version.hpp"
 #include "studies/report/json.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

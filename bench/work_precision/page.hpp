@@ -2,7 +2,7 @@
 /// What is measured, as tables and as a picture.
 
 #include "bench/work_precision/measure.hpp"
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 
 #include <filesystem>
 #include <string>

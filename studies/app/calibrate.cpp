@@ -13,8 +13,9 @@
 #include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/calibration/calibration_file.hpp"
-#include "studies/experiment/version.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/words.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

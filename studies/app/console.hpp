@@ -34,10 +34,4 @@ private:
 /// in the whole study with its 95 % interval, and what is invalid.
 std::string progress_line(const Progress& progress);
 
-/// A rate with two digits at least: "1874", "3.2", "0.42".
-std::string rate_text(double rate);
-
-/// "41 s", "3 min 20 s", "2 h 5 min".
-std::string duration_text(double seconds);
-
 } // namespace stylobate

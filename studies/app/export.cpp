@@ -11,10 +11,10 @@
 #include "studies/app/command.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/kinds/fragility/exchange.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
-#include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
@@ -142,7 +142,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& results
         return (wanted.title.empty() ? of + ": " + title_of(reader, results) : wanted.title) + partial;
     };
     if (picture == "strip") {
-        strip_picture(options, reader, results, realization, wanted.title, file);
+        strip_picture({options.set, options.isa()}, reader, results, realization, wanted.title, file);
     } else if (picture == "fragility") {
         std::vector<std::string> limits;
         if (!wanted.limit.empty())

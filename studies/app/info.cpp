@@ -3,8 +3,8 @@
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/info_file.hpp"
-#include "studies/experiment/version.hpp"
 #include "studies/report/json.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 #include <tbb/info.h>

@@ -3,8 +3,8 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
 #include "studies/app/command.hpp"
-#include "studies/experiment/version.hpp"
-#include "studies/kinds/limit_state.hpp"
+#include "studies/experiment/limit_state.hpp"
+#include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

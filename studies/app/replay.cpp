@@ -8,9 +8,9 @@
 #include "studies/app/output_path.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/experiment/version.hpp"
 #include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

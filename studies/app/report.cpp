@@ -4,6 +4,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
@@ -55,7 +56,7 @@ int report_command(const CommonOptions& options, const std::string& file, std::s
         check_complete(reader, file);
         check_settings(reader.header(), file, options.set);
         const AtomicFile writable(output); // refuses before the pictures are drawn
-        page = result_page(options, reader, file, title, warnings).text();
+        page = result_page({options.set, options.isa()}, reader, file, title, warnings).text();
     }
     AtomicFile target(output);
     target.write(page);

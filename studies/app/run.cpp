@@ -9,11 +9,11 @@
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/experiment/block_names.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/kinds/adaptive/run_adaptive.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
-#include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/rare/run_rare.hpp"
 #include "studies/kinds/replicas/run_twins.hpp"
 #include "studies/kinds/replicas/twins_text.hpp"
@@ -22,6 +22,7 @@
 #include "studies/kinds/surface/run_counted.hpp"
 #include "studies/kinds/surface/surface.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/words.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

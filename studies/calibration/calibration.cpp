@@ -9,7 +9,7 @@
 #include "studies/calibration/calibration_search.hpp"
 #include "studies/calibration/kept_evidence.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

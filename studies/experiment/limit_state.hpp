@@ -3,7 +3,6 @@
 
 #include "ensemble/model/study.hpp"
 #include "ensemble/model/time_counts.hpp"
-#include "io/plots/plot_order.hpp"
 #include "io/store/result_store.hpp"
 
 #include <functional>
@@ -101,10 +100,5 @@ private:
 
 /// What `LimitCounts` asks of a study.
 std::size_t cells_of_motion(const Study& study);
-
-/// Which blocks fell, in which order and when, for its picture.
-/// @param names of the blocks, as many as each row has fall times
-FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
-                     std::size_t cells_of_motion = 0);
 
 } // namespace stylobate

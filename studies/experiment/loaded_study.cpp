@@ -8,9 +8,9 @@
 #include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
 #include "studies/experiment/block_names.hpp"
-#include "studies/experiment/version.hpp"
-#include "studies/kinds/fragility/motions.hpp"
-#include "studies/kinds/limit_state.hpp"
+#include "studies/experiment/limit_state.hpp"
+#include "studies/experiment/motions.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "studies/kinds/fragility/motions.hpp"
+#include "studies/experiment/motions.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"

@@ -2,9 +2,9 @@
 /// The pages of `stylobate report`.
 
 #include "io/store/result_store.hpp"
-#include "studies/app/command.hpp"
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
+#include "studies/pages/result_picture.hpp"
 #include "studies/report/html.hpp"
 
 #include <string>
@@ -14,12 +14,13 @@ namespace stylobate {
 
 /// What was run and what became of it: summary, probabilities, pictures, order of falls, motions, energy, and how to do
 /// it again. Where the pictures cannot be drawn the page says so.
+/// @param rerun for realizations whose trajectories the file does not hold
 /// @param file for names and messages
 /// @param title of the page; empty: by the study or the file
 /// @param warnings receives a line for each picture that could not be drawn
 /// @pre the run is complete
-HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
-                     const std::string& title, std::vector<std::string>& warnings);
+HtmlPage result_page(const Rerun& rerun, const ResultReader& reader, const std::string& file, const std::string& title,
+                     std::vector<std::string>& warnings);
 
 /// The verdict first, then what it rests on.
 /// @param file for names

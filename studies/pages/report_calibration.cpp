@@ -1,9 +1,9 @@
 /// The page of a calibration.
 
-#include "studies/app/console.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/pages/report.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/words.hpp"
 
 #include <fmt/format.h>
 

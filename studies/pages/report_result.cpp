@@ -7,12 +7,13 @@
 #include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_surface.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/adaptive/run_adaptive.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
-#include "studies/kinds/limit_state.hpp"
 #include "studies/kinds/rare/run_rare.hpp"
 #include "studies/kinds/replicas/twins_text.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
+#include "studies/pages/fall_order.hpp"
 #include "studies/pages/report.hpp"
 #include "studies/pages/report_study.hpp"
 #include "studies/pages/result_picture.hpp"
@@ -85,9 +86,9 @@ HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector
 
 class ResultPage {
 public:
-    ResultPage(const CommonOptions& options, const ResultReader& reader, const std::string& file,
-               const std::string& title, std::vector<std::string>& warnings)
-        : options_(options), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
+    ResultPage(const Rerun& rerun, const ResultReader& reader, const std::string& file, const std::string& title,
+               std::vector<std::string>& warnings)
+        : rerun_(rerun), reader_(reader), header_(reader.header()), file_(file), warnings_(warnings),
           study_(parse_study(header_.study_toml, file + " (its study)")), rows_(original_rows(reader, file)),
           counts_(header_.block_names.size(), cells_of_motion(study_)),
           page_(title.empty() ? "Results: " + title_of(reader, file) : title, subtitle(header_)),
@@ -327,7 +328,7 @@ private:
         const std::size_t shown = std::min(most, rows_.size());
         for (std::size_t i = 0; i < shown; ++i)
             picture(fmt::format("Realization {}: {}.", rows_[i].index, to_string(rows_[i].outcome.state)),
-                    [&](const fs::path& png) { strip_picture(options_, reader_, file_, rows_[i].index, "", png); });
+                    [&](const fs::path& png) { strip_picture(rerun_, reader_, file_, rows_[i].index, "", png); });
         if (shown < rows_.size())
             page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
                                    "strip --realization I.",
@@ -476,7 +477,7 @@ private:
         }
     }
 
-    const CommonOptions& options_;
+    const Rerun& rerun_;
     const ResultReader& reader_;
     const ResultHeader& header_;
     const std::string file_;
@@ -494,10 +495,10 @@ private:
 
 } // namespace
 
-HtmlPage result_page(const CommonOptions& options, const ResultReader& reader, const std::string& file,
-                     const std::string& title, std::vector<std::string>& warnings)
+HtmlPage result_page(const Rerun& rerun, const ResultReader& reader, const std::string& file, const std::string& title,
+                     std::vector<std::string>& warnings)
 {
-    return ResultPage(options, reader, file, title, warnings).page();
+    return ResultPage(rerun, reader, file, title, warnings).page();
 }
 
 } // namespace stylobate

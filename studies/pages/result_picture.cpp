@@ -9,6 +9,7 @@
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/kinds/surface/surface.hpp"
+#include "studies/pages/fall_order.hpp"
 
 #include <fmt/format.h>
 
@@ -27,20 +28,19 @@ struct Followed {
 };
 
 /// The trajectory that the file holds, or else the realization run again.
-Followed trajectory_of(const CommonOptions& options, const ResultReader& reader, const std::string& results,
-                       std::uint64_t index)
+Followed trajectory_of(const Rerun& rerun, const ResultReader& reader, const std::string& results, std::uint64_t index)
 {
     const std::vector<std::uint64_t> stored = reader.trajectory_indices();
     if (std::find(stored.begin(), stored.end(), index) != stored.end())
         return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
     const ResultHeader& header = reader.header();
     check_replayable(header, results);
-    const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
+    const LoadedStudy loaded = LoadedStudy::from_results(header, results, rerun.settings);
     const std::uint64_t end = realizations_end(header, loaded.study());
     if (index < header.first || index >= end)
         throw InputError(
             fmt::format("--realization {}: {} has realizations {} to {}", index, results, header.first, end - 1));
-    FollowedRealization f = follow(loaded, index, options.isa());
+    FollowedRealization f = follow(loaded, index, rerun.isa);
     return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
 }
 
@@ -173,10 +173,10 @@ RareTable finished_rare(const ResultReader& reader, const std::string& results)
     return reader.rare();
 }
 
-void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
-                   std::uint64_t index, const std::string& title, const fs::path& file)
+void strip_picture(const Rerun& rerun, const ResultReader& reader, const std::string& results, std::uint64_t index,
+                   const std::string& title, const fs::path& file)
 {
-    const Followed f = trajectory_of(options, reader, results, index);
+    const Followed f = trajectory_of(rerun, reader, results, index);
     plot_strip(f.trajectory, f.fall_time_s, title.empty() ? strip_title(reader, results, index) : title, file);
 }
 

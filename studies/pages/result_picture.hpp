@@ -2,8 +2,8 @@
 /// The pictures of a results file: what `export` writes and `report` shows.
 
 #include "io/store/result_store.hpp"
-#include "studies/app/command.hpp"
-#include "studies/kinds/limit_state.hpp"
+#include "kernels/isa.hpp"
+#include "studies/experiment/limit_state.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -44,11 +44,17 @@ SensitivityTable finished_sensitivity(const ResultReader& reader, const std::str
 /// @throws InputError as above
 RareTable finished_rare(const ResultReader& reader, const std::string& results);
 
+/// How a picture runs a realization again whose trajectory the file does not hold.
+struct Rerun {
+    std::vector<std::string> settings; ///< KEY=VALUE: where the record lies now
+    Isa isa;
+};
+
 /// One realization over time: from the file's trajectory, or else run again.
 /// @param title empty: by the results, the realization and what became of it
 /// @throws InputError if there is no such realization, and as `plot_strip` does
-void strip_picture(const CommonOptions& options, const ResultReader& reader, const std::string& results,
-                   std::uint64_t index, const std::string& title, const std::filesystem::path& file);
+void strip_picture(const Rerun& rerun, const ResultReader& reader, const std::string& results, std::uint64_t index,
+                   const std::string& title, const std::filesystem::path& file);
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations

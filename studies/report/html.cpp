@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/utf8.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

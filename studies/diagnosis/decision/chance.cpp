@@ -5,7 +5,7 @@
 #include "io/store/result_seal.hpp"
 #include "studies/diagnosis/decision/virtual_campaign.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

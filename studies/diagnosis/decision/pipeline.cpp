@@ -9,7 +9,7 @@
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,8 @@
 #include "studies/evidence/claims/claim_file.hpp"
 #include "studies/evidence/claims/claim_page.hpp"
 #include "studies/evidence/claims/claim_run.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/report/words.hpp"
+#include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

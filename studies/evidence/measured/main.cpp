@@ -12,8 +12,8 @@
 #include "studies/app/command.hpp"
 #include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
-#include "studies/evidence/measured/page_case.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/evidence/measured/parts/page_case.hpp"
+#include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 
 #include <array>
 #include <cmath>
@@ -103,35 +103,6 @@ std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<do
         plot += ", " + plotted(name, lines[k], 5);
     }
     return script + plot;
-}
-
-std::string error_curves(const std::vector<Convergence>& convergences)
-{
-    std::vector<Series> lines, marks;
-    for (const Convergence& c : convergences) {
-        Series measured{fmt::format("{} (slope {:.2f})", c.quantity, c.order), {}, {}, false, {}, {}};
-        Series fitted{"", c.at, {}, true, {}, {}};
-        double level = 0;
-        for (std::size_t i = 0; i < c.at.size(); ++i) {
-            const double error = std::fabs(c.value[i] - c.exact);
-            if (error == 0)
-                continue;
-            measured.x.push_back(c.at[i]);
-            measured.y.push_back(error);
-            level += std::log(error) - c.order * std::log(c.at[i]);
-        }
-        for (double at : c.at)
-            fitted.y.push_back(std::exp(level / static_cast<double>(measured.x.size()) + c.order * std::log(at)));
-        marks.push_back(measured);
-        lines.push_back(fitted);
-    }
-    std::vector<Series> all = marks; // the same colours in both
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-        lines[k].colour = static_cast<int>(k);
-        all.push_back(lines[k]);
-    }
-    return curves({convergences.front().parameter, true, 0, 0}, {"error", true, 0, 0}, all,
-                  "tmargin left Left reverse maxcols 1");
 }
 
 } // namespace stylobate::verification

@@ -1,8 +1,7 @@
 #pragma once
-/// Small pictures of the verification page, as scripts for `io/plots/gnuplot.hpp`.
+/// Small pictures of the pages, as scripts for `io/plots/gnuplot.hpp`.
 
 #include "io/plots/gnuplot.hpp"
-#include "studies/evidence/verification/case.hpp"
 
 #include <string>
 #include <vector>
@@ -37,9 +36,5 @@ std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector
 std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<double>& at_x,
                 const std::vector<double>& at_y, const std::vector<int>& kind, const std::vector<std::string>& kinds,
                 const std::vector<Series>& lines);
-
-/// |value - exact| over the parameter, both logarithmic, with the fitted slopes.
-/// @pre the same parameter, and two to each
-std::string error_curves(const std::vector<Convergence>& convergences);
 
 } // namespace stylobate::verification

@@ -6,7 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "kernels/isa.hpp"
 #include "studies/evidence/verification/page.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

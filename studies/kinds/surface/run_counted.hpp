@@ -2,8 +2,8 @@
 /// A surface that keeps counts of its realizations and no rows.
 
 #include "ensemble/engine/executor.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/loaded_study.hpp"
-#include "studies/kinds/limit_state.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 /// The surface of the probability of a limit state, from its realizations.
 
 #include "io/store/result_store.hpp"
-#include "studies/kinds/limit_state.hpp"
+#include "studies/experiment/limit_state.hpp"
 
 #include <vector>
 

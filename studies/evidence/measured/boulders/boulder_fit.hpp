@@ -2,7 +2,7 @@
 /// Fits the planar block to the outcomes of tests: by likelihood, from tables of simulated falls.
 
 #include "studies/evidence/measured/boulders/boulder_model.hpp"
-#include "studies/evidence/measured/fall_table.hpp"
+#include "studies/evidence/measured/parts/fall_table.hpp"
 
 #include <array>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/evidence/measured/boulders/boulder_data.hpp"
-#include "studies/evidence/measured/fall_table.hpp"
+#include "studies/evidence/measured/parts/fall_table.hpp"
 
 #include <string>
 #include <vector>

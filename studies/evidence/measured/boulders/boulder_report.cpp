@@ -1,7 +1,7 @@
 #include "studies/evidence/measured/boulders/boulder_report.hpp"
 
-#include "studies/evidence/picture.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/evidence/picture/picture.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

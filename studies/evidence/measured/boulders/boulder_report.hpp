@@ -3,8 +3,8 @@
 
 #include "studies/evidence/measured/boulders/boulder_fit.hpp"
 #include "studies/evidence/measured/boulders/mesh_stance.hpp"
-#include "studies/evidence/measured/page_case.hpp"
-#include "studies/evidence/measured/score.hpp"
+#include "studies/evidence/measured/parts/page_case.hpp"
+#include "studies/evidence/measured/parts/score.hpp"
 
 #include <array>
 #include <string>

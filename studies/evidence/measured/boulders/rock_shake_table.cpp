@@ -3,8 +3,8 @@
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/evidence/measured/boulders/boulder_report.hpp"
-#include "studies/evidence/measured/logistic.hpp"
-#include "studies/evidence/measured/split.hpp"
+#include "studies/evidence/measured/parts/logistic.hpp"
+#include "studies/evidence/measured/parts/split.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/evidence/measured/table.hpp"
+#include "studies/evidence/measured/parts/table.hpp"
 
 #include <fmt/format.h>
 

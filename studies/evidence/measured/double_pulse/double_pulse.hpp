@@ -2,7 +2,7 @@
 /// A block on a base that is set moving at once and stopped at once: the published outcomes of one block (ceh2016), and
 /// the engine's.
 
-#include "studies/evidence/measured/fall_table.hpp"
+#include "studies/evidence/measured/parts/fall_table.hpp"
 
 #include <filesystem>
 #include <string>

@@ -3,11 +3,11 @@
 
 #include "io/files/atomic_file.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
-#include "studies/evidence/measured/logistic.hpp"
-#include "studies/evidence/measured/page_case.hpp"
-#include "studies/evidence/measured/score.hpp"
-#include "studies/evidence/picture.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/evidence/measured/parts/logistic.hpp"
+#include "studies/evidence/measured/parts/page_case.hpp"
+#include "studies/evidence/measured/parts/score.hpp"
+#include "studies/evidence/picture/picture.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

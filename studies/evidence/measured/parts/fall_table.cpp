@@ -1,8 +1,8 @@
-#include "studies/evidence/measured/fall_table.hpp"
+#include "studies/evidence/measured/parts/fall_table.hpp"
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/evidence/measured/score.hpp"
+#include "studies/evidence/measured/parts/score.hpp"
 
 #include <cmath>
 #include <limits>

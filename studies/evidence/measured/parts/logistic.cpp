@@ -1,4 +1,4 @@
-#include "studies/evidence/measured/logistic.hpp"
+#include "studies/evidence/measured/parts/logistic.hpp"
 
 #include <Eigen/Dense>
 

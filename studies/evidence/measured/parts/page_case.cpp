@@ -1,4 +1,4 @@
-#include "studies/evidence/measured/page_case.hpp"
+#include "studies/evidence/measured/parts/page_case.hpp"
 
 namespace stylobate::measured {
 

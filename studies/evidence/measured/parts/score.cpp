@@ -1,4 +1,4 @@
-#include "studies/evidence/measured/score.hpp"
+#include "studies/evidence/measured/parts/score.hpp"
 
 #include <algorithm>
 #include <cassert>

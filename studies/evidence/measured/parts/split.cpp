@@ -1,4 +1,4 @@
-#include "studies/evidence/measured/split.hpp"
+#include "studies/evidence/measured/parts/split.hpp"
 
 #include <iterator>
 #include <set>

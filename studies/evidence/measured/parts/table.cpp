@@ -1,4 +1,4 @@
-#include "studies/evidence/measured/table.hpp"
+#include "studies/evidence/measured/parts/table.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

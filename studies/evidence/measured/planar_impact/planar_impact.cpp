@@ -1,9 +1,9 @@
 /// Page `planar_impact`: one impact of a rigid ellipse on a surface, the contact law against 1110 measured ones.
 
 #include "io/files/atomic_file.hpp"
-#include "studies/evidence/measured/page_case.hpp"
+#include "studies/evidence/measured/parts/page_case.hpp"
 #include "studies/evidence/measured/planar_impact/planar_impact_page.hpp"
-#include "studies/experiment/version.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #include "studies/evidence/measured/planar_impact/planar_impact_page.hpp"
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 
 #include <algorithm>
 #include <cmath>

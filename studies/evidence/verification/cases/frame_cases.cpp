@@ -1,7 +1,7 @@
 /// Two columns that carry a cap: the rigid rocking frame, and the static limit.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/held_load.hpp"

@@ -1,7 +1,7 @@
 /// How blocks begin to move from rest.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/initiation.hpp"
 #include "studies/evidence/verification/model.hpp"

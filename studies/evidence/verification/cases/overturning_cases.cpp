@@ -1,6 +1,6 @@
 /// Overturning of one block by half a sine and by a full one, against the rigid block.
 
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"

@@ -3,7 +3,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/stack_vibration.hpp"

@@ -1,6 +1,6 @@
 /// A block that slides on its base.
 
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_slider.hpp"

@@ -1,7 +1,7 @@
 /// Small vibrations of stacks at rest.
 
 #include "ensemble/statics/static_state.hpp"
-#include "studies/evidence/picture.hpp"
+#include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/stack_vibration.hpp"

@@ -1,0 +1,18 @@
+#pragma once
+/// The order in which blocks fall, counted from the rows of a result.
+
+#include "io/plots/plot_order.hpp"
+#include "io/store/result_store.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Which blocks fell, in which order and when, for its picture.
+/// @param names of the blocks, as many as each row has fall times
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
+                     std::size_t cells_of_motion = 0);
+
+} // namespace stylobate

@@ -1,0 +1,24 @@
+#include "studies/report/words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stylobate {
+
+std::string duration_text(double seconds)
+{
+    const long s = std::lround(seconds);
+    if (s < 60)
+        return fmt::format("{} s", s);
+    if (s < 3600)
+        return fmt::format("{} min {} s", s / 60, s % 60);
+    return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+std::string rate_text(double rate)
+{
+    return rate >= 10 ? fmt::format("{:.0f}", rate) : fmt::format("{:.2g}", rate);
+}
+
+} // namespace stylobate

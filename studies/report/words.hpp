@@ -1,0 +1,14 @@
+#pragma once
+/// Rates and durations in words.
+
+#include <string>
+
+namespace stylobate {
+
+/// A rate with two digits at least: "1874", "3.2", "0.42".
+std::string rate_text(double rate);
+
+/// "41 s", "3 min 20 s", "2 h 5 min".
+std::string duration_text(double seconds);
+
+} // namespace stylobate
