@@ -30,25 +30,13 @@ const std::map<std::string, std::set<std::string>> may_include = {
 
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> plain_data = {
-    "ensemble/model/followed_twin.hpp",
-    "ensemble/numerics/interval.hpp",
-    "ensemble/model/input_error.hpp",
-    "ensemble/model/motion.hpp",
-    "ensemble/model/observer.hpp",
-    "ensemble/model/outcome.hpp",
-    "ensemble/sampling/plausible.hpp",
-    "ensemble/model/realization.hpp",
-    "ensemble/numerics/run_order.hpp",
-    "ensemble/model/study.hpp",
-    "kernels/topology.hpp",
-    "ensemble/model/nominal.hpp",
-    "ensemble/model/structure.hpp",
-    "ensemble/model/campaign.hpp",
-    "ensemble/model/outcome_table.hpp",
-    "ensemble/model/time_counts.hpp",
-    "ensemble/numerics/fourier.hpp",
-    "ensemble/model/mechanism_spec.hpp",
-    "ensemble/estimators/fragility/fragility_model.hpp",
+    "ensemble/model/followed_twin.hpp",   "ensemble/numerics/interval.hpp", "ensemble/model/input_error.hpp",
+    "ensemble/model/motion.hpp",          "ensemble/model/observer.hpp",    "ensemble/model/outcome.hpp",
+    "ensemble/sampling/plausible.hpp",    "ensemble/model/realization.hpp", "ensemble/numerics/run_order.hpp",
+    "ensemble/model/study.hpp",           "kernels/topology.hpp",           "ensemble/model/nominal.hpp",
+    "ensemble/model/structure.hpp",       "ensemble/model/campaign.hpp",    "ensemble/model/outcome_table.hpp",
+    "ensemble/model/time_counts.hpp",     "ensemble/numerics/fourier.hpp",  "ensemble/model/mechanism_spec.hpp",
+    "ensemble/model/fragility_model.hpp",
 };
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
@@ -219,8 +207,8 @@ TEST(House, NoTextNamesAMachine)
 
 TEST(House, EveryFolderSaysWhatItIs)
 {
-    for (const char* folder :
-         {"", "kernels", "ensemble", "io", "studies", "studies/inputs", "studies/evidence/verification", "bench", "tests"})
+    for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs",
+                               "studies/evidence/verification", "bench", "tests"})
         EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
 }
 

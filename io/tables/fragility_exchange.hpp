@@ -9,7 +9,7 @@
 ///
 /// (openquake.risklib.scientific.FragilityFunctionContinuous).
 
-#include "ensemble/estimators/fragility/fragility_model.hpp"
+#include "ensemble/model/fragility_model.hpp"
 
 #include <filesystem>
 #include <string>

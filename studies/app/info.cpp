@@ -1,4 +1,4 @@
-/// `stylobate info`, and the options that say what to run on.
+/// `stylobate info`.
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"
@@ -7,38 +7,8 @@
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
-#include <tbb/info.h>
-
-#include <algorithm>
 
 namespace stylobate {
-
-Isa CommonOptions::isa() const
-{
-    if (simd == "auto")
-        return best_isa();
-    Isa isa{};
-    const std::vector<Isa> usable = usable_isas();
-    if (parse_isa(simd, isa) && std::find(usable.begin(), usable.end(), isa) != usable.end())
-        return isa;
-    std::string names;
-    for (const Isa other : usable)
-        names += std::string(names.empty() ? "" : ", ") + to_string(other);
-    throw InputError(fmt::format("--simd {}: not on this machine; it has {}", simd, names));
-}
-
-int CommonOptions::thread_count() const
-{
-    return threads > 0 ? threads : tbb::info::default_concurrency();
-}
-
-RunOptions CommonOptions::run_options() const
-{
-    RunOptions options{isa(), thread_count()};
-    if (backend == "cuda")
-        options.devices = open_cuda_devices();
-    return options;
-}
 
 int info_command(const CommonOptions& options, const std::string& file)
 {

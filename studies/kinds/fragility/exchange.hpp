@@ -1,7 +1,7 @@
 #pragma once
 /// A fragility study as functions for other tools.
 
-#include "ensemble/estimators/fragility/fragility_model.hpp"
+#include "ensemble/model/fragility_model.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
 #include <filesystem>
