@@ -1,11 +1,11 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_file.hpp"
-#include "io/store/result_fragility.hpp"
-#include "io/store/result_rare.hpp"
-#include "io/store/result_sensitivity.hpp"
 #include "io/store/result_store.hpp"
 #include "io/store/result_trajectory.hpp"
-#include "io/store/result_twins.hpp"
+#include "io/store/tables/result_fragility.hpp"
+#include "io/store/tables/result_rare.hpp"
+#include "io/store/tables/result_sensitivity.hpp"
+#include "io/store/tables/result_twins.hpp"
 #include "io/store/tally_file.hpp"
 
 #include <algorithm>

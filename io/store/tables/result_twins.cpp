@@ -1,4 +1,4 @@
-#include "io/store/result_twins.hpp"
+#include "io/store/tables/result_twins.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "io/store/result_fragility.hpp"
+#include "io/store/tables/result_fragility.hpp"
 
 namespace stylobate {
 

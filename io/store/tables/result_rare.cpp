@@ -1,4 +1,4 @@
-#include "io/store/result_rare.hpp"
+#include "io/store/tables/result_rare.hpp"
 
 namespace stylobate {
 

@@ -1,4 +1,4 @@
-#include "io/store/result_sensitivity.hpp"
+#include "io/store/tables/result_sensitivity.hpp"
 
 #include <algorithm>
 #include <stdexcept>
