@@ -7,7 +7,7 @@
 
 #include "ensemble/engine/watch.hpp"
 #include "kernels/base_motion.hpp"
-#include "kernels/instantiate.hpp"
+#include "kernels/instances/instantiate.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "kernels/instantiate.hpp"
+#include "kernels/instances/instantiate.hpp"
 #include "kernels/wide.hpp"
 
 namespace stylobate {
