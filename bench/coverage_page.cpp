@@ -2,16 +2,16 @@
 ///
 ///   stylobate_coverage [--repeats N] [--resamples N]
 ///
-/// Outcomes are drawn from curves that are known (`tests/fragility_truth.hpp`); no mechanics. `scripts/coverage.sh`
-/// writes the tables into docs/fragility_statistics.md.
+/// Outcomes are drawn from curves that are known (`tests/ensemble/estimators/fragility_truth.hpp`); no mechanics.
+/// `scripts/coverage.sh` writes the tables into docs/fragility_statistics.md.
 
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "ensemble/estimators/fragility/lack_of_fit.hpp"
 #include "ensemble/estimators/fragility/record_bootstrap.hpp"
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
-#include "tests/fragility_truth.hpp"
-#include "tests/nested_truth.hpp"
+#include "tests/ensemble/estimators/fragility_truth.hpp"
+#include "tests/ensemble/estimators/nested_truth.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,11 +2,12 @@
 ///
 ///   stylobate_sampling_coverage [--repeats N]
 ///
-/// Limit states and functions known in closed form (`tests/rare_truth.hpp`, `tests/sensitivity_functions.hpp`); no
-/// mechanics. `scripts/sampling_coverage.sh` writes the tables into docs/sensitivity.md.
+/// Limit states and functions known in closed form (`tests/ensemble/estimators/rare_truth.hpp`,
+/// `tests/ensemble/estimators/sensitivity_functions.hpp`); no mechanics. `scripts/sampling_coverage.sh` writes the
+/// tables into docs/sensitivity.md.
 
-#include "tests/rare_truth.hpp"
-#include "tests/sensitivity_functions.hpp"
+#include "tests/ensemble/estimators/rare_truth.hpp"
+#include "tests/ensemble/estimators/sensitivity_functions.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -13,4 +13,4 @@ cmake -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="
 cmake --build "$build" --target fuzz_record
 mkdir -p "$build/found"
 "$build/tests/fuzz_record" -runs="$inputs" -max_len=4096 -artifact_prefix="$build/finding-" -print_final_stats=1 \
-    "$build/found" "$source/tests/corpus/record"
+    "$build/found" "$source/tests/io/records/corpus/record"

@@ -4,10 +4,10 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/suggest.hpp"
 #include "io/measured/measured_file.hpp"
-#include "tests/hidden/answer.hpp"
-#include "tests/hidden/coverage.hpp"
-#include "tests/hidden/detectability.hpp"
-#include "tests/hidden/score.hpp"
+#include "tests/hidden/score/answer.hpp"
+#include "tests/hidden/score/coverage.hpp"
+#include "tests/hidden/score/detectability.hpp"
+#include "tests/hidden/score/score.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

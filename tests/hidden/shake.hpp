@@ -1,7 +1,7 @@
 #pragma once
 /// One run: a specimen that stands on the table is shaken, and seen by cameras that make no errors.
 
-#include "tests/hidden/stepper.hpp"
+#include "tests/hidden/laws/stepper.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 /// Motions of the table: what is commanded, and what the table does.
 
 #include "tests/hidden/draws.hpp"
-#include "tests/hidden/model.hpp"
+#include "tests/hidden/laws/model.hpp"
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "tests/hidden/specimen.hpp"
 
-#include "tests/hidden/stepper.hpp"
+#include "tests/hidden/laws/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -25,8 +25,9 @@
 /// with V from A and B, and m_k, V_k from B and A_k. E c = 0 since A and B are independent, so it may be taken out in
 /// any amount: beta is where the variance of S_k is least, from its regression on c over the jackknife. For beta = 1
 /// this is Saltelli's estimator, which is exact for a factor without effect but poor for a strong one, where Janon's is
-/// good; the regression is as good as the better of the two everywhere (tests/test_sobol_indices.cpp). m^2 is freed of
-/// its bias Var(m); what remains is the bias of a ratio, of order 1 / rows.
+/// good; the regression is as good as the better of the two everywhere
+/// (tests/ensemble/estimators/test_sobol_indices.cpp). m^2 is freed of its bias Var(m); what remains is the bias of a
+/// ratio, of order 1 / rows.
 ///
 /// Intervals: `resampled_rows`. Their measured coverage is in docs/sensitivity.md.
 

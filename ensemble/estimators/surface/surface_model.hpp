@@ -25,9 +25,9 @@
 /// interval of the cell's own trials is to be taken.
 ///
 /// An interval that borrows is as good as the surface is smooth: its coverage is right on average over cells of
-/// surfaces like those that it was measured on (tests/test_surface_model.cpp, docs/adaptive.md), not for every cell. A
-/// single cell that differs from all its neighbours is found by its own trials only: at the fewest of them, 8, a
-/// probability of 0.8 amid ones is missed once in six times.
+/// surfaces like those that it was measured on (tests/ensemble/estimators/test_surface_model.cpp, docs/adaptive.md),
+/// not for every cell. A single cell that differs from all its neighbours is found by its own trials only: at the
+/// fewest of them, 8, a probability of 0.8 amid ones is missed once in six times.
 ///
 /// Rasmussen & Williams, "Gaussian Processes for Machine Learning" (2006), algorithms 3.1 and 3.2; predictive scores:
 /// Vehtari et al., JMLR 17 (2016) 103.

@@ -1,7 +1,7 @@
 #pragma once
 /// A case of verification: one thing that the engine computes, and what it should be by something else.
 ///
-/// The page (`page.hpp`) and the tests (`tests/test_verification.cpp`) run the same cases.
+/// The page (`page.hpp`) and the tests (`tests/studies/evidence/test_verification.cpp`) run the same cases.
 
 #include <functional>
 #include <string>

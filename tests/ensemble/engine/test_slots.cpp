@@ -1,0 +1,298 @@
+/// The slots of a device, on the device that is the processor: outcomes have the bits of the processor's own lanes,
+/// with any number of slots, however they are refilled, and whatever the realizations are.
+
+#include "ensemble/engine/slots.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "io/study/study_file.hpp"
+#include "tests/ensemble/engine/ensemble_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace stylobate;
+
+namespace {
+
+const std::string inputs = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/";
+
+RunOptions on_devices(int devices, int slots)
+{
+    RunOptions options{Isa::scalar, 2};
+    for (int i = 0; i < devices; ++i)
+        options.devices.push_back(host_device());
+    options.slots = slots;
+    return options;
+}
+
+/// Compares lanes and slots; what the lanes gave.
+EnsembleRun same_in_slots(const Study& study, const Motion* record = nullptr)
+{
+    const EnsembleRun want = run_all(study, {best_isa(), 2}, record);
+    EXPECT_EQ(want.outcomes.size(), study.total());
+    for (const auto& [devices, slots] : {std::pair{1, 5}, std::pair{2, 0}}) {
+        const EnsembleRun got = run_all(study, on_devices(devices, slots), record);
+        EXPECT_EQ(got.outcomes, want.outcomes) << devices << " devices, " << slots << " slots";
+        EXPECT_EQ(got.progress.done, study.total());
+        EXPECT_EQ(got.progress.collapsed, want.progress.collapsed);
+        EXPECT_EQ(got.progress.block_steps, want.progress.block_steps);
+    }
+    return want;
+}
+
+Study column(const std::vector<std::string>& more)
+{
+    std::vector<std::string> settings{"study.realizations=4",
+                                      "surface.frequency_hz={ from = 1.0, to = 4.0, count = 2 }",
+                                      "surface.pga_m_s2={ from = 1.0, to = 9.0, count = 3 }"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return read_study(inputs + "small_scale_column.toml", settings);
+}
+
+Study colonnade(const std::vector<std::string>& more)
+{
+    std::vector<std::string> settings{"study.realizations=3", "excitation.cycles=5",
+                                      "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
+                                      "surface.pga_m_s2={ from = 6.0, to = 15.0, count = 2 }"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return read_study(inputs + "small_scale_colonnade_drums.toml", settings);
+}
+
+} // namespace
+
+TEST(Slots, ASurfaceOfAColumnHasTheBitsOfTheLanes)
+{
+    const EnsembleRun result = same_in_slots(column({}));
+    EXPECT_GE(result.states.size(), 3U) << "the mix is not what it should be";
+    EXPECT_GT(result.states.at(State::collapsed), 0);
+}
+
+/// With watched pairs; collapses are followed until everything lies still, and epistyles lose their seats.
+TEST(Slots, AColonnadeThatFallsHasTheBitsOfTheLanes)
+{
+    const EnsembleRun result = same_in_slots(colonnade({}));
+    EXPECT_GT(result.states.at(State::collapsed), 3) << "the mix is not what it should be";
+    EXPECT_GT(static_cast<int>(result.outcomes.size()), result.states.at(State::collapsed));
+}
+
+TEST(Slots, PulsesHaveTheBitsOfTheLanes)
+{
+    for (const ExcitationKind kind : {ExcitationKind::half_sine, ExcitationKind::full_sine, ExcitationKind::ricker}) {
+        Study study = column({"study.realizations=2"});
+        study.excitation.kind = kind;
+        same_in_slots(study);
+    }
+}
+
+/// Every realization has a motion of its own, which the host samples.
+TEST(Slots, NoiseHasTheBitsOfTheLanes)
+{
+    same_in_slots(read_study(inputs + "synthetic_earthquake.toml",
+                             {"study.realizations=3", "excitation.rise_s=0.5", "excitation.strong_s=1",
+                              "excitation.decay_s=0.3", "surface.frequency_hz={ from = 1.0, to = 3.0, count = 2 }",
+                              "surface.pga_m_s2={ from = 4.0, to = 12.0, count = 2 }"}));
+}
+
+/// Every form, and mechanisms that act in the joints, on the blocks and through the base.
+const std::vector<std::string> mechanisms{"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }",
+                                          "mechanisms.eccentricity={ offset_m = 0.001 }",
+                                          "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }",
+                                          "mechanisms.corner_wear={ loss_m_rad = 0.001 }",
+                                          "mechanisms.dowel={ stiffness_n_m = 1e5, yield_n = 2, gap_m = 0.0002 }",
+                                          "mechanisms.adhesion={ force_n_m = 5 }",
+                                          "mechanisms.table_pitch={ rotation_rad_s2_m = 0.002 }",
+                                          "mechanisms.vertical_motion={ ratio = 0.3 }"};
+
+/// By contact form, so that no test is long.
+class SlotsOfForm : public testing::TestWithParam<const char*> {
+protected:
+    std::vector<std::string> settings{"study.realizations=2", std::string("contact.form=\"") + GetParam() + "\"",
+                                      "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
+                                      "surface.pga_m_s2={ from = 2.0, to = 9.0, count = 2 }"};
+};
+
+TEST_P(SlotsOfForm, HaveTheBitsOfTheLanes)
+{
+    same_in_slots(read_study(inputs + "small_scale_column.toml", settings));
+}
+
+TEST_P(SlotsOfForm, TheExtendedModelHasTheBitsOfTheLanes)
+{
+    settings.insert(settings.end(), mechanisms.begin(), mechanisms.end());
+    same_in_slots(read_study(inputs + "small_scale_column.toml", settings));
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, SlotsOfForm, testing::Values("area", "two_corner", "points"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
+{
+    std::vector<std::string> settings = mechanisms;
+    settings.push_back("study.realizations=1");
+    same_in_slots(colonnade(settings));
+}
+
+/// A slot that breaks is set aside for the reason that a lane is, and its neighbours keep their bits.
+TEST(Slots, ABrokenRealizationIsSetAside)
+{
+    const Study study = column({});
+    const Sampler sampler(study, nullptr);
+    const EnsembleRun want = run_all(study, {Isa::scalar, 1});
+    const auto device = host_device();
+    SlotSet set(study, nullptr, sampler.realization(0), *device, 5, 5);
+    Realization broken = sampler.realization(3), nothing = sampler.realization(4);
+    broken.step_s *= 4;
+    nothing.pga_m_s2 = std::numeric_limits<double>::quiet_NaN();
+    set.load(0, broken);
+    set.load(1, nothing);
+    for (int slot = 2; slot < 5; ++slot)
+        set.load(slot, sampler.realization(static_cast<std::uint64_t>(8 + slot)));
+    LaneSet lane(study, nullptr, kernels(Isa::scalar), broken);
+    lane.load(0, broken);
+    while (!lane.outcome(0))
+        lane.advance();
+    std::map<std::uint64_t, Outcome> ends;
+    while (set.active() > 0) {
+        set.advance();
+        const std::vector<int> ended = set.ended();
+        for (const int slot : ended) {
+            ends[set.realization(slot).index] = *set.outcome(slot);
+            set.clear(slot);
+        }
+    }
+    ASSERT_EQ(ends.size(), 5U);
+    EXPECT_EQ(outcome_bits(ends.at(3)), outcome_bits(*lane.outcome(0)));
+    EXPECT_EQ(ends.at(3).state, State::invalid);
+    EXPECT_EQ(ends.at(4).state, State::invalid);
+    EXPECT_EQ(ends.at(4).invalid_reason, InvalidReason::not_finite);
+    for (std::uint64_t index = 10; index < 13; ++index)
+        EXPECT_EQ(outcome_bits(ends.at(index)), want.outcomes.at(index));
+}
+
+/// Once slots stay empty the others move together, again and again, and go on with the same bits.
+TEST(Slots, GapsAreClosed)
+{
+    const Study study = column({"study.realizations=6"});
+    const Sampler sampler(study, nullptr);
+    const EnsembleRun want = run_all(study, {best_isa(), 2});
+    const auto device = host_device();
+    const int slots = static_cast<int>(study.total());
+    SlotSet set(study, nullptr, sampler.realization(0), *device, slots, slots);
+    for (int slot = 0; slot < slots; ++slot)
+        set.load(slot, sampler.realization(static_cast<std::uint64_t>(slot)));
+    int moved = 0, least = slots;
+    std::map<std::uint64_t, Bits> got;
+    while (set.active() > 0) {
+        const int busy = set.active();
+        set.advance();
+        EXPECT_LE(set.used(), slots);
+        EXPECT_GE(set.used(), busy);
+        EXPECT_LT(set.used(), std::max(2 * busy, 2)) << "fewer than half of the slots that are gone through work";
+        moved += set.used() < least;
+        least = std::min(least, set.used());
+        const std::vector<int> ended = set.ended();
+        for (const int slot : ended) {
+            got[set.realization(slot).index] = outcome_bits(*set.outcome(slot));
+            set.clear(slot);
+        }
+    }
+    EXPECT_GT(moved, 2);
+    EXPECT_EQ(got, want.outcomes);
+}
+
+/// What goes up comes back, bit by bit, and another lane goes on with it.
+TEST(Slots, AColumnHoldsALane)
+{
+    const Study study = column({});
+    const Sampler sampler(study, nullptr);
+    LaneSet a(study, nullptr, kernels(Isa::scalar), sampler.realization(0)),
+        b(study, nullptr, kernels(Isa::scalar), sampler.realization(0));
+    a.load(0, sampler.realization(7));
+    for (int chunk = 0; chunk < 20; ++chunk)
+        a.advance();
+    std::vector<double> column(column_rows(a.topology())), again(column.size());
+    a.write_column(0, column.data());
+    b.load(0, sampler.realization(7));
+    b.read_column(0, column.data());
+    b.write_column(0, again.data());
+    for (std::size_t i = 0; i < column.size(); ++i)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(column[i]), std::bit_cast<std::uint64_t>(again[i])) << "row " << i;
+    EXPECT_EQ(b.steps(0), 20U * chunk_steps);
+}
+
+/// What the device fails at ends the run with its message, and no thread is left waiting.
+TEST(Slots, AFailureOfADeviceEndsTheRun)
+{
+    class Failing : public Device {
+    public:
+        std::string name() const override { return inner_->name(); }
+        int best_slots(const SlotMemory&, std::size_t) const override { return 4; }
+        void* allocate(std::size_t bytes) override { return inner_->allocate(bytes); }
+        void release(void* memory) noexcept override { inner_->release(memory); }
+        void* allocate_host(std::size_t bytes) override { return inner_->allocate_host(bytes); }
+        void release_host(void* memory) noexcept override { inner_->release_host(memory); }
+        void upload(void* to, const void* from, std::size_t bytes) override { inner_->upload(to, from, bytes); }
+        void download(void* to, const void* from, std::size_t bytes) override { inner_->download(to, from, bytes); }
+        void advance(const SlotMemory& memory, int chunks, int count) override
+        {
+            if (++launches_ > 3)
+                throw std::runtime_error("the GPU failed: it fell off the bus");
+            inner_->advance(memory, chunks, count);
+        }
+        void run(const MoveColumns& task, int count) override { inner_->run(task, count); }
+        void run(const MarkSlots& task, int count) override { inner_->run(task, count); }
+        void run(const MultiplyAdds& task, int count) override { inner_->run(task, count); }
+
+    private:
+        std::shared_ptr<Device> inner_ = host_device();
+        int launches_ = 0;
+    };
+    const Study study = column({});
+    RunOptions options = on_devices(1, 0);
+    options.devices.push_back(std::make_shared<Failing>());
+    try {
+        run_all(study, options);
+        FAIL() << "the failure was swallowed";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("fell off the bus"), std::string::npos);
+    }
+}
+
+/// On the devices of CUDA, where there are any: the same bits again.
+TEST(Cuda, OutcomesHaveTheBitsOfTheProcessor)
+{
+    const CudaDevices found = cuda_devices();
+    if (found.names.empty())
+        GTEST_SKIP() << "not run: " << found.reason;
+    RunOptions options{best_isa(), 2};
+    options.devices = open_cuda_devices();
+    for (const Study& study :
+         {column({}), colonnade({}), column({"contact.form=\"points\""}), column({"contact.form=\"two_corner\""}),
+          column({"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }"})}) {
+        const EnsembleRun want = run_all(study, {best_isa(), 2});
+        EXPECT_EQ(run_all(study, options).outcomes, want.outcomes);
+    }
+}
+
+TEST(Cuda, WhereThereIsNoDeviceItIsSaid)
+{
+    const CudaDevices found = cuda_devices();
+    if (!found.names.empty())
+        GTEST_SKIP() << "not run: there is a device";
+    EXPECT_FALSE(found.reason.empty());
+    try {
+        open_cuda_devices();
+        FAIL() << "a device was opened that is not there";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(found.reason), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("--backend cuda"), std::string::npos);
+    }
+}

@@ -1,0 +1,136 @@
+/// The shares of the dispersion: known components, unequal counts, a direct sum over pairs, coverage.
+
+#include "ensemble/estimators/fragility/dispersion_shares.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "tests/ensemble/estimators/nested_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace stylobate;
+
+namespace {
+
+std::vector<NestedRun> nested(std::uint64_t seed, std::uint64_t repeat, std::size_t records,
+                              const std::array<double, 4>& sd, bool binary, bool unequal = false)
+{
+    return NestedTruth{.sd = sd, .binary = binary, .records = records, .unequal = unequal}.draw(seed, repeat);
+}
+
+double sum_of_shares(const DispersionShares& shares)
+{
+    double sum = 0;
+    for (const DispersionShare& level : shares.levels)
+        sum += level.share;
+    return sum;
+}
+
+} // namespace
+
+TEST(DispersionShares, EqualHalfMeanSquaredDifferencesOfPairs)
+{
+    const auto runs = nested(1, 0, 12, {1, 0.7, 0.5, 0.4}, false); // equal counts: all pairs weigh alike
+    std::array<double, 4> sum{}, pairs{};
+    for (const NestedRun& a : runs)
+        for (const NestedRun& b : runs) {
+            if (&a == &b)
+                continue;
+            const std::size_t level = a.record != b.record               ? 0
+                                      : a.imperfection != b.imperfection ? 1
+                                      : a.contact != b.contact           ? 2
+                                                                         : 3;
+            sum[level] += (a.response - b.response) * (a.response - b.response) / 2;
+            pairs[level] += 1;
+        }
+    const DispersionShares shares = dispersion_shares(runs);
+    EXPECT_NEAR(shares.total, sum[0] / pairs[0], 1e-12);
+    for (std::size_t l = 0; l < 4; ++l) {
+        const double below = l < 3 ? sum[l + 1] / pairs[l + 1] : 0;
+        EXPECT_NEAR(shares.levels[l].variance, sum[l] / pairs[l] - below, 1e-12) << l;
+    }
+    EXPECT_NEAR(sum_of_shares(shares), 1, 1e-12);
+}
+
+TEST(DispersionShares, KnownComponentsWithUnequalCounts)
+{
+    const std::array<double, 4> sd = {0.5, 0.3, 0.2, 0.1};
+    const DispersionShares shares = dispersion_shares(nested(2, 0, 4000, sd, false, true));
+    for (std::size_t l = 0; l < 4; ++l) {
+        EXPECT_NEAR(shares.levels[l].variance, sd[l] * sd[l], 0.1 * sd[l] * sd[l]) << l;
+        EXPECT_LT(shares.levels[l].share_limits.lower, sd[l] * sd[l] / 0.39) << l;
+        EXPECT_GT(shares.levels[l].share_limits.upper, sd[l] * sd[l] / 0.39) << l;
+    }
+    EXPECT_NEAR(sum_of_shares(shares), 1, 1e-12);
+}
+
+TEST(DispersionShares, UnbiasedWithFewRecords)
+{
+    const std::array<double, 4> sd = {0.5, 0.3, 0.2, 0.1};
+    std::array<double, 4> mean{};
+    const int repeats = 4000;
+    for (std::uint64_t r = 0; r < repeats; ++r) {
+        const DispersionShares shares = dispersion_shares(nested(3, r, 5, sd, false, true));
+        for (std::size_t l = 0; l < 4; ++l)
+            mean[l] += (shares.levels[l].known ? shares.levels[l].variance : sd[l] * sd[l]) / repeats;
+    }
+    for (std::size_t l = 0; l < 4; ++l)
+        EXPECT_NEAR(mean[l], sd[l] * sd[l], 0.02 * 0.39) << l;
+}
+
+TEST(DispersionShares, IntervalsCover)
+{
+    // 600 repeats: four standard errors of a coverage of .95 are .036
+    const std::array<double, 4> sd = {0.5, 0.4, 0.3, 0.3};
+    for (const bool binary : {false, true}) {
+        const DispersionShares truth = dispersion_shares(nested(9, 0, 60000, sd, binary));
+        std::array<int, 4> covered{};
+        for (std::uint64_t r = 0; r < 600; ++r) {
+            const DispersionShares shares = dispersion_shares(nested(4, r, 40, sd, binary));
+            for (std::size_t l = 0; l < 4; ++l)
+                covered[l] += shares.levels[l].share_limits.lower <= truth.levels[l].share &&
+                                      truth.levels[l].share <= shares.levels[l].share_limits.upper
+                                  ? 1
+                                  : 0;
+        }
+        for (std::size_t l = 0; l < 4; ++l)
+            EXPECT_NEAR(covered[l] / 600.0, 0.95, 0.036) << l << (binary ? " binary" : "");
+    }
+}
+
+TEST(DispersionShares, StripesAreNotCompared)
+{
+    auto runs = nested(5, 0, 30, {1, 0.5, 0.5, 0.5}, false);
+    const DispersionShares one = dispersion_shares(runs);
+    const std::size_t n = runs.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        NestedRun again = runs[i];
+        again.stripe = 1;
+        again.response += 100; // another stripe, far away
+        runs.push_back(again);
+    }
+    EXPECT_NEAR(dispersion_shares(runs).total, one.total, 1e-9);
+}
+
+TEST(DispersionShares, LevelsThatWereNotVariedAreSaid)
+{
+    auto runs = nested(6, 0, 30, {1, 0.5, 0.5, 0.5}, false);
+    std::erase_if(runs, [](const NestedRun& run) { return run.contact > 0; });
+    const DispersionShares shares = dispersion_shares(runs);
+    EXPECT_FALSE(shares.levels[2].known);
+    EXPECT_EQ(shares.levels[2].variance, 0);
+    EXPECT_NEAR(sum_of_shares(shares), 1, 1e-12);
+    ASSERT_FALSE(shares.says.empty());
+    EXPECT_NE(shares.says[0].find("contact"), std::string::npos);
+}
+
+TEST(DispersionShares, TooFewRecordsAndBadNumbers)
+{
+    EXPECT_THROW(dispersion_shares({}), InputError);
+    EXPECT_THROW(dispersion_shares(nested(7, 0, 1, {1, 1, 1, 1}, false)), InputError);
+    auto runs = nested(7, 0, 5, {1, 1, 1, 1}, false);
+    EXPECT_TRUE(std::isinf(dispersion_shares(runs).levels[0].share_limits.upper));
+    runs[3].response = std::nan("");
+    EXPECT_THROW(dispersion_shares(runs), InputError);
+}

@@ -1,0 +1,156 @@
+/// Subset simulation of limit states whose probability is known in closed form.
+
+#include "tests/ensemble/estimators/rare_truth.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace stylobate;
+
+namespace {
+
+/// P(N > b).
+double beyond(double b)
+{
+    return std::erfc(b / std::sqrt(2)) / 2;
+}
+
+struct Score {
+    int held = 0, designs = 0;
+    double sum = 0, evaluations = 0, plain = 0;
+    double share() const { return static_cast<double>(held) / designs; }
+};
+
+Score score(const RareTruth& truth, int designs, std::size_t repeats)
+{
+    Score score;
+    const Response response = truth.response();
+    for (int design = 0; design < designs; ++design) {
+        std::vector<double> found;
+        for (std::size_t r = 0; r < repeats; ++r) {
+            const SubsetRun run = subset_simulation(truth.dimension, response,
+                                                    {.limit = truth.limit, .seed = 100U + unsigned(design)}, r);
+            found.push_back(run.probability);
+            score.evaluations += static_cast<double>(run.evaluations);
+        }
+        const Estimate estimate = mean_of_repeats(found, 0.95);
+        score.held += estimate.contains(truth.probability);
+        score.sum += estimate.value / truth.probability;
+        score.plain += 1 / plain_sampling_cost(found);
+        ++score.designs;
+    }
+    return score;
+}
+
+/// 2000 whole estimates, each of 10 repeats of 500 samples: 0.95 of them has a deviation of 0.005.
+TEST(SubsetSimulationStatistics, IntervalsHoldWhatIsKnown)
+{
+    int held = 0, designs = 0;
+    for (const RareTruth& truth :
+         {rare_plane(1e-3), rare_plane(1e-5), rare_plane(1e-6), rare_pair(1e-4), rare_corner(1e-4)}) {
+        const Score s = score(truth, 400, 10);
+        const double gain = s.designs / s.plain / (s.evaluations / s.designs);
+        const std::string text =
+            fmt::format("{} of {:g}: held by {} of {}, mean {:.4f} of it, plain sampling takes {:.1f} "
+                        "times as many for the same error",
+                        truth.name, truth.probability, s.held, s.designs, s.sum / s.designs, gain);
+        std::printf("%s\n", text.c_str());
+        held += s.held;
+        designs += s.designs;
+        EXPECT_GE(s.share(), 0.92) << text; // three deviations
+        EXPECT_NEAR(s.sum / s.designs, 1, 0.04) << text;
+        EXPECT_GT(gain, truth.probability > 5e-4 ? 1 : truth.probability > 5e-5 ? 5 : 40) << text;
+    }
+    EXPECT_NEAR(static_cast<double>(held) / designs, 0.95, 0.01) << held << " of " << designs;
+}
+
+/// With few repeats and with many.
+TEST(SubsetSimulationStatistics, IntervalsHoldWithAnyNumberOfRepeats)
+{
+    for (const std::size_t repeats : {5, 20, 40}) {
+        const Score s = score(rare_plane(1e-4), 400, repeats);
+        EXPECT_NEAR(s.share(), 0.95, 0.033) << repeats << " repeats: three deviations";
+    }
+    EXPECT_TRUE(std::isnan(mean_of_repeats({1e-4, 2e-4, 1e-4, 1e-4}, 0.95).value)) << "too few";
+}
+
+/// The mean of many estimates, which the choice of levels and of steps must not pull to one side.
+TEST(SubsetSimulationStatistics, IsUnbiased)
+{
+    for (const RareTruth& truth : {rare_plane(1e-3), rare_shell(1e-4), rare_corner(1e-4)}) {
+        const Score s = score(truth, 400, 10);
+        EXPECT_NEAR(s.sum / s.designs, 1, 0.03) << truth.name; // 4000 runs, each 0.45 off: 0.007
+    }
+}
+
+/// Cox's interval of a lognormal mean: with logarithms of mean m and variance v, by hand.
+TEST(SubsetSimulationStatistics, IntervalOfRepeatsByHand)
+{
+    const double e = std::exp(1.0);
+    const Estimate found =
+        mean_of_repeats({1e-4, 1e-4 * e, 1e-4 * e * e, 1e-4 * e * e * e, 1e-4 * e * e * e * e}, 0.95);
+    EXPECT_NEAR(found.value, 1e-4 * (1 + e + e * e + e * e * e + e * e * e * e) / 5, 1e-12);
+    // m = 2, v = 2.5, t of four degrees 2.776445: 2 + 1.25 -+ 2.776445 sqrt(0.5 + 0.78125)
+    EXPECT_NEAR(std::log(found.lower * 1e4), 3.25 - 2.776445 * std::sqrt(1.28125), 1e-5);
+    EXPECT_NEAR(std::log(found.upper * 1e4), 3.25 + 2.776445 * std::sqrt(1.28125), 1e-5);
+    const Estimate zero = mean_of_repeats({0, 1e-4, 1e-4, 1e-4, 1e-4}, 0.95);
+    EXPECT_NEAR(zero.value, 0.8e-4, 1e-12);
+    EXPECT_TRUE(std::isnan(zero.lower) && std::isnan(zero.upper));
+}
+
+TEST(SubsetSimulationStatistics, IsTheSameHoweverABatchIsDone)
+{
+    constexpr std::size_t dimension = 40;
+    const RareTruth truth = rare_plane(1e-4, dimension);
+    const double limit = truth.limit;
+    const Response at_once = truth.response();
+    const Response backwards = [&](const std::vector<double>& points, std::uint64_t first) {
+        std::vector<double> response(points.size() / dimension);
+        for (std::size_t i = response.size(); i-- > 0;) {
+            const auto begin = points.begin() + static_cast<std::ptrdiff_t>(i * dimension);
+            response[i] = at_once(std::vector<double>(begin, begin + dimension), first + i)[0];
+        }
+        return response;
+    };
+    const SubsetOptions options{.samples = 300, .limit = limit, .seed = 5};
+    const SubsetRun a = subset_simulation(dimension, at_once, options, 3);
+    const SubsetRun b = subset_simulation(dimension, backwards, options, 3);
+    EXPECT_EQ(a.probability, b.probability);
+    EXPECT_EQ(a.evaluations, b.evaluations);
+    EXPECT_NE(a.probability, subset_simulation(dimension, at_once, options, 4).probability);
+    for (std::size_t i = 1; i < a.levels.size(); ++i) {
+        EXPECT_GT(a.levels[i].threshold, a.levels[i - 1].threshold);
+        EXPECT_NEAR(a.levels[i].acceptance, 0.44, 0.15);
+        EXPECT_LT(a.levels[i].stuck, 0.2);
+    }
+}
+
+TEST(SubsetSimulationStatistics, SaysWhatItCouldNotReach)
+{
+    constexpr std::size_t dimension = 10;
+    // a response without a slope: the second level is no higher than the first
+    const Response flat = [](const std::vector<double>& points, std::uint64_t) {
+        return std::vector<double>(points.size() / dimension, 1.0);
+    };
+    const SubsetRun run = subset_simulation(dimension, flat, {.limit = 2}, 0);
+    EXPECT_EQ(run.probability, 0);
+    EXPECT_LE(run.levels.size(), 2U);
+    EXPECT_TRUE(std::isnan(mean_of_repeats({0, 0, 0, 0, 0}, 0.95).value));
+    EXPECT_TRUE(std::isnan(mean_of_repeats({1e-3}, 0.95).upper));
+    // invalid realizations: no chain goes there, and they are counted
+    const Response holes = [](const std::vector<double>& points, std::uint64_t) {
+        std::vector<double> g;
+        for (std::size_t i = 0; i < points.size(); i += dimension)
+            g.push_back(points[i + 1] > 2 ? std::nan("") : points[i]);
+        return g;
+    };
+    const SubsetRun with_holes = subset_simulation(dimension, holes, {.samples = 2000, .limit = 3}, 0);
+    EXPECT_GT(with_holes.invalid, 20U);
+    EXPECT_NEAR(with_holes.probability / (beyond(3) * (1 - beyond(2))), 1, 0.5);
+    EXPECT_THROW(subset_simulation(dimension, flat, {.samples = 10}, 0), std::invalid_argument);
+}
+
+} // namespace

@@ -1,0 +1,427 @@
+/// The house keeps its own rules: includes go one way (kernels <- ensemble <- studies, io beside), every header has its
+/// guard, no file grows past 600 lines, and no text names the machine that it was written on.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = STYLOBATE_SOURCE_DIR;
+
+// ---- the rules ------------------------------------------------------------------------------------------------------
+
+/// The rooms of each floor and which rooms of the same floor each may include; no cycle, which a test sees to. A room
+/// is a folder. The parts of the kernel are one room.
+const std::map<std::string, std::set<std::string>> rooms = {
+    {"kernels", {}},
+
+    {"ensemble/numerics", {}},
+    {"ensemble/model", {}},
+    {"ensemble/statics", {"ensemble/model"}},
+    {"ensemble/motion", {"ensemble/model", "ensemble/numerics", "ensemble/statics"}},
+    {"ensemble/sampling", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/statics"}},
+    {"ensemble/engine",
+     {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/sampling", "ensemble/statics"}},
+    {"ensemble/tracking", {"ensemble/engine", "ensemble/model"}},
+    {"ensemble/replicas",
+     {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/sampling", "ensemble/statics"}},
+    {"ensemble/estimators/resampling", {"ensemble/numerics"}},
+    {"ensemble/estimators/fragility", {"ensemble/model", "ensemble/numerics"}},
+    {"ensemble/estimators/rare", {"ensemble/estimators/resampling", "ensemble/numerics"}},
+    {"ensemble/estimators/sensitivity", {"ensemble/estimators/resampling"}},
+    {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
+
+    {"io/files", {}},
+    {"io/tables", {"io/files"}},
+    {"io/records", {}},
+    {"io/motion", {"io/records"}},
+    {"io/measured", {"io/files", "io/motion", "io/records"}},
+    {"io/study", {"io/files", "io/records"}},
+    {"io/store/tables", {"io/files", "io/tables"}},
+    {"io/store", {"io/files", "io/store/tables", "io/tables"}},
+    {"io/plots", {"io/files", "io/store", "io/tables"}},
+
+    {"studies", {}},
+    {"studies/report", {"studies"}},
+    {"studies/experiment", {"studies"}},
+    {"studies/kinds", {"studies/experiment"}},
+    {"studies/kinds/single", {"studies/experiment"}},
+    {"studies/kinds/surface", {"studies/experiment"}},
+    {"studies/kinds/adaptive", {"studies/experiment", "studies/kinds"}},
+    {"studies/kinds/fragility", {"studies/report"}},
+    {"studies/kinds/sensitivity", {"studies/report"}},
+    {"studies/kinds/rare", {"studies/experiment", "studies/kinds", "studies/report"}},
+    {"studies/kinds/replicas", {"studies/experiment", "studies/kinds", "studies/report"}},
+    {"studies/diagnosis/findings", {"studies/report"}},
+    {"studies/diagnosis/laws", {}},
+    {"studies/diagnosis/tests", {"studies/diagnosis/findings", "studies/diagnosis/laws"}},
+    {"studies/calibration", {"studies", "studies/diagnosis/tests"}},
+    {"studies/diagnosis/decision",
+     {"studies", "studies/calibration", "studies/diagnosis/findings", "studies/diagnosis/laws",
+      "studies/diagnosis/tests"}},
+    {"studies/pages",
+     {"studies/calibration", "studies/diagnosis/findings", "studies/experiment", "studies/kinds/adaptive",
+      "studies/kinds/fragility", "studies/kinds/rare", "studies/kinds/replicas", "studies/kinds/sensitivity",
+      "studies/kinds/surface", "studies/report"}},
+    {"studies/app",
+     {"studies", "studies/calibration", "studies/diagnosis/decision", "studies/diagnosis/findings",
+      "studies/diagnosis/laws", "studies/experiment", "studies/kinds/adaptive", "studies/kinds/fragility",
+      "studies/kinds/rare", "studies/kinds/replicas", "studies/kinds/sensitivity", "studies/kinds/single",
+      "studies/kinds/surface", "studies/pages", "studies/report"}},
+    {"studies/evidence/picture", {}},
+    {"studies/evidence/claims",
+     {"studies", "studies/app", "studies/experiment", "studies/kinds/surface", "studies/report"}},
+    {"studies/evidence/verification", {"studies", "studies/evidence/picture"}},
+    {"studies/evidence/verification/cases", {"studies/evidence/picture", "studies/evidence/verification"}},
+    {"studies/evidence/measured/parts", {}},
+    {"studies/evidence/measured/boulders", {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
+    {"studies/evidence/measured/double_pulse",
+     {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
+    {"studies/evidence/measured/planar_impact",
+     {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
+    {"studies/evidence/measured",
+     {"studies", "studies/app", "studies/evidence/measured/boulders", "studies/evidence/measured/double_pulse",
+      "studies/evidence/measured/parts"}},
+};
+
+/// Floors below, which every room of a floor may include. Who is not listed here may include everything.
+const std::map<std::string, std::set<std::string>> floors_below = {
+    {"kernels", {}},
+    {"ensemble", {"kernels"}},
+    {"io", {}},
+    {"studies", {"kernels", "ensemble", "io"}},
+};
+
+/// What `io` may include besides: plain data, and the mathematics that both need.
+const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
+const std::set<std::string> headers_for_io = {"ensemble/sampling/plausible.hpp"};
+
+/// Libraries, and the folders among `may_include` and `studies` that they are for.
+const std::map<std::string, std::set<std::string>> library_folders = {
+    {"xsimd/", {"kernels"}},
+    {"tbb/", {"ensemble", "studies"}},
+    {"Eigen/", {"ensemble", "studies"}},
+    {"boost/", {"ensemble"}},
+    {"Random123/", {"ensemble"}},
+    {"fmt/", {"ensemble", "io", "studies"}},
+    {"hdf5", {"io"}},
+    {"toml++/", {"io"}},
+    {"pugixml", {"io"}},
+    {"zlib.h", {"io", "studies"}},
+    {"CLI/", {"studies"}},
+};
+
+/// The kernel has no I/O, no threads, no allocation.
+const std::set<std::string> not_in_kernels = {"iostream", "fstream", "sstream", "cstdio", "stdio.h",   "thread",
+                                              "mutex",    "future",  "memory",  "map",    "filesystem"};
+
+const std::set<std::string> folders = {"kernels", "ensemble", "io", "studies", "bench", "tests", "python"};
+
+constexpr long most_lines = 600;
+constexpr int most_files = 25; // of a folder; records have a parser for each format
+
+// ---- and how a breach is found --------------------------------------------------------------------------------------
+
+/// "ensemble" of "ensemble/model/study.hpp"
+std::string first_part(const std::string& path)
+{
+    return path.substr(0, path.find('/'));
+}
+
+std::vector<std::string> includes_of(const std::string& text)
+{
+    static const std::regex line(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"])re");
+    std::vector<std::string> found;
+    for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i)
+        found.push_back((*i)[1]);
+    return found;
+}
+
+/// The room of a file: its folder.
+std::string room_of(const std::string& path)
+{
+    const std::string folder = fs::path(path).parent_path().generic_string();
+    return first_part(folder) == "kernels" ? "kernels" : folder;
+}
+
+/// What is wrong with an include in a file (a path relative to the root); empty if nothing is.
+std::string breach(const std::string& file, const std::string& include)
+{
+    const std::string from = first_part(file), to = first_part(include);
+    const auto below = floors_below.find(from);
+    const std::string says = file + " includes " + include;
+    if (include.find("..") != std::string::npos)
+        return says + ": headers are named from the root";
+    if (below == floors_below.end())
+        return {};
+    if (from == to && room_of(file) != room_of(include)) {
+        const auto room = rooms.find(room_of(file));
+        if (room == rooms.end() || !room->second.contains(room_of(include)))
+            return says + ": the graph of the rooms at the top of this test does not have it";
+    }
+    if (from == "studies" && (to == "tests" || to == "bench" || to == "python"))
+        return says + ": the program stands without it";
+    if (from != to && folders.contains(to) && !below->second.contains(to) &&
+        !(from == "io" && (rooms_for_io.contains(room_of(include)) || headers_for_io.contains(include))))
+        return says + ": includes go one way, kernels <- ensemble <- studies, io beside with plain data only";
+    if (from == "kernels" && not_in_kernels.contains(include))
+        return says + ": the kernel has no I/O, no threads, no allocation";
+    for (const auto& [library, users] : library_folders)
+        if (include.starts_with(library) && !users.contains(from))
+            return says + ": that library is for other folders";
+    return {};
+}
+
+using Graph = std::map<std::string, std::set<std::string>>;
+
+/// The nodes of a cycle in order, or none.
+std::vector<std::string> cycle_in(const Graph& graph)
+{
+    std::set<std::string> done;
+    std::vector<std::string> path;
+    const std::function<bool(const std::string&)> closes = [&](const std::string& node) {
+        if (const auto at = std::find(path.begin(), path.end(), node); at != path.end()) {
+            path.erase(path.begin(), at);
+            return true;
+        }
+        if (done.contains(node))
+            return false;
+        path.push_back(node);
+        if (const auto found = graph.find(node); found != graph.end())
+            for (const std::string& next : found->second)
+                if (closes(next))
+                    return true;
+        path.pop_back();
+        done.insert(node);
+        return false;
+    };
+    for (const auto& [node, next] : graph)
+        if (closes(node))
+            return path;
+    return {};
+}
+
+/// A path of somebody's machine in a text, with the character before it; empty if there is none.
+std::string machine_path(const std::string& text)
+{
+    static const std::regex absolute(R"re((^|[\s"'`(=:,<])/(home|root|work|Users|mnt)/[^\s"'`)>]*)re");
+    std::smatch match;
+    if (std::regex_search(text, match, absolute))
+        return match.str();
+    const std::string here = root.string() + "/";
+    if (std::count(here.begin(), here.end(), '/') > 2 && text.find(here) != std::string::npos)
+        return here;
+    return {};
+}
+
+bool has_pragma_once(const std::string& text)
+{
+    static const std::regex first_line(R"re(^\s*#pragma once\s*\n)re");
+    return std::regex_search(text, first_line, std::regex_constants::match_continuous);
+}
+
+struct Text {
+    std::string name; ///< path relative to the root, with '/'
+    std::string text;
+    bool is_header() const { return name.ends_with(".hpp") || name.ends_with(".cuh"); }
+    bool is_code() const { return is_header() || name.ends_with(".cpp") || name.ends_with(".cu"); }
+};
+
+/// Every text of the project: what lies in its folders and beside them, but nothing that is built or computed.
+std::vector<Text> texts()
+{
+    static const std::set<std::string> kinds = {".hpp", ".cpp", ".cu",   ".cuh", ".py",    ".md", ".toml",
+                                                ".txt", ".sh",  ".json", ".cff", ".cmake", ".in", ""};
+    std::set<std::string> in = folders;
+    in.insert({"scripts", "cmake", "docs", ".ci"});
+    std::vector<Text> found;
+    const auto take = [&](const fs::path& path) {
+        const std::string kind = path.extension().string();
+        if (!fs::is_regular_file(path) || !kinds.contains(kind) || path.filename() == ".git") // a worktree's
+            return;
+        std::ifstream file(path, std::ios::binary);
+        std::stringstream content;
+        content << file.rdbuf();
+        found.push_back({path.lexically_relative(root).generic_string(), content.str()});
+    };
+    for (const auto& entry : fs::directory_iterator(root))
+        if (!entry.is_directory())
+            take(entry.path());
+    for (const std::string& folder : in)
+        if (fs::exists(root / folder))
+            for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+                take(entry.path());
+    return found;
+}
+
+// ---- the project ----------------------------------------------------------------------------------------------------
+
+TEST(Includes, GoOneWay)
+{
+    std::map<std::string, int> code;
+    for (const Text& file : texts())
+        if (file.is_code()) {
+            ++code[first_part(file.name)];
+            for (const std::string& include : includes_of(file.text))
+                EXPECT_EQ(breach(file.name, include), "");
+        }
+    for (const char* folder : {"kernels", "ensemble", "io", "studies", "tests"})
+        EXPECT_GT(code[folder], 5) << "the files of " << folder << " were not found";
+}
+
+TEST(Includes, MakeNoCycleOfRooms)
+{
+    EXPECT_EQ(cycle_in(rooms), std::vector<std::string>{});
+    Graph found; // as the files have it, floors and all
+    for (const Text& file : texts())
+        if (file.is_code() && floors_below.contains(first_part(file.name)))
+            for (const std::string& include : includes_of(file.text))
+                if (floors_below.contains(first_part(include)) && room_of(include) != room_of(file.name))
+                    found[room_of(file.name)].insert(room_of(include));
+    EXPECT_GT(found.size(), 30U);
+    EXPECT_EQ(cycle_in(found), std::vector<std::string>{});
+    for (const auto& [room, others] : found)
+        EXPECT_TRUE(rooms.contains(room)) << room << " is not in the graph of the rooms";
+}
+
+TEST(House, RoomsAreNotTooFull)
+{
+    std::map<std::string, int> files;
+    for (const Text& file : texts())
+        if (floors_below.contains(first_part(file.name)))
+            ++files[fs::path(file.name).parent_path().generic_string()];
+    for (const auto& [folder, count] : files)
+        EXPECT_TRUE(count <= most_files || folder == "studies/inputs" || folder == "io/records")
+            << folder << " has " << count << " files: it needs rooms";
+}
+
+TEST(Includes, NameHeadersThatExist)
+{
+    for (const Text& file : texts()) {
+        if (!file.is_code() || file.name.starts_with("tests/house/consumer/"))
+            continue;
+        for (const std::string& include : includes_of(file.text)) {
+            const bool ours = folders.contains(first_part(include)) && include.find('/') != std::string::npos;
+            EXPECT_TRUE(!ours || fs::exists(root / include)) << file.name << " includes " << include;
+        }
+    }
+}
+
+TEST(House, EveryHeaderHasItsGuard)
+{
+    for (const Text& file : texts())
+        EXPECT_TRUE(!file.is_header() || has_pragma_once(file.text)) << file.name << " begins without #pragma once";
+}
+
+TEST(House, NoFileIsTooLong)
+{
+    for (const Text& file : texts()) {
+        const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
+        const bool by_program = file.name.starts_with("bench/results/") || file.name == "docs/verification.md" ||
+                                file.name == "docs/claims.md";
+        EXPECT_TRUE(lines <= most_lines || by_program)
+            << file.name << " has " << lines << " lines: look for a second noun";
+    }
+}
+
+TEST(House, NoTextNamesAMachine)
+{
+    for (const Text& file : texts())
+        EXPECT_EQ(machine_path(file.text), "") << file.name;
+}
+
+TEST(House, EveryFolderSaysWhatItIs)
+{
+    for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs",
+                               "studies/evidence/verification", "bench", "tests"})
+        EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
+}
+
+TEST(House, LinksBetweenTextsLeadSomewhere)
+{
+    static const std::regex link(R"re(\]\(([^)#\s]+)[^)]*\))re");
+    for (const Text& file : texts()) {
+        if (!file.name.ends_with(".md"))
+            continue;
+        for (std::sregex_iterator i(file.text.begin(), file.text.end(), link), end; i != end; ++i) {
+            const std::string target = (*i)[1];
+            const bool elsewhere = target.find("://") != std::string::npos;
+            EXPECT_TRUE(elsewhere || fs::exists(root / fs::path(file.name).parent_path() / target))
+                << file.name << " links to " << target;
+        }
+    }
+}
+
+// ---- the rules can be broken ----------------------------------------------------------------------------------------
+
+TEST(Rules, FindBreaches)
+{
+    EXPECT_NE(breach("kernels/step.hpp", "ensemble/model/study.hpp"), "");
+    EXPECT_NE(breach("kernels/step.hpp", "io/records/record.hpp"), "");
+    EXPECT_NE(breach("kernels/step.hpp", "Eigen/Dense"), "");
+    EXPECT_NE(breach("kernels/step.hpp", "fstream"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study/study_file.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/kinds/surface/surface.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("ensemble/unheard_of/noun.cpp", "ensemble/model/study.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "kernels/step.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "io/store/result_store.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "../ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("studies/app/run.cpp", "tests/model.hpp"), "");
+    EXPECT_NE(breach("studies/app/run.cpp", "hdf5.h"), "");
+
+    EXPECT_EQ(breach("kernels/step.hpp", "kernels/mechanisms/stribeck.hpp"), "");
+    EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
+    EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
+    EXPECT_EQ(breach("ensemble/engine/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
+    EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
+    EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
+    EXPECT_EQ(breach("tests/kernels/test_wide.cpp", "kernels/step.hpp"), "");
+    EXPECT_EQ(breach("tests/io/store/test_result_store.cpp", "hdf5.h"), "");
+}
+
+TEST(Rules, FindCycles)
+{
+    EXPECT_EQ(cycle_in({{"a", {"b"}}, {"b", {"c", "d"}}, {"c", {"d"}}}), std::vector<std::string>{});
+    EXPECT_EQ(cycle_in({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}), (std::vector<std::string>{"b", "c"}));
+}
+
+TEST(Rules, ReadIncludesAsTheCompilerDoes)
+{
+    const std::string text =
+        "#include \"a/b.hpp\"\n  #  include <c>\n// #include <d>\nint x; // \"e\"\n#include<f.h> // g\n";
+    EXPECT_EQ(includes_of(text), (std::vector<std::string>{"a/b.hpp", "c", "f.h"}));
+}
+
+TEST(Rules, FindMissingGuards)
+{
+    EXPECT_TRUE(has_pragma_once("#pragma once\n/// text\n"));
+    EXPECT_FALSE(has_pragma_once("/// text\n#pragma once\n"));
+    EXPECT_FALSE(has_pragma_once(""));
+}
+
+TEST(Rules, FindPathsOfMachines)
+{
+    const std::string slash = "/";
+    EXPECT_NE(machine_path("see " + slash + "home/me/column.toml"), "");
+    EXPECT_NE(machine_path("\"" + slash + "work/x\""), "");
+    EXPECT_NE(machine_path("in `" + (root / "tests").string() + "`"), "");
+    EXPECT_EQ(machine_path("see https://example.org/home/me and ../work/x and a/root/b"), "");
+    EXPECT_EQ(machine_path("/usr/share/stylobate"), "");
+}
+
+} // namespace

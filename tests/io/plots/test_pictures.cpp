@@ -1,0 +1,583 @@
+/// Pictures decoded and their colours counted; what gnuplot is told; what is said when there is no picture.
+
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_axis.hpp"
+#include "io/plots/plot_maps.hpp"
+#include "io/plots/plot_rare.hpp"
+#include "io/plots/plot_slice.hpp"
+#include "io/plots/plot_strip.hpp"
+#include "io/plots/plot_surface.hpp"
+#include "tests/io/plots/pixels.hpp"
+#include "tests/io/store/export_cases.hpp"
+
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Pictures = ExportFolder;
+
+/// Sets a variable of the environment for the length of a scope.
+class Environment {
+public:
+    Environment(const char* name, const std::string& value) : name_(name)
+    {
+        if (const char* old = std::getenv(name))
+            old_ = old;
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~Environment()
+    {
+        if (old_.empty())
+            ::unsetenv(name_);
+        else
+            ::setenv(name_, old_.c_str(), 1);
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+private:
+    const char* name_;
+    std::string old_;
+};
+
+TEST(PlotAxis, ScaleAndCells)
+{
+    const PlotAxis log = make_plot_axis({1, 10, 100}, "frequency_hz");
+    EXPECT_TRUE(log.log);
+    EXPECT_NEAR(log.edges[0], std::pow(10, -0.5), 1e-12);
+    EXPECT_NEAR(log.edges[1], std::pow(10, 0.5), 1e-12);
+    EXPECT_NEAR(log.edges[3], std::pow(10, 2.5), 1e-10);
+    const PlotAxis linear = make_plot_axis({1, 2, 3}, "pga_m_s2");
+    EXPECT_FALSE(linear.log);
+    EXPECT_EQ(linear.edges, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+    EXPECT_EQ(make_plot_axis({1, 12}, "pga_m_s2").edges.front(), 0);
+    const PlotAxis lone = make_plot_axis({4}, "pga_m_s2");
+    EXPECT_LT(lone.edges[0], 4);
+    EXPECT_GT(lone.edges[1], 4);
+    EXPECT_THROW(make_plot_axis({}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_plot_axis({1, 1}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_plot_axis({1, nan_value}, "pga_m_s2"), InputError);
+}
+
+TEST(Texts, Words)
+{
+    EXPECT_EQ(describe_interval("wilson 0.95"), "95 % Wilson interval");
+    EXPECT_EQ(describe_interval("jeffreys 0.999"), "99.9 % Jeffreys interval");
+    EXPECT_EQ(describe_interval("motions 0.95"), "95 % interval by the motions");
+    EXPECT_EQ(describe_interval("something else"), "something else");
+    EXPECT_EQ(describe_interval(""), "");
+    SurfaceTable surface = some_surface(3, 2);
+    EXPECT_EQ(describe_realizations(surface), "1536 realizations, 256 in each of 3 × 2 cells");
+    surface.trials[1] = 250;
+    EXPECT_EQ(describe_realizations(surface), "1530 realizations, 250 to 256 in each of 3 × 2 cells");
+    EXPECT_EQ(gnuplot_text("it's \"5 %\" a_b"), "'it''s \"5 %\" a_b'");
+    EXPECT_EQ(gnuplot_text("a\nb\\n`date`"), "'a b\\n`date`'");
+    EXPECT_EQ(gnuplot_text("m/s² \xff \xc3"), "'m/s² ? ?'");
+}
+
+TEST(Slice, NearestRowsOnTheAxisScale)
+{
+    SurfaceTable surface = some_surface();
+    surface.frequency_hz = {1, 2, 4, 8, 16};
+    // 2.9 is nearer to 4 on the logarithmic axis (midpoint 2.828), 2.8 to 2; two that meet in one row are one.
+    EXPECT_EQ(slice_rows(surface, {2.9}), std::vector<std::size_t>{2});
+    EXPECT_EQ(slice_rows(surface, {2.8}), std::vector<std::size_t>{1});
+    EXPECT_EQ(slice_rows(surface, {16, 1, 15}), (std::vector<std::size_t>{0, 4}));
+    EXPECT_EQ(slice_rows(surface, {}), (std::vector<std::size_t>{0, 2, 4}));
+    for (const double bad : {0.0, -1.0, 0.9, 17.0, nan_value}) // none is drawn instead of another
+        EXPECT_THROW(slice_rows(surface, {bad}), InputError);
+    EXPECT_THROW(slice_rows(surface, std::vector<double>(7, 1.0)), InputError);
+}
+
+TEST(Strip, SnapshotsAreAscendingAndCatchTheMotion)
+{
+    // At rest but for one swing, 2.00 to 2.50 s.
+    Trajectory t = some_trajectory(2, 0.5, 1, 1001);
+    for (std::size_t s = 0; s < 1001; ++s) {
+        const double u = (static_cast<double>(s) - 200) / 50;
+        t.theta_rad[2 * s + 1] = u > 0 && u < 1 ? 0.2 * std::sin(std::acos(-1.0) * u) : 0;
+        t.x_m[2 * s + 1] = 0;
+        t.y_m[2 * s + 1] = 1.5;
+    }
+    const auto chosen = snapshot_samples(t, 8);
+    ASSERT_EQ(chosen.size(), 8U);
+    EXPECT_EQ(chosen.front(), 0U);
+    EXPECT_EQ(chosen.back(), 1000U);
+    EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), 8U);
+    EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+    EXPECT_NE(std::find(chosen.begin(), chosen.end(), 225U), chosen.end()) << "the peak of the swing is missed";
+
+    for (const std::size_t samples : {1U, 2U, 7U, 8U, 9U, 10U}) {
+        const auto few = snapshot_samples(some_trajectory(3, 1, 1, samples), 8);
+        EXPECT_EQ(few.size(), std::min<std::size_t>(samples, 8));
+        EXPECT_EQ(std::set<std::size_t>(few.begin(), few.end()).size(), few.size());
+        EXPECT_LT(few.back(), samples);
+    }
+    EXPECT_THROW(snapshot_samples(t, 1), InputError);
+    EXPECT_THROW(snapshot_samples(t, 17), InputError);
+    t.theta_rad[2 * 300] = nan_value; // what comes after it is not drawn
+    EXPECT_EQ(snapshot_samples(t, 8).back(), 299U);
+    t.x_m[0] = nan_value;
+    EXPECT_THROW(snapshot_samples(t, 8), InputError);
+    EXPECT_THROW(snapshot_samples(Trajectory{}, 8), InputError);
+}
+
+TEST_F(Pictures, SurfaceShowsItsProbabilities)
+{
+    NEEDS_GNUPLOT();
+    const fs::path file = folder / "a surface's \"picture\" 100%.png";
+    plot_surface(some_surface(), "collapse", "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
+    const Pixels pixels = decode(file);
+    EXPECT_GE(pixels.width, 1600U);
+    EXPECT_GE(pixels.height, 1200U);
+    EXPECT_GT(pixels.colours, 100U);
+    EXPECT_EQ(entries(), 1U) << "something else was left in the folder";
+
+    // Half of the cells sure to collapse, half sure to stand: either end of the colour map over half of the frame.
+    SurfaceTable halves = some_surface();
+    for (std::size_t cell = 0; cell < halves.probability.size(); ++cell)
+        halves.probability[cell] = cell % 12 < 6 ? 0 : 1;
+    plot_surface(halves, "collapse", "halves", folder / "halves.png");
+    const Pixels two = decode(folder / "halves.png");
+    const double frame = 0.76 * 0.75;
+    EXPECT_NEAR(share(two, 0x440154, 8), frame / 2, 0.03);
+    EXPECT_NEAR(share(two, 0xfde725, 8), frame / 2, 0.03);
+    EXPECT_LT(share(two, 0xb8b8b8, 1), 0.001);
+
+    // One of three rows: a third of the frame, whatever lies in the others.
+    SurfaceTable rows = some_surface(3, 5);
+    rows.frequency_hz = {1, 2, 3};
+    for (std::size_t cell = 0; cell < rows.probability.size(); ++cell)
+        rows.probability[cell] = cell < 5 ? 1 : 0;
+    plot_surface(rows, "collapse", "rows", folder / "rows.png");
+    EXPECT_NEAR(share(decode(folder / "rows.png"), 0xfde725, 8), frame / 3, 0.02);
+
+    // Without a trial: grey.
+    for (std::size_t cell = 0; cell < 96; ++cell)
+        halves.probability[cell] = nan_value;
+    plot_surface(halves, "collapse", "", folder / "grey.png");
+    EXPECT_NEAR(share(decode(folder / "grey.png"), 0xb8b8b8, 1), frame / 2, 0.03);
+}
+
+TEST_F(Pictures, SmallAndOddSurfaces)
+{
+    NEEDS_GNUPLOT();
+    SurfaceTable one = some_surface(2, 2);
+    one.frequency_hz.resize(1);
+    one.pga_m_s2.resize(1);
+    one.trials = {0};
+    one.collapses = {0};
+    one.probability = one.lower = one.upper = {nan_value};
+    plot_surface(one, "collapse", "nothing", folder / "nothing.png");
+    EXPECT_GT(decode(folder / "nothing.png").colours, 10U);
+    plot_slice(one, {}, "collapse", "nothing", folder / "slice.png");
+    EXPECT_GT(decode(folder / "slice.png").colours, 10U);
+    one.trials = {4};
+    one.probability = {0.5};
+    one.lower = {0.1};
+    one.upper = {0.9};
+    plot_surface(one, "collapse", "one cell", folder / "one.png");
+    EXPECT_GT(share(decode(folder / "one.png"), 0x21918c, 8), 0.5);
+}
+
+TEST_F(Pictures, SliceShowsEachCurve)
+{
+    NEEDS_GNUPLOT();
+    plot_slice(some_surface(), {1, 2, 5}, "collapse", "100 % \"slices\"", folder / "s.png");
+    const Pixels pixels = decode(folder / "s.png");
+    EXPECT_GE(pixels.width, 1600U);
+    EXPECT_GE(pixels.height, 1200U);
+    for (const std::uint32_t colour : {0x0072b2U, 0xd55e00U, 0x009e73U})
+        EXPECT_GT(share(pixels, colour, 2), 0.0005) << std::hex << colour;
+    EXPECT_LT(share(pixels, 0xcc79a7, 2), 1e-5) << "a fourth curve";
+
+    // A band from 0.25 to 0.75 over the eleven twelfths of the axis between the outer cells' centres.
+    SurfaceTable flat = some_surface();
+    flat.probability.assign(flat.probability.size(), 0.5);
+    flat.lower.assign(flat.lower.size(), 0.25);
+    flat.upper.assign(flat.upper.size(), 0.75);
+    plot_slice(flat, {1}, "collapse", "", folder / "flat.png");
+    const double frame = 0.87 * 0.725;
+    EXPECT_NEAR(share(decode(folder / "flat.png"), 0xcce3f0, 4), frame * 11 / 12 * 0.5 / 1.03, 0.02);
+}
+
+TEST_F(Pictures, SliceShowsCurvesThatCoincide)
+{
+    NEEDS_GNUPLOT();
+    SurfaceTable surface = some_surface(3, 12);
+    for (std::size_t i = 12; i < 36; ++i) { // all rows as the first one
+        surface.probability[i] = surface.probability[i - 12];
+        surface.lower[i] = surface.lower[i - 12];
+        surface.upper[i] = surface.upper[i - 12];
+    }
+    plot_slice(surface, surface.frequency_hz, "collapse", "", folder / "same.png");
+    const Pixels pixels = decode(folder / "same.png");
+    // the curves, without the marks at the cells and the legend: in a column of pixels between two cells each colour is
+    // there
+    const double from = 0.1, to = 0.97, pga = 3.5; // midway between two values
+    const auto x = static_cast<std::size_t>(1800 * (from + (to - from) * (pga - 0.5) / 12));
+    for (const std::uint32_t colour : {0x0072b2U, 0xd55e00U, 0x009e73U}) {
+        std::size_t found = 0;
+        for (std::size_t y = 250; y < 1190; ++y)
+            found += similar(pixels.colour[y * pixels.width + x], colour, 20);
+        EXPECT_GE(found, 2U) << std::hex << colour;
+    }
+}
+
+TEST_F(Pictures, AsTheEndingSays)
+{
+    NEEDS_GNUPLOT();
+    plot_surface(some_surface(), "collapse", "A title", folder / "a.svg");
+    EXPECT_TRUE(read_file(folder / "a.svg").starts_with("<?xml"));
+    EXPECT_NE(read_file(folder / "a.svg").find("A title"), std::string::npos);
+    plot_surface(some_surface(), "collapse", "A title", folder / "a.pdf");
+    EXPECT_TRUE(read_file(folder / "a.pdf").starts_with("%PDF"));
+    plot_surface(some_surface(), "collapse", "A title", folder / "a.png");
+    EXPECT_TRUE(read_file(folder / "a.png").starts_with("\x89PNG"));
+}
+
+TEST_F(Pictures, TheEndOfAScaleThatMoreLiesBeyondIsMarked)
+{
+    NEEDS_GNUPLOT();
+    MapPicture picture;
+    picture.frequency_hz = {1, 2, 3};
+    picture.pga_m_s2 = {1, 2, 3};
+    MapPanel panel;
+    panel.high = 2;
+    panel.value = {0, 0.5, 1, 1, 1.5, 2, 1, 2, 2};
+    picture.panels = {panel};
+    picture.columns = 1;
+    plot_maps(picture, folder / "inside.svg");
+    EXPECT_EQ(read_file(folder / "inside.svg").find("≥"), std::string::npos);
+    picture.panels[0].value.back() = 7; // drawn in the same colour
+    plot_maps(picture, folder / "beyond.svg");
+    EXPECT_NE(read_file(folder / "beyond.svg").find("≥ 2"), std::string::npos);
+    picture.panels[0].low = 0.4;
+    plot_maps(picture, folder / "both.svg");
+    EXPECT_NE(read_file(folder / "both.svg").find("≤ 0.4"), std::string::npos);
+}
+
+TEST_F(Pictures, StripDrawsDrumsToScale)
+{
+    NEEDS_GNUPLOT();
+    // At rest the drums' area on the picture follows from the scale: 8 snapshots, each B x 7 H, one of 7 drums fixed.
+    for (const double size : {1.0, 40.0}) {
+        Trajectory t = some_trajectory(7, 0.048 * size, 0.029 * size);
+        for (std::size_t k = 0; k < t.x_m.size(); ++k) {
+            t.theta_rad[k] = 0;
+            t.x_m[k] = k % 7 == 0 ? 0 : 1e-9 * static_cast<double>(k);
+            t.y_m[k] = (static_cast<double>(k % 7) + 0.5) * 0.029 * size;
+        }
+        plot_strip(t, {}, "strip's 100 % \"title\"", folder / "strip.png");
+        const Pixels pixels = decode(folder / "strip.png");
+        EXPECT_GE(pixels.width, 1600U);
+        EXPECT_GE(pixels.height, 1200U);
+        const Extent free_drums = extent(pixels, 0xead9b5);
+        const double height = free_drums.bottom - free_drums.top;
+        EXPECT_GT(height, 350);
+        EXPECT_NEAR(free_drums.area / (8 * height * height), 0.048 / (6 * 0.029), 0.02);
+        EXPECT_NEAR(free_drums.area / extent(pixels, 0xa89a7d).area, 6, 0.3);
+        EXPECT_GT(share(pixels, 0x6f6f6f, 3), 0.005) << "the base";
+        EXPECT_GT(share(pixels, 0x0072b2, 3), 0.0003) << "displacement of the top";
+        EXPECT_GT(share(pixels, 0xd55e00, 3), 0.0003) << "displacement of the base";
+    }
+}
+
+/// Two repeats of three and two levels; the second came to no collapse.
+RareTable some_rare_event()
+{
+    RareTable table;
+    table.probability = 1e-3;
+    table.lower = 4e-4;
+    table.upper = 2e-3;
+    table.realizations = 560;
+    table.repeats = {0.002, 0};
+    table.levels = 3;
+    table.threshold_m = {nan_value, 0.011, 0.015, nan_value, 0.012, nan_value};
+    table.share = {0.1, 0.1, 0.2, 0.1, 0, nan_value};
+    table.acceptance = table.stuck = {nan_value, 0.4, 0.4, nan_value, 0.4, nan_value};
+    return table;
+}
+
+TEST_F(Pictures, RareEventDrawsTheProductOfTheShares)
+{
+    const fs::path fake = folder / "gnuplot";
+    std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
+    fs::permissions(fake, fs::perms::owner_all);
+    const Environment named("STYLOBATE_GNUPLOT", fake.string());
+    EXPECT_THROW(plot_rare(some_rare_event(), "", folder / "rare.png"), InputError);
+    std::ifstream in(folder / "told.gp");
+    const std::string told{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    // by hand: above 11 mm is a tenth, above 15 mm a tenth of it; of the second repeat a tenth is above 12 mm
+    EXPECT_NE(told.find("$chain0 << EOD\n11 0.1\n15 0.010000000000000002\nEOD"), std::string::npos) << told;
+    EXPECT_NE(told.find("$chain1 << EOD\n12 0.1\nEOD"), std::string::npos) << told;
+    EXPECT_NE(told.find("0.3 0.001 0.0004 0.002"), std::string::npos) << told;
+    EXPECT_NE(told.find("set yrange [0.0001:1]"), std::string::npos) << told;
+    EXPECT_NE(told.find("1 of 2 repeats without a collapse, counted as 0"), std::string::npos) << told;
+}
+
+TEST_F(Pictures, RareEvent)
+{
+    NEEDS_GNUPLOT();
+    plot_rare(some_rare_event(), "it's rare", folder / "rare.png");
+    const Pixels pixels = decode(folder / "rare.png");
+    EXPECT_GE(pixels.width, 1600U);
+    EXPECT_GT(share(pixels, 0x56b4e9, 2), 0.00005) << "the repeats";
+    EXPECT_GT(share(pixels, 0xd55e00, 2), 0.0002) << "their mean";
+    RareTable open = some_rare_event(); // too few repeats for an interval
+    open.lower = open.upper = nan_value;
+    plot_rare(open, "", folder / "open.png");
+    EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00002) << "their mean";
+    RareTable none = some_rare_event(); // no repeat came to a collapse
+    none.probability = none.lower = none.upper = nan_value;
+    none.repeats = {0, 0};
+    plot_rare(none, "", folder / "none.png");
+    EXPECT_LT(share(decode(folder / "none.png"), 0xd55e00, 2), 1e-5);
+    EXPECT_THROW(plot_rare(RareTable{}, "", folder / "empty.png"), InputError);
+}
+
+TEST_F(Pictures, StripCountsTheTopFromUpright)
+{
+    // A block that starts leaned by 0.1 rad about its corner: drawn is where its centre is against upright,
+    // h sin(theta) + b (1 - cos(theta)) to the left, and not how far it has gone from its lean.
+    Trajectory t = some_trajectory(1, 0.5, 2, 2);
+    const double theta[] = {0.1, -0.05};
+    for (std::size_t s = 0; s < 2; ++s) {
+        const double lean = std::abs(theta[s]);
+        t.theta_rad[s] = theta[s];
+        t.x_m[s] = (theta[s] > 0 ? -1 : 1) * (std::sin(lean) + 0.25 * (1 - std::cos(lean)));
+        t.y_m[s] = std::cos(lean) + 0.25 * std::sin(lean);
+    }
+    const fs::path fake = folder / "gnuplot";
+    std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
+    fs::permissions(fake, fs::perms::owner_all);
+    const Environment named("STYLOBATE_GNUPLOT", fake.string());
+    EXPECT_THROW(plot_strip(t, {}, "", folder / "strip.png"), InputError);
+    std::ifstream told(folder / "told.gp");
+    std::string line;
+    while (std::getline(told, line) && line != "$top << EOD") {
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
+        double time = 0, drawn_mm = 0;
+        told >> time >> drawn_mm;
+        EXPECT_NEAR(drawn_mm, 1000 * t.x_m[s], 1e-3) << s;
+    }
+}
+
+TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
+{
+    NEEDS_GNUPLOT();
+    // Two samples, two snapshots of one drum in the air.
+    const double width = 2;
+    const double height = 1;
+    const double angle = 0.4;
+    Trajectory t = some_trajectory(1, width, height, 2);
+    t.theta_rad = {angle, angle};
+    t.x_m = {0, 1e-9};
+    t.y_m = {1, 1};
+    plot_strip(t, {}, "", folder / "turned.png");
+    const Extent drums = extent(decode(folder / "turned.png"), 0xead9b5);
+    const double scale = (drums.bottom - drums.top) / (width * std::sin(angle) + height * std::cos(angle));
+    EXPECT_NEAR(drums.area / (scale * scale), 2 * width * height, 0.08);
+    // The lower left corner is the lowest one: left of the middle of the drum that it belongs to.
+    const double drum = scale * (width * std::cos(angle) + height * std::sin(angle));
+    const double from_left =
+        std::min(std::abs(drums.lowest_x - drums.left), std::abs(drums.lowest_x - drums.right + drum));
+    EXPECT_NEAR(from_left, scale * height * std::sin(angle), 0.03 * drum);
+}
+
+TEST_F(Pictures, StripOfAnyColumn)
+{
+    NEEDS_GNUPLOT();
+    for (const std::size_t blocks : {1U, 2U, 48U}) {
+        plot_strip(some_trajectory(blocks, 1.2, 0.8), {}, "column", folder / "c.png", 5);
+        EXPECT_GT(decode(folder / "c.png").colours, 50U);
+    }
+    plot_strip(some_trajectory(3, 1, 1, 1), {}, "one sample", folder / "c.png");
+    // A recorded ground far wider than the column does not change its scale.
+    Trajectory ground = some_trajectory(1, 0.1, 0.3);
+    const double without = [&] {
+        plot_strip(ground, {}, "", folder / "c.png");
+        return share(decode(folder / "c.png"), 0xead9b5, 3);
+    }();
+    Trajectory with = ground;
+    with.rest_x_m = {0, 0};
+    with.rest_y_m = {0.15, -0.5};
+    with.half_width_m = {0.05, 50};
+    with.half_height_m = {0.15, 0.5};
+    with.role.push_back(BlockRole::drum); // to be told by its place
+    with.name.emplace_back("ground");
+    for (auto* values : {&with.x_m, &with.y_m, &with.theta_rad}) {
+        std::vector<double> both;
+        for (const double v : *values) {
+            both.push_back(v);
+            both.push_back(values == &with.y_m ? -0.5 : 0.0);
+        }
+        *values = both;
+    }
+    plot_strip(with, {}, "", folder / "c.png");
+    EXPECT_NEAR(share(decode(folder / "c.png"), 0xead9b5, 3), without, 1e-3 * without);
+}
+
+/// Of the first and the last sample alone, so that two snapshots are drawn, in which no block covers another.
+FallingColonnade before_and_after()
+{
+    FallingColonnade c = falling_colonnade(2);
+    const FallingColonnade all = falling_colonnade();
+    const std::size_t blocks = all.trajectory.blocks();
+    Trajectory& t = c.trajectory;
+    t.time_s.back() = all.trajectory.time_s.back();
+    for (std::vector<double> Trajectory::*values : {&Trajectory::x_m, &Trajectory::y_m, &Trajectory::theta_rad}) {
+        const std::vector<double>& from = all.trajectory.*values;
+        std::copy(from.end() - static_cast<std::ptrdiff_t>(blocks), from.end(),
+                  (t.*values).begin() + static_cast<std::ptrdiff_t>(blocks));
+    }
+    return c;
+}
+
+TEST_F(Pictures, StripOfAFallenColonnadeHoldsEveryBlock)
+{
+    NEEDS_GNUPLOT();
+    const FallingColonnade c = before_and_after();
+    plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png");
+    const Pixels pixels = decode(folder / "c.png");
+    const Extent drums = extent(pixels, 0xead9b5);
+    const Extent fixed = extent(pixels, 0xa89a7d);
+    const Extent epistyles = extent(pixels, 0xb9cddb);
+    // areas: 12 free drums and 3 fixed ones of 1.2 x 1, two epistyles of 3 x 0.8; outlines take a little from each
+    EXPECT_NEAR(drums.area / fixed.area, 4, 0.12);
+    EXPECT_NEAR(drums.area / epistyles.area, 3, 0.09);
+    // One scale for both axes: from the left edge of the first fixed drum to the right edge of the third are 7.2 m,
+    // from their lower edge to the epistyles' upper one 5.8 m.
+    const auto row = static_cast<std::size_t>(fixed.bottom) - 10;
+    double right = 0;
+    int runs = 0;
+    for (std::size_t k = 1; k < pixels.width && runs < 3; ++k) {
+        const auto is_fixed = [&](std::size_t i) {
+            return similar(pixels.colour[row * pixels.width + i], 0xa89a7d, 3);
+        };
+        if (is_fixed(k - 1) && !is_fixed(k)) {
+            ++runs;
+            right = static_cast<double>(k);
+        }
+    }
+    EXPECT_NEAR((right - fixed.left) / 7.2, (fixed.bottom - epistyles.top) / 5.8, 0.5);
+    EXPECT_GT(share(pixels, 0xc0271b, 3), 0.001) << "outlines of the fallen, and their panel";
+
+    // what is not known to have fallen is not said to have
+    plot_strip(c.trajectory, {}, "colonnade", folder / "unknown.png");
+    const Pixels unknown = decode(folder / "unknown.png");
+    EXPECT_EQ(share(unknown, 0xc0271b, 3), 0);
+    EXPECT_EQ(unknown.height + 243, pixels.height) << "a panel less";
+    EXPECT_NEAR(extent(unknown, 0xead9b5).area, drums.area, 0.02 * drums.area);
+    // a fall after the last sample is none yet
+    std::vector<double> later(17, -1);
+    later[3] = 8.5;
+    plot_strip(c.trajectory, later, "colonnade", folder / "later.png");
+    EXPECT_EQ(share(decode(folder / "later.png"), 0xc0271b, 3), 0);
+}
+
+TEST_F(Pictures, StripOfWhatIsWideTakesSeveralRows)
+{
+    NEEDS_GNUPLOT();
+    const FallingColonnade c = falling_colonnade();
+    plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png");
+    const Pixels pixels = decode(folder / "c.png");
+    EXPECT_GT(pixels.height, 1350U + 243U);
+    // In one row of 1593 pixels eight snapshots of at least 7.2 m leave less than 28 pixels for each metre. The fixed
+    // drums are never covered: 3 of 1.2 m2 in each snapshot.
+    const double pixels_per_m = std::sqrt(extent(pixels, 0xa89a7d).area / (8 * 3.6));
+    EXPECT_GT(pixels_per_m, 1.1 * 1593 / (8 * 7.2));
+    for (const std::size_t snapshots : {2U, 3U, 5U, 16U}) {
+        plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png", snapshots);
+        EXPECT_GT(extent(decode(folder / "c.png"), 0xb9cddb).area, 1000) << snapshots;
+    }
+}
+
+TEST_F(Pictures, BadInputLeavesNoFile)
+{
+    const FallingColonnade c = falling_colonnade(3);
+    EXPECT_NE(message_of([&] {
+                  plot_strip(c.trajectory, {1.0, 2.0}, "", folder / "a.png");
+              }).find("fall times of 2 blocks and a trajectory of 17"),
+              std::string::npos);
+    for (const auto& change : std::vector<std::function<void(Trajectory&)>>{[](Trajectory& t) { t.role.pop_back(); },
+                                                                            [](Trajectory& t) { t.name.pop_back(); }}) {
+        Trajectory t = c.trajectory;
+        change(t);
+        message_of([&] { plot_strip(t, {}, "", folder / "a.png"); });
+    }
+    SurfaceTable damaged = some_surface();
+    damaged.trials.pop_back();
+    message_of([&] { plot_surface(damaged, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_slice(damaged, {1}, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_surface(SurfaceTable{}, "collapse", "", folder / "a.png"); });
+    message_of([&] { plot_slice(SurfaceTable{}, {1}, "collapse", "", folder / "a.png"); });
+    Trajectory flat = some_trajectory(2, 1, 1);
+    flat.half_height_m[1] = 0;
+    message_of([&] { plot_strip(flat, {}, "", folder / "a.png"); });
+    EXPECT_EQ(entries(), 0U);
+    NEEDS_GNUPLOT();
+    EXPECT_NE(
+        message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "missing" / "a.png"); }).find("missing"),
+        std::string::npos);
+    message_of([&] { plot_surface(some_surface(), "collapse", "", folder); });
+    EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(Pictures, GnuplotMissingOrFailing)
+{
+    const fs::path picture = folder / "a.png";
+    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "collapse", "", picture); }); };
+    {
+        const Environment path("PATH", folder.string());
+        const Environment unnamed("STYLOBATE_GNUPLOT", "");
+        EXPECT_NE(draw().find("apt install gnuplot-nox"), std::string::npos);
+        EXPECT_EQ(entries(), 0U);
+    }
+    {
+        const Environment named("STYLOBATE_GNUPLOT", (folder / "nowhere").string());
+        EXPECT_NE(draw().find("nowhere"), std::string::npos);
+        EXPECT_EQ(entries(), 0U);
+    }
+    const fs::path fake = folder / "fake gnuplot";
+    const auto write_fake = [&](const std::string& script) {
+        std::ofstream(fake) << script;
+        fs::permissions(fake, fs::perms::owner_all);
+    };
+    const Environment named("STYLOBATE_GNUPLOT", fake.string());
+    write_fake("#!/bin/sh\necho 'no such option' >&2\nexit 3\n");
+    std::string said = draw();
+    EXPECT_NE(said.find("no such option"), std::string::npos) << said;
+    EXPECT_NE(said.find("exit status 3"), std::string::npos) << said;
+    write_fake("#!/bin/sh\nexit 0\n"); // claims success, draws nothing
+    EXPECT_NE(draw().find("it said nothing"), std::string::npos);
+    write_fake("#!/bin/sh\nkill -9 $$\n");
+    EXPECT_NE(draw().find("exit status 137"), std::string::npos);
+    write_fake("#!/nowhere/interpreter\n");
+    EXPECT_NE(draw().find("cannot start"), std::string::npos);
+    EXPECT_EQ(entries(), 1U) << "something is left in the folder";
+}
+
+TEST_F(Pictures, NoFontsIsAnError)
+{
+    NEEDS_GNUPLOT();
+    if (std::system("command -v fc-list > /dev/null") != 0)
+        GTEST_SKIP() << "fc-list is not installed: fonts cannot be looked for";
+    std::ofstream(folder / "fonts.conf") << "<?xml version=\"1.0\"?><fontconfig><dir>" << (folder / "none").string()
+                                         << "</dir><cachedir>" << (folder / "cache").string()
+                                         << "</cachedir></fontconfig>\n";
+    const Environment fonts("FONTCONFIG_FILE", (folder / "fonts.conf").string());
+    EXPECT_NE(
+        message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "a.png"); }).find("fonts-dejavu-core"),
+        std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+} // namespace
+} // namespace stylobate

@@ -1,0 +1,212 @@
+/// Fragility functions in NRML, JSON and CSV: round trips, OpenQuake's numbers, the schema, one message for each fault.
+
+#include "ensemble/model/input_error.hpp"
+#include "io/tables/fragility_exchange.hpp"
+#include "tests/program/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace stylobate;
+namespace fs = std::filesystem;
+
+namespace {
+
+FragilityModel model()
+{
+    FragilityModel model;
+    model.id = "two columns";
+    model.description = "A <test> & its \"intervals\"";
+    model.limit_states = {"rocking", "drum_lost", "collapse"};
+    FragilityFunction curve{.id = "column/7", .measure = "PGA", .least = 0.5, .most = 12, .note = "fits -- well"};
+    for (const double median : {1.7, 4.1, 6.3})
+        curve.states.push_back({.median = {median, median * 0.9, median * 1.1}, .dispersion = {0.4, 0.31, 0.55}});
+    FragilityFunction steps{.id = "column, cut", .measure = "SA(0.3)", .discrete = true, .intensity = {1, 2.5, 7}};
+    for (const double most : {1.0, 0.8, 0.1})
+        steps.states.push_back({.probability = {{0, 0, 0.1}, {most / 3, 0, most}, {most, 0, 1}}});
+    model.functions = {curve, steps};
+    return model;
+}
+
+/// A file that is gone at the end of the test.
+class TextFile {
+public:
+    explicit TextFile(const std::string& text) : path_(fs::path(testing::TempDir()) / "fragility_exchange.xml")
+    {
+        std::ofstream(path_, std::ios::binary) << text;
+    }
+    ~TextFile() { fs::remove(path_); }
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+std::string message(const std::string& text)
+{
+    const TextFile file(text);
+    try {
+        read_fragility_nrml(file.path());
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "read";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+} // namespace
+
+TEST(FragilityExchange, NrmlRoundTrip)
+{
+    const FragilityModel written = model();
+    const TextFile file(fragility_nrml(written));
+    const FragilityModel read = read_fragility_nrml(file.path());
+    EXPECT_EQ(read.id, written.id);
+    EXPECT_EQ(read.description, written.description);
+    EXPECT_EQ(read.limit_states, written.limit_states);
+    ASSERT_EQ(read.functions.size(), 2U);
+    for (std::size_t f = 0; f < 2; ++f) {
+        const FragilityFunction &a = read.functions[f], &b = written.functions[f];
+        EXPECT_EQ(a.id, b.id);
+        EXPECT_EQ(a.measure, b.measure);
+        EXPECT_EQ(a.discrete, b.discrete);
+        EXPECT_NEAR(a.least, b.least, 1e-14);
+        EXPECT_NEAR(a.most, b.most, 1e-13);
+        ASSERT_EQ(a.intensity.size(), b.intensity.size());
+        for (std::size_t i = 0; i < a.intensity.size(); ++i)
+            EXPECT_NEAR(a.intensity[i], b.intensity[i], 1e-14);
+        for (std::size_t s = 0; s < 3; ++s) {
+            EXPECT_NEAR(a.states[s].median.value, b.states[s].median.value, 1e-12);
+            EXPECT_NEAR(a.states[s].dispersion.value, b.states[s].dispersion.value, 1e-12);
+            for (std::size_t i = 0; i < b.states[s].probability.size(); ++i)
+                EXPECT_EQ(a.states[s].probability[i].value, b.states[s].probability[i].value);
+        }
+    }
+}
+
+TEST(FragilityExchange, MeanAndDeviationAreWhatOpenQuakeTurnsBack)
+{
+    // openquake.risklib.scientific: sigma = sqrt(ln(1 + (stddev/mean)^2)), scale = mean^2 / sqrt(stddev^2 + mean^2)
+    const std::string text = fragility_nrml(model());
+    const auto attribute = [&](const std::string& name) {
+        const std::size_t at = text.find(name + "=\"", text.find("ls=\"drum_lost\"")) + name.size() + 2;
+        return std::strtod(text.c_str() + at, nullptr);
+    };
+    const double mean = attribute("mean"), stddev = attribute("stddev");
+    EXPECT_NEAR(std::sqrt(std::log(1 + stddev * stddev / (mean * mean))), 0.4, 1e-12);
+    EXPECT_NEAR(mean * mean / std::sqrt(stddev * stddev + mean * mean), 4.1 / 9.80665, 1e-12);
+}
+
+TEST(FragilityExchange, NrmlKeepsTheSchemaAndTheIntervals)
+{
+    const std::string text = fragility_nrml(model());
+    EXPECT_NE(text.find("dispersion 0.4 [0.31, 0.55]"), std::string::npos) << text;
+    if (std::system("xmllint --version >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "xmllint (libxml2-utils) is not installed";
+    const TextFile file(text);
+    const std::string check = "xmllint --noout --schema '" STYLOBATE_SOURCE_DIR
+                              "/tests/io/tables/nrml_fragility.xsd' '" +
+                              file.path().string() + "'";
+    EXPECT_EQ(std::system((check + " 2>/dev/null").c_str()), 0) << text;
+    const TextFile wrong(replaced(text, "assetCategory", "category"));
+    EXPECT_NE(std::system((check + " 2>/dev/null").c_str()), 0) << "the schema must be able to refuse";
+}
+
+TEST(FragilityExchange, JsonRoundTrip)
+{
+    FragilityModel written = model();
+    written.functions[0].states[2].dispersion.upper = std::numeric_limits<double>::infinity();
+    const JsonValue json = JsonParser::parse(fragility_json(written));
+    EXPECT_EQ(json["id"].text, written.id);
+    EXPECT_EQ(json["description"].text, written.description);
+    EXPECT_EQ(json["level"].number, 0.95);
+    EXPECT_EQ(json["limit_states"].items[1].text, "drum_lost");
+    const JsonValue& curve = json["functions"].items[0];
+    EXPECT_EQ(curve["note"].text, "fits -- well");
+    EXPECT_EQ(curve["least"].number, 0.5);
+    for (std::size_t s = 0; s < 3; ++s) {
+        const JsonValue& state = curve["states"].items[s];
+        const FragilityState& want = written.functions[0].states[s];
+        EXPECT_EQ(state["median"].number, want.median.value);
+        EXPECT_EQ(state["median_lower"].number, want.median.lower);
+        EXPECT_EQ(state["dispersion_lower"].number, want.dispersion.lower);
+    }
+    EXPECT_EQ(curve["states"].items[2]["dispersion_upper"].kind, JsonValue::Kind::null);
+    const JsonValue& steps = json["functions"].items[1];
+    EXPECT_EQ(steps["intensity"].items[1].number, 2.5);
+    EXPECT_EQ(steps["states"].items[1]["probability"].items[1].number, 0.8 / 3);
+    EXPECT_EQ(steps["states"].items[1]["upper"].items[1].number, 0.8);
+}
+
+TEST(FragilityExchange, CsvHasEveryNumberAndItsInterval)
+{
+    std::istringstream lines(fragility_csv(model()));
+    std::string line;
+    std::vector<std::string> all;
+    while (std::getline(lines, line))
+        all.push_back(line);
+    ASSERT_EQ(all.size(), 1U + 3 + 9);
+    EXPECT_EQ(all[2], "column/7,PGA,drum_lost,,,,,4.1,3.69,4.51,0.4,0.31,0.55");
+    EXPECT_EQ(all[6], "\"column, cut\",SA(0.3),rocking,7,1,0,1,,,,,,");
+    for (const std::string& each : all)
+        EXPECT_EQ(std::count(each.begin(), each.end(), ','),
+                  std::count(all[0].begin(), all[0].end(), ',') + (each.starts_with('"') ? 1 : 0));
+}
+
+TEST(FragilityExchange, RefusesModelsThatOthersCannotUse)
+{
+    const auto refused = [](auto change) {
+        FragilityModel changed = model();
+        change(changed);
+        try {
+            fragility_nrml(changed);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("written");
+    };
+    EXPECT_NE(
+        refused([](auto& m) { std::swap(m.functions[0].states[0], m.functions[0].states[2]); }).find("wrong order"),
+        std::string::npos);
+    EXPECT_NE(
+        refused([](auto& m) { std::swap(m.functions[1].states[0], m.functions[1].states[2]); }).find("wrong order"),
+        std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.functions[0].measure = "ABC"; }).find("'ABC'"), std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.functions[0].measure = "SA(x)"; }).find("'SA(x)'"), std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.limit_states[1] = "drum lost"; }).find("blank"), std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.functions[0].states[1].median.value = std::nan(""); }).find("discrete"),
+              std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.functions[0].states[1].median.lower = 5; }).find("interval"), std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.functions[0].states.pop_back(); }).find("limit states"), std::string::npos);
+    EXPECT_NE(refused([](auto& m) { m.functions[1].intensity[1] = 9; }).find("ascending"), std::string::npos);
+}
+
+TEST(FragilityExchange, FaultyFilesGetOneMessageWithTheLine)
+{
+    const std::string text = fragility_nrml(model());
+    EXPECT_EQ(message(text), "read");
+    EXPECT_NE(message(text.substr(0, text.size() / 2)).find("no XML"), std::string::npos);
+    EXPECT_NE(message(replaced(text, "nrml/0.5", "nrml/0.4")).find("begins with"), std::string::npos);
+    EXPECT_NE(message(replaced(text, "<description>", "<describe>")).find("no XML"), std::string::npos);
+    EXPECT_NE(message(replaced(text, " stddev", " sd")).find("no attribute 'stddev'"), std::string::npos);
+    EXPECT_NE(message(replaced(text, "ls=\"drum_lost\"", "ls=\"collapse\"")).find("stands where"), std::string::npos);
+    EXPECT_NE(message(replaced(text, "format=\"continuous\"", "format=\"smooth\"")).find("neither"), std::string::npos);
+    EXPECT_NE(message(replaced(text, "minIML=\"", "minIML=\"x")).find("not a number"), std::string::npos);
+    EXPECT_NE(message(replaced(text, "rocking drum_lost collapse", "rocking collapse")).find("stands where"),
+              std::string::npos);
+    const std::string fault = message(replaced(text, " imt=\"PGA\"", ""));
+    EXPECT_NE(fault.find(".xml:7: <imls> has no attribute 'imt'"), std::string::npos) << fault;
+    EXPECT_THROW(read_fragility_nrml("no such file.xml"), InputError);
+}

@@ -1,0 +1,152 @@
+/// Extensions of the model as a whole: neutral ones give the baseline's bits; others the same ones on every instruction
+/// set and beside any neighbour.
+
+#include "tests/kernels/mechanism_runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+using namespace stylobate;
+using namespace stylobate::model;
+
+namespace {
+
+/// Six uneven drums that rock and slide.
+Realization shaken_drums(unsigned seed, double pga_m_s2)
+{
+    Realization r = stack(uneven_drums(seed), {1e8, 0.1, 0.3}, 6e-5);
+    r.frequency_hz = 4;
+    r.pga_m_s2 = pga_m_s2;
+    return r;
+}
+
+/// A mechanism on its own, at a size that shows.
+struct Case {
+    std::string name;
+    std::function<void(Realization&)> set;
+};
+
+void each_joint(Realization& r, const std::function<void(JointExtension&)>& set)
+{
+    for (int j = 0; j < r.beds(); ++j)
+        set(r.joints[static_cast<std::size_t>(j)].extension);
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    const auto joint = [&](const char* name, void (*set)(JointExtension&)) {
+        all.push_back({name, [set](Realization& r) { each_joint(r, set); }});
+    };
+    joint("stribeck", [](JointExtension& e) {
+        e.dynamic_ratio = 0.6;
+        e.stribeck_velocity_m_s = 0.02;
+    });
+    joint("friction_wear", [](JointExtension& e) { e.wear_per_m = 5; });
+    joint("adhesion", [](JointExtension& e) { e.adhesion_n_m = 20; });
+    joint("dowel", [](JointExtension& e) {
+        e.dowel_stiffness_n_m = 1e5;
+        e.dowel_yield_n = 2;
+        e.dowel_gap_m = 1e-4;
+    });
+    joint("hertz", [](JointExtension& e) {
+        e.force_exponent = 1.4;
+        e.reference_overlap_m2 = 5e-8;
+    });
+    joint("rate_damping", [](JointExtension& e) { e.rate_s_m = 0.5; });
+    joint("face_damping", [](JointExtension& e) { e.face_damping = 0.7; });
+    joint("corner_loss", [](JointExtension& e) {
+        e.chip_left_m = 0.002;
+        e.chip_right_m = 0.001;
+    });
+    joint("corner_wear", [](JointExtension& e) { e.corner_wear_m_rad = 0.003; });
+    joint("wedge", [](JointExtension& e) { e.wedge_rad = 0.002; });
+    all.push_back({"drag", [](Realization& r) {
+                       for (Block& block : r.blocks)
+                           block.extension.drag_n_s2_m2 = 0.5;
+                   }});
+    all.push_back({"eccentricity", [](Realization& r) {
+                       for (Block& block : r.blocks)
+                           block.extension.eccentricity_m = block.fixed ? 0 : 0.001;
+                   }});
+    all.push_back({"table_pitch", [](Realization& r) { r.base.pitch_rad_s2_m = 1e-3; }});
+    all.push_back({"vertical_motion", [](Realization& r) { r.base.vertical_ratio = 0.3; }});
+    all.push_back({"two_corner", [](Realization& r) { r.form = ContactForm::two_corner; }});
+    all.push_back({"points", [](Realization& r) { r.form = ContactForm::points; }});
+    return all;
+}
+
+} // namespace
+
+TEST(Mechanism, NeutralOnesGiveTheBitsOfTheFormWithoutThem)
+{
+    const Study study = harmonic(8, 1);
+    for (const ContactForm form : {ContactForm::area, ContactForm::two_corner, ContactForm::points}) {
+        std::vector<Realization> plain;
+        for (unsigned seed = 1; seed <= 8; ++seed) {
+            plain.push_back(shaken_drums(seed, 1.5 + 0.5 * seed));
+            plain.back().form = form;
+            if (form != ContactForm::area)
+                plain.back().step_s = 3e-5;
+        }
+        std::vector<Realization> neutral = plain;
+        for (Realization& r : neutral)
+            r.extended = true;
+        const std::vector<Bits> want = run_bits(Isa::scalar, study, plain, 300);
+        EXPECT_NE(want[0], want[7]);
+        for (const Isa isa : usable_isas()) {
+            EXPECT_EQ(run_bits(isa, study, plain, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
+            EXPECT_EQ(run_bits(isa, study, neutral, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
+        }
+    }
+}
+
+TEST(Mechanism, NeutralOnesGiveTheBaselinesBitsInAColonnadeThatFalls)
+{
+    Study study = harmonic(4, 0.5);
+    study.outcome.follow = Follow::rest;
+    Bed bed;
+    bed.xi = 0.1;
+    Realization r = colonnade(paper_colonnade(2), bed, 3e-5);
+    r.frequency_hz = 2;
+    r.pga_m_s2 = 12;
+    Realization neutral = r;
+    neutral.extended = true;
+    const std::vector<Bits> want = run_bits(best_isa(), study, {r}, 1500);
+    EXPECT_EQ(run_bits(best_isa(), study, {neutral}, 1500), want);
+    EXPECT_EQ(run_bits(Isa::scalar, study, {neutral}, 1500), want);
+}
+
+TEST(Mechanism, EachHasTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
+{
+    const Study study = harmonic(6, 1);
+    for (const ContactForm form : {ContactForm::area, ContactForm::two_corner, ContactForm::points}) {
+        std::vector<Realization> all;
+        std::vector<std::string> names;
+        Realization plain = shaken_drums(7, 3);
+        plain.extended = true;
+        plain.form = form;
+        plain.step_s = 3e-5; // safe for all
+        for (const Case& c : cases()) {
+            Realization r = plain;
+            c.set(r);
+            if (r.form != form || (form != ContactForm::area && c.name == "face_damping")) // their dashpots are there
+                continue;
+            all.push_back(r);
+            names.push_back(c.name);
+        }
+        std::vector<Bits> want;
+        for (const Realization& r : all)
+            want.push_back(run_bits(Isa::scalar, study, {r}, 200).front());
+        const Bits neutral = run_bits(Isa::scalar, study, {plain}, 200).front();
+        for (std::size_t i = 0; i < all.size(); ++i)
+            EXPECT_TRUE(want[i] != neutral || names[i] == "two_corner" || names[i] == "points") << names[i];
+        for (const Isa isa : usable_isas()) {
+            const std::vector<Bits> got = run_bits(isa, study, all, 200);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                EXPECT_EQ(got[i], want[i]) << names[i] << ' ' << to_string(isa);
+        }
+    }
+}

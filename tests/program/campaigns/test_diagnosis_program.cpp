@@ -1,0 +1,132 @@
+/// `stylobate diagnose` as its user runs it, on short campaigns of the virtual laboratory.
+
+#include "tests/io/measured/measured_samples.hpp"
+#include "tests/program/program.hpp"
+
+#include "io/measured/measured_file.hpp"
+
+namespace stylobate {
+namespace {
+
+/// Made by the fixture `hidden_campaigns`.
+const fs::path campaigns = STYLOBATE_HIDDEN_CAMPAIGNS;
+
+std::string campaign(int seed)
+{
+    return (campaigns / ("campaign_" + std::to_string(seed) + ".h5")).string();
+}
+
+class DiagnosisProgram : public Program {
+protected:
+    void SetUp() override
+    {
+        Program::SetUp();
+        for (const int seed : {1, 4, 19})
+            ASSERT_TRUE(fs::exists(campaign(seed)))
+                << campaign(seed) << " is absent: ctest makes it, or hidden_campaigns generate --short";
+    }
+
+    JsonValue diagnosed(int seed, const Words& more = {}) const
+    {
+        Words words = {"diagnose", campaign(seed), "-o", "d.h5", "--nulls", "6", "--threads", "1", "--json", "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        return json_of(ended);
+    }
+};
+
+TEST_F(DiagnosisProgram, NothingHiddenIsNone)
+{
+    for (const int seed : {1, 19}) {
+        const JsonValue d = diagnosed(seed);
+        EXPECT_EQ(d["verdict"].text, "none") << seed << ": " << d["text"].text;
+        EXPECT_TRUE(d["causes"].items.empty()) << seed;
+        EXPECT_EQ(d["nulls"].items.size(), 1u);
+        EXPECT_EQ(names(), (Words{"d.h5", "d_chance.txt"})) << seed;
+        for (const std::string& name : names())
+            fs::remove(folder / name);
+    }
+}
+
+TEST_F(DiagnosisProgram, APitchingTableIsNamed)
+{
+    // the laboratory's own answer: what is hidden, and how much
+    const std::string answer = read_bytes(campaigns / "answers" / "4.toml");
+    ASSERT_NE(answer.find("name = \"table_pitch\""), std::string::npos) << answer;
+    const std::size_t at = answer.find("\nsize = ");
+    ASSERT_NE(at, std::string::npos) << answer;
+    const double size = std::stod(answer.substr(at + 8));
+
+    const JsonValue d = diagnosed(4);
+    EXPECT_EQ(d["verdict"].text, "named") << d["text"].text;
+    ASSERT_EQ(d["causes"].items.size(), 1u);
+    const JsonValue& cause = d["causes"].items.front();
+    EXPECT_EQ(cause["name"].text, "table_pitch");
+    EXPECT_EQ(cause["place"].text, "base");
+    EXPECT_NEAR(cause["size"].number, size, 0.2 * size); // soft contacts lean by a tenth
+    EXPECT_GT(cause["probability"].number, 0.5);
+    EXPECT_EQ(names(), (Words{"d.h5", "d_chance.txt", "d_extended.toml"}));
+    EXPECT_NE(read_bytes(folder / "d_extended.toml").find("table_pitch"), std::string::npos);
+
+    // the page: the motion where the simulation is wrong, measured and simulated; and the gain of what is named, which
+    // was found without campaigns that say what chance gives
+    ASSERT_EQ(run({"report", "d.h5", "--quiet"}).status, 0);
+    const std::string page = read_bytes(folder / "d.html");
+    EXPECT_EQ(count_of(page, ">measured, ± 2 sd of the noise</text>"), 4u); // x and rotation in two runs
+    EXPECT_EQ(count_of(page, ">calibrated baseline, anew in each window</text>"), 4u);
+    EXPECT_GT(count_of(page, ">off by more than noise and a short lag make</text>"), 1u);
+    const std::size_t chart = page.find("aria-label=\"What each cause would explain");
+    ASSERT_NE(chart, std::string::npos);
+    const std::string svg = page.substr(chart, page.find("</svg>", chart) - chart);
+    EXPECT_NE(svg.find(">named as the cause</text>"), std::string::npos);
+    EXPECT_NE(svg.find(">table_pitch, base</text>"), std::string::npos);
+    fs::remove(folder / "d.html");
+
+    // again: what chance gives is not simulated anew, and nothing else comes of it
+    const std::string kept = read_bytes(folder / "d_chance.txt");
+    EXPECT_EQ(count_of(kept, "\n"), 7u); // what it is of, and a line for each campaign
+    expect_refused({"diagnose", campaign(4), "-o", "d.h5", "--quiet"}, {"d.h5", "exists already", "--force"});
+    const JsonValue again = diagnosed(4, {"--force"});
+    EXPECT_EQ(read_bytes(folder / "d_chance.txt"), kept);
+    EXPECT_LT(again["simulations"].number, d["simulations"].number);
+    EXPECT_EQ(again["text"].text, d["text"].text);
+}
+
+TEST_F(DiagnosisProgram, WithAStudyOfItsOwn)
+{
+    const std::string study = (campaigns / "campaign_4.toml").string();
+    const JsonValue d = diagnosed(4, {"--study", study});
+    EXPECT_EQ(d["verdict"].text, "named") << d["text"].text;
+    ASSERT_EQ(d["causes"].items.size(), 1u);
+    EXPECT_EQ(d["causes"].items.front()["name"].text, "table_pitch");
+}
+
+TEST_F(DiagnosisProgram, BadInputLeavesNothing)
+{
+    expect_refused({"diagnose", "absent.h5", "-o", "d.h5"}, {"absent.h5"});
+    write_bytes(folder / "no.h5", "not HDF5");
+    expect_refused({"diagnose", "no.h5", "-o", "d.h5"}, {"no.h5"});
+    expect_refused({"diagnose", campaign(4), "--study", "absent.toml", "-o", "d.h5"}, {"absent.toml"});
+    expect_refused({"diagnose", campaign(4), "-o", folder.string()}, {"Is a directory"});
+
+    // blocks of which x and y were measured, but not how they turn: no forces
+    Campaign blind = sample_campaign();
+    for (MeasuredRun& run : blind.runs)
+        run.blocks.theta_rad = {};
+    write_campaign(blind, folder / "blind.h5");
+    expect_refused({"diagnose", "blind.h5", "-o", "d.h5", "--quiet"}, {"blind.h5", "rotation"});
+    // and none at all
+    for (MeasuredRun& run : blind.runs)
+        run.blocks = {};
+    fs::remove(folder / "blind.h5");
+    try {
+        write_campaign(blind, folder / "blind.h5");
+    } catch (const InputError&) {
+        return; // such a file cannot even be written
+    }
+    expect_refused({"diagnose", "blind.h5", "-o", "d.h5", "--quiet"}, {"blind.h5"});
+}
+
+} // namespace
+} // namespace stylobate

@@ -1,0 +1,189 @@
+/// Every kind of file given to every verb: taken, or told what it is and which verb takes it; what `info` says of each.
+
+#include "tests/program/program.hpp"
+
+#include "io/measured/measured_file.hpp"
+#include "studies/calibration/calibration_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
+#include "tests/io/measured/measured_samples.hpp"
+#include "tests/studies/calibration/calibration_sample.hpp"
+#include "tests/studies/diagnosis/diagnosis_sample.hpp"
+
+#include <map>
+#include <set>
+
+namespace stylobate {
+namespace {
+
+const std::string rocking_study = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
+
+class Kinds : public Program {
+protected:
+    /// One file of each kind, by its name; the folders are files too.
+    void SetUp() override
+    {
+        Program::SetUp();
+        write_bytes(folder / "study.toml", read_bytes(rocking_study));
+        done({"run", "study.toml", "-o", "results.h5", "--quiet"});
+        done({"replay", "results.h5", "--realization", "0", "-o", "replay.h5", "--quiet"});
+        done({"export", "results.h5", "--to", "csv", "-o", "tables", "--quiet"});
+        done({"report", "results.h5", "-o", "page.html", "--quiet"});
+        write_diagnosis(filled_diagnosis(), folder / "diagnosis.h5");
+        write_calibration(sample_calibration(), sample_calibration().forms[0].study, "0.1.0",
+                          folder / "calibration.h5");
+        write_campaign(sample_campaign(), folder / "campaign.h5");
+        write_campaign(sample_campaign(), folder / "campaign");
+        write_bytes(folder / "outcomes.csv", "motion_id,pga_m_s2,frequency_hz,fell\n1,3,2,1\n2,1,2,0\n");
+        write_bytes(folder / "record.at2", Burst{}.at2());
+    }
+    void done(const Words& words) const
+    {
+        const Ended ended = run(words);
+        ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    }
+};
+
+struct Sample {
+    const char* file;
+    const char* is;    ///< in messages
+    const char* holds; ///< of info --json
+    std::set<std::string> verbs;
+};
+const Sample samples[] = {
+    {"study.toml", "is a study file", "study", {"run"}},
+    {"results.h5", "is the results of a study of kind 'single'", "results", {"export", "report", "replay"}},
+    {"replay.h5", "is one realization that was run again", "results", {"export", "report", "replay"}},
+    {"diagnosis.h5", "is a diagnosis", "diagnosis", {"report"}},
+    {"calibration.h5", "is a calibration", "calibration", {"report"}},
+    {"campaign.h5", "is a measured campaign", "measured campaign", {"diagnose", "calibrate"}},
+    {"campaign", "is a measured campaign", "measured campaign", {"diagnose", "calibrate"}},
+    {"outcomes.csv", "is a table of measured outcomes", "measured outcomes", {"calibrate"}},
+    {"record.at2", "is a record of ground motion (peer-at2)", "record", {"record"}},
+    {"tables", "is a table that 'stylobate export' wrote", "a table that 'stylobate export' wrote", {}},
+    {"tables/realizations.csv",
+     "is a table that 'stylobate export' wrote",
+     "a table that 'stylobate export' wrote",
+     {}},
+    {"page.html", "is a page (HTML)", "a page (HTML)", {}},
+};
+
+TEST_F(Kinds, InfoSaysWhatItIsAndWhatTakesIt)
+{
+    for (const Sample& sample : samples) {
+        const JsonValue json = json_of(run(Words{"info", sample.file, "--json"}));
+        EXPECT_EQ(json["holds"].text, sample.holds) << sample.file;
+        EXPECT_EQ(json["file"].text, sample.file);
+        std::set<std::string> verbs;
+        for (const JsonValue& verb : json["verbs"].items)
+            verbs.insert(verb.text);
+        EXPECT_EQ(verbs, sample.verbs) << sample.file;
+        const Ended told = run(Words{"info", sample.file});
+        EXPECT_EQ(told.status, 0) << testing::PrintToString(told);
+        EXPECT_TRUE(told.out.starts_with(sample.file + std::string(": "))) << told.out;
+        for (const std::string& verb : sample.verbs)
+            EXPECT_NE(told.out.find("stylobate " + verb + " " + sample.file), std::string::npos) << told.out;
+    }
+    // a study with all that decides its outcomes
+    const std::string study = run(Words{"info", "study.toml"}).out;
+    for (const char* part : {"a study of kind single, 1 realization", "1 drum", "the base is at rest",
+                             "rotated beyond its own slenderness angle"})
+        EXPECT_NE(study.find(part), std::string::npos) << part << "\n" << study;
+    // a calibration with what it did not determine
+    EXPECT_NE(run(Words{"info", "calibration.h5"}).out.find("nothing slides"), std::string::npos);
+}
+
+TEST_F(Kinds, AVerbSaysWhatAnotherFileIs)
+{
+    const std::map<std::string, Words> more = {{"replay", {"--realization", "0"}}, {"export", {"--to", "csv"}}};
+    for (const Sample& sample : samples)
+        for (const std::string verb : {"run", "replay", "export", "report", "record", "diagnose", "calibrate"}) {
+            if (sample.verbs.contains(verb))
+                continue;
+            Words words = {verb, sample.file};
+            if (more.contains(verb))
+                words.insert(words.end(), more.at(verb).begin(), more.at(verb).end());
+            Words parts = {std::string(sample.file) + ": " + sample.is, "stylobate " + verb + " takes ",
+                           std::string("stylobate info ") + sample.file};
+            for (const std::string& other : sample.verbs)
+                parts.push_back("stylobate " + other + " " + sample.file);
+            expect_refused(words, parts);
+        }
+}
+
+TEST_F(Kinds, AnOptionSaysSoToo)
+{
+    expect_refused(Words{"run", "study.toml", "-o", "diagnosis.h5"}, {"-o diagnosis.h5: is a diagnosis", "results"});
+    for (const char* verb : {"diagnose", "calibrate"})
+        expect_refused(Words{verb, "campaign.h5", "--study", "results.h5"},
+                       {"--study results.h5: is the results of a study", "it takes a study file (TOML)"});
+}
+
+TEST_F(Kinds, OnlyAStudyIsSet)
+{
+    for (const Sample& sample : samples)
+        if (const std::string file = sample.file; file != "study.toml") {
+            expect_refused(Words{"info", file, "--set", "study.seed=2"},
+                           {"--set study.seed=2: only a study can be set; " + file + " " + sample.is});
+        }
+    EXPECT_NE(run(Words{"info", "study.toml", "--set", "study.seed=2"}).out.find("seed 2"), std::string::npos);
+    expect_refused(Words{"record", "record.at2", "--set", "study.seed=2"}, {"--set"});
+}
+
+TEST_F(Kinds, ARecordThatDoesNotSayItsUnitIsOneAllTheSame)
+{
+    write_bytes(folder / "columns.txt", Burst{}.columns());
+    const Ended told = run(Words{"info", "columns.txt"});
+    EXPECT_EQ(told.status, 0) << testing::PrintToString(told);
+    for (const char* part : {"may be a record of ground motion", "do not say the unit", "stylobate record columns.txt"})
+        EXPECT_NE(told.out.find(part), std::string::npos) << told.out;
+}
+
+TEST_F(Kinds, WhatIsNoneIsSaid)
+{
+    write_bytes(folder / "notes.txt", "some words\nof nobody\n");
+    expect_refused(Words{"info", "notes.txt"}, {"notes.txt: is none of the files that stylobate reads"});
+    expect_refused(Words{"info", "none.h5"}, {"none.h5", "there is no such file"});
+    fs::create_directory(folder / "empty");
+    expect_refused(Words{"info", "empty"}, {"empty: is none of the files"});
+    // damage is told as damage, not as another kind
+    std::string bytes = read_bytes(folder / "diagnosis.h5");
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    write_bytes(folder / "damaged.h5", bytes);
+    for (const Words& words : {Words{"info", "damaged.h5"}, Words{"replay", "damaged.h5", "--realization", "0"},
+                               Words{"report", "damaged.h5"}})
+        expect_refused(words, {"damaged.h5", "is damaged"});
+    // a calibration has no seal: what is missing in it is found by its reader
+    bytes = read_bytes(folder / "calibration.h5");
+    const std::size_t at = bytes.find("best_form");
+    ASSERT_NE(at, std::string::npos);
+    bytes[at] = 'B';
+    write_bytes(folder / "torn.h5", bytes);
+    expect_refused(Words{"report", "torn.h5"}, {"torn.h5", "calibration"});
+}
+
+TEST_F(Kinds, ReportOfACalibrationIsAPage)
+{
+    const Ended ended = run(Words{"report", "calibration.h5", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    EXPECT_EQ(json_of(ended)["written"].text, "calibration.html");
+    const std::string page = read_bytes(folder / "calibration.html");
+    for (const char* part : {"Calibration: ", "contact.friction", "not determined", "nothing slides"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST_F(Kinds, ARareEventHasAPicture)
+{
+    done(run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/rare_collapse.toml", {"rare.samples=100", "rare.repeats=5"},
+                   {"-o", "rare.h5", "--quiet"}));
+    done({"export", "rare.h5", "--to", "png", "-o", "rare.png"});
+    EXPECT_TRUE(read_bytes(folder / "rare.png").starts_with("\x89PNG"));
+    done({"report", "rare.h5", "-o", "rare.html", "--quiet"});
+    EXPECT_NE(read_bytes(folder / "rare.html").find("<img"), std::string::npos);
+    expect_refused(Words{"export", "results.h5", "--to", "png", "--picture", "rare"}, {"'single'", "rare"});
+    const JsonValue json = json_of(run(Words{"info", "rare.h5", "--json"}));
+    for (const JsonValue& verb : json["verbs"].items)
+        EXPECT_NE(verb.text, "replay"); // no realization of a chain can be run by itself
+}
+
+} // namespace
+} // namespace stylobate

@@ -1,0 +1,228 @@
+/// Causes fitted to the balance of forces: motions by formula in which one thing acts, seen by noisy cameras.
+
+#include "tests/ensemble/motion/formula_motions.hpp"
+
+#include "studies/diagnosis/decision/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stylobate {
+namespace {
+
+constexpr double camera_m = 3e-5, camera_rad = 3e-4;
+
+BalanceEvidence evidence_of(const Campaign& campaign)
+{
+    std::vector<std::vector<double>> base;
+    for (const MeasuredRun& run : campaign.runs)
+        base.push_back(run.base_displacement_m.values);
+    return balance_evidence(campaign, track_scales(campaign), base);
+}
+
+std::string listed(const BalanceEvidence& evidence)
+{
+    std::string all;
+    for (const CauseFit& fit : evidence.causes)
+        if (all.size() < 600)
+            all += fit.cause.label() + " gains " + std::to_string(fit.gain) + ", " + std::to_string(fit.size) + " +- " +
+                   std::to_string(fit.sd) + "\n";
+    return all;
+}
+
+/// A run of a block that is at these places, one after the other [m].
+MeasuredRun pushed_run(const Specimen& specimen, const std::vector<double>& x, unsigned seed)
+{
+    return formula_run(
+        specimen, static_cast<int>(x.size()),
+        [&](int b, int i) {
+            Pose pose = at_rest(specimen, b);
+            pose.x += x[static_cast<std::size_t>(i)];
+            return pose;
+        },
+        camera_m, camera_rad, seed);
+}
+
+/// Several runs of a block that is slowed down from several velocities, to either side.
+Campaign coasting_campaign(const std::function<double(double)>& slowed)
+{
+    Campaign campaign;
+    campaign.specimen = one_block();
+    unsigned seed = 0;
+    for (const double velocity : {1.0, -1.5, 2.0, -2.5, 3.0, -1.2}) {
+        const std::vector<double> x = coasting(velocity, slowed);
+        campaign.runs.push_back(pushed_run(campaign.specimen, x, ++seed));
+    }
+    return campaign;
+}
+
+/// Block and slab slide together, or the block on the slab: frictions of the two joints.
+Campaign slab_campaign(double lower, double upper)
+{
+    Campaign campaign;
+    campaign.specimen = block_on_slab();
+    unsigned seed = 10;
+    for (const double velocity : {1.5, -1.5, 1.0, -1.0, 1.8, -1.8}) {
+        const bool together = seed % 4 < 2;
+        const double mu = together ? lower : upper;
+        const std::vector<double> x = coasting(velocity, [&](double) { return mu * formula_gravity; });
+        campaign.runs.push_back(formula_run(
+            campaign.specimen, static_cast<int>(x.size()),
+            [&](int b, int i) {
+                Pose pose = at_rest(campaign.specimen, b);
+                pose.x += together || b == 1 ? x[static_cast<std::size_t>(i)] : 0;
+                return pose;
+            },
+            camera_m, camera_rad, ++seed));
+    }
+    return campaign;
+}
+
+/// A block that turns on its left and on its right corner, its centre of mass to the right of the middle.
+Campaign rocking_campaign(double offset_m)
+{
+    Campaign campaign;
+    campaign.specimen = one_block();
+    const double b = 0.03, h = 0.05, inertia = (b * b + h * h) / 3;
+    unsigned seed = 30;
+    for (const int sign : {1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1}) {
+        const std::vector<double> theta = rocking(b + sign * offset_m, h, inertia, 0.2 + 0.02 * (seed % 5), 0.08);
+        campaign.runs.push_back(formula_run(
+            campaign.specimen, static_cast<int>(theta.size()),
+            [&](int, int i) { return turned(b, h, sign * theta[static_cast<std::size_t>(i)]); }, camera_m, camera_rad,
+            ++seed));
+    }
+    return campaign;
+}
+
+TEST(BalanceFit, HealthyMotionsNeedNoCause)
+{
+    for (const Campaign& campaign : {coasting_campaign([](double) { return 0.5 * formula_gravity; }),
+                                     slab_campaign(0.5, 0.5), rocking_campaign(0)}) {
+        const BalanceEvidence evidence = evidence_of(campaign);
+        ASSERT_TRUE(evidence.fit) << evidence.why_not;
+        for (const CauseFit& fit : evidence.causes)
+            EXPECT_LT(fit.gain, 6) << listed(evidence); // chi square's tail at 6 nats: 5e-4
+    }
+}
+
+TEST(BalanceFit, CommonFrictionIsCalibrated)
+{
+    const BalanceEvidence evidence = evidence_of(slab_campaign(0.53, 0.53));
+    ASSERT_TRUE(evidence.fit);
+    // the priors of the joints' own friction share in it
+    EXPECT_NEAR(evidence.fit->friction_ratio(), 1.06, 0.03);
+    EXPECT_GT(evidence.fit->samples_of(Law::sliding, 0), 5);
+    EXPECT_GT(evidence.fit->samples_of(Law::sliding, 1), 5);
+    EXPECT_EQ(evidence.fit->samples_of(Law::rocking, 0), 0);
+}
+
+TEST(BalanceFit, FrictionOfOneJoint)
+{
+    const BalanceEvidence evidence = evidence_of(slab_campaign(0.5, 0.3));
+    ASSERT_FALSE(evidence.causes.empty());
+    const CauseFit& best = evidence.causes.front();
+    EXPECT_EQ(best.cause.mechanism, "joint_friction") << listed(evidence);
+    EXPECT_EQ(best.cause.place, "joint 1") << listed(evidence);
+    EXPECT_GT(best.gain, 10);
+    EXPECT_NEAR(best.size, 0.6, 3 * best.sd);
+    EXPECT_LT(best.sd, 0.1);
+}
+
+TEST(BalanceFit, WearThatEnds)
+{
+    // v^2 / 2 as a function of the path: friction falls from mu by `wear` for each metre, until the path `ends`
+    const double mu = 0.5, wear = 8, ends = 0.08, g = formula_gravity;
+    Campaign campaign;
+    campaign.specimen = one_block();
+    unsigned seed = 30;
+    for (const double velocity : {1.2, -1.3, 1.4, -1.5, 1.6, -1.4}) {
+        std::vector<double> x(40, 0.0); // at rest, then pushed
+        double at = 0, v = std::fabs(velocity);
+        const double dt = 0.01 / formula_rate_hz;
+        for (int i = 1; v > 0; ++i) {
+            const double worn = std::min(at + 0.5 * dt * v, ends); // midpoint
+            const double slower = mu * (1 - wear * worn) * g;
+            at += dt * (v - 0.5 * dt * slower);
+            v -= dt * slower;
+            if (i % 100 == 0 && v > 0)
+                x.push_back(std::copysign(at, velocity));
+        }
+        ASSERT_GT(at, 2 * ends);
+        campaign.runs.push_back(pushed_run(campaign.specimen, x, ++seed));
+    }
+    const BalanceEvidence evidence = evidence_of(campaign);
+    ASSERT_FALSE(evidence.causes.empty());
+    const CauseFit& best = evidence.causes.front();
+    EXPECT_EQ(best.cause.mechanism, "friction_wear") << listed(evidence);
+    EXPECT_EQ(best.cause.place, "joint 0"); // the only one
+    EXPECT_NEAR(best.cause.fixed, ends, 1e-9) << listed(evidence);
+    EXPECT_NEAR(best.size, wear, 4 * best.sd) << listed(evidence);
+    EXPECT_LT(best.sd, 0.2 * wear);
+    EXPECT_GT(best.gain, 10);
+}
+
+TEST(BalanceFit, FrictionThatWasLessAllAlongIsNoWear)
+{
+    // what the few samples before an end of wear leave open is paid for
+    const BalanceEvidence evidence = evidence_of(slab_campaign(0.5, 0.3));
+    EXPECT_EQ(evidence.causes.front().cause.mechanism, "joint_friction") << listed(evidence);
+    for (const CauseFit& fit : evidence.causes) {
+        if (fit.cause.mechanism != "friction_wear")
+            continue;
+        EXPECT_LT(fit.gain, evidence.causes.front().gain - 1.5) << listed(evidence);
+    }
+}
+
+TEST(BalanceFit, Drag)
+{
+    const double c = 0.36; // N s2/m2, of 0.9 kg
+    const BalanceEvidence evidence =
+        evidence_of(coasting_campaign([&](double v) { return 0.5 * formula_gravity + c / 0.9 * v * v; }));
+    ASSERT_FALSE(evidence.causes.empty());
+    const CauseFit& best = evidence.causes.front();
+    EXPECT_EQ(best.cause.mechanism, "drag") << listed(evidence);
+    EXPECT_GT(best.gain, 10);
+    EXPECT_NEAR(best.size, c, 3 * best.sd);
+    EXPECT_LT(best.sd, 0.1 * c);
+}
+
+TEST(BalanceFit, ShiftedCentreOfMass)
+{
+    for (const double offset : {0.0025, -0.0025}) {
+        const BalanceEvidence evidence = evidence_of(rocking_campaign(offset));
+        ASSERT_FALSE(evidence.causes.empty());
+        const CauseFit& best = evidence.causes.front();
+        EXPECT_EQ(best.cause.mechanism, "eccentricity") << listed(evidence);
+        EXPECT_GT(best.gain, 10);
+        EXPECT_NEAR(best.size, offset, 3 * best.sd);
+        EXPECT_LT(best.sd, 3e-4);
+    }
+}
+
+TEST(BalanceFit, AForceThatGoesWithVelocityIsDescribed)
+{
+    const BalanceEvidence evidence =
+        evidence_of(coasting_campaign([](double v) { return 0.5 * formula_gravity + 1.2 * v; }));
+    ASSERT_FALSE(evidence.structures.empty());
+    const StructureFit& best = evidence.structures.front();
+    EXPECT_EQ(best.structure.depends_on, "velocity") << best.structure.text;
+    EXPECT_EQ(best.structure.coordinate, "x");
+    EXPECT_GT(best.gain, 10);
+    EXPECT_NEAR(best.size, -1.2, 3 * best.sd); // against it, for each kilogram
+    EXPECT_LT(best.sd, 0.12);
+}
+
+TEST(BalanceFit, WhatIsGivenIsNotFoundAgain)
+{
+    const Campaign campaign = slab_campaign(0.5, 0.3);
+    const BalanceEvidence first = evidence_of(campaign);
+    std::vector<std::vector<double>> base;
+    for (const MeasuredRun& run : campaign.runs)
+        base.push_back(run.base_displacement_m.values);
+    const BalanceEvidence left = balance_evidence(campaign, track_scales(campaign), base, {first.causes.front().cause});
+    for (const CauseFit& fit : left.causes)
+        EXPECT_LT(fit.gain, 6) << listed(left);
+}
+
+} // namespace
+} // namespace stylobate
