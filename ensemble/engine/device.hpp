@@ -43,10 +43,6 @@ public:
     virtual void run(const MultiplyAdds& task, int count) = 0;
 };
 
-/// A device that is the processor: it runs the tasks in a loop. With it, all of the devices' code but the launches is
-/// tested where there is no device; it is slower than the processor's own lanes.
-std::shared_ptr<Device> host_device();
-
 /// What there is to compute on.
 struct CudaDevices {
     std::vector<std::string> names; ///< of each device: model, compute capability, memory

@@ -7,6 +7,14 @@
 
 namespace stylobate {
 
+double peak(const std::vector<double>& values)
+{
+    double largest = 0;
+    for (const double value : values)
+        largest = std::max(largest, std::fabs(value));
+    return largest;
+}
+
 Integrated integrate(const std::vector<double>& a, double d)
 {
     Integrated motion{std::vector<double>(a.size()), std::vector<double>(a.size())};
@@ -47,8 +55,7 @@ Motion motion_of(std::vector<double> acceleration, double dt_s)
     Integrated moved = integrate(motion.acceleration_m_s2, dt_s);
     motion.velocity_m_s = std::move(moved.v);
     motion.displacement_m = std::move(moved.u);
-    for (const double a : motion.acceleration_m_s2)
-        motion.pga_m_s2 = std::max(motion.pga_m_s2, std::fabs(a));
+    motion.pga_m_s2 = peak(motion.acceleration_m_s2);
     return motion;
 }
 

@@ -46,6 +46,9 @@ struct Motion {
     double duration_s() const { return empty() ? 0 : dt_s * static_cast<double>(acceleration_m_s2.size() - 1); }
 };
 
+/// Largest absolute value; 0 of none.
+double peak(const std::vector<double>& values);
+
 /// Velocity and displacement of an acceleration that is linear between its samples, from rest.
 struct Integrated {
     std::vector<double> v, u; ///< (n)

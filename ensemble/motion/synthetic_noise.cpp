@@ -12,7 +12,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double samples_per_second = 200, samples_per_cycle = 100;
 constexpr double decays = 5; ///< after so many the envelope is cut
 constexpr std::uint64_t motions_for_mean = 128;
@@ -59,14 +59,6 @@ std::vector<double> white_noise(std::uint64_t seed, std::uint64_t index, Stream 
     }
     noise.resize(count);
     return noise;
-}
-
-double peak(const std::vector<double>& values)
-{
-    double largest = 0;
-    for (const double value : values)
-        largest = std::max(largest, std::fabs(value));
-    return largest;
 }
 
 /// Velocity and displacement at the end of an acceleration that is linear between its samples; along it, where asked.

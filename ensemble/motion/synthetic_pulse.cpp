@@ -8,7 +8,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double bell_argument(double frequency_hz, double t)
 {

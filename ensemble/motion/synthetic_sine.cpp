@@ -10,7 +10,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// s = 10 x3 - 15 x4 + 6 x5 and its first two derivatives; 0 below 0, 1 above 1.
 struct Ramp {

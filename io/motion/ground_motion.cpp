@@ -98,14 +98,6 @@ void remove_trend(std::vector<double>& a, const std::vector<double>& w, double d
     }
 }
 
-double peak(const std::vector<double>& values)
-{
-    double largest = 0;
-    for (const double value : values)
-        largest = std::max(largest, std::fabs(value));
-    return largest;
-}
-
 } // namespace
 
 Motion make_motion(const Record& record, bool correct_baseline, const std::optional<BandPass>& filter)

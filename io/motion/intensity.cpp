@@ -17,14 +17,6 @@ namespace {
 constexpr double standard_gravity = 9.80665;
 constexpr double pi = std::numbers::pi;
 
-double peak(const std::vector<double>& values)
-{
-    double largest = 0;
-    for (const double value : values)
-        largest = std::max(largest, std::fabs(value));
-    return largest;
-}
-
 struct Spectrum {
     std::vector<double> amplitude; ///< at k df, from 0 to the Nyquist frequency
     double df_hz = 0;

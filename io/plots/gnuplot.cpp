@@ -207,4 +207,12 @@ void run_gnuplot(const std::string& script, PictureSize size, const fs::path& fi
     target.commit();
 }
 
+std::string viridis_palette()
+{
+    std::string colours;
+    for (std::size_t i = 0; i < viridis.size(); ++i)
+        colours += fmt::format("{}{} '{}'", i > 0 ? ", " : "", i, viridis[i]);
+    return "set palette defined (" + colours + ")\n";
+}
+
 } // namespace stylobate

@@ -17,6 +17,8 @@ struct PictureSize {
 /// viridis (van der Walt and Smith, 2015): even steps look even, to the colour-blind too, and in grey.
 inline constexpr std::array<const char*, 11> viridis{"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c",
                                                      "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"};
+/// The command that makes it the palette.
+std::string viridis_palette();
 
 /// Where gnuplot is: the program named by the environment variable STYLOBATE_GNUPLOT if that is set, else the first
 /// one in PATH.

@@ -26,14 +26,6 @@ const MapClass* class_of(const std::vector<MapClass>& classes, double value)
     return found;
 }
 
-std::string palette()
-{
-    std::string colours;
-    for (std::size_t i = 0; i < viridis.size(); ++i)
-        colours += fmt::format("{}{} '{}'", i > 0 ? ", " : "", i, viridis[i]);
-    return "set palette defined (" + colours + ")\n";
-}
-
 /// An edge, and a little more: each cell reaches under its right and upper neighbours, drawn after it, so that no seams
 /// shine through.
 double beyond(const PlotAxis& axis, std::size_t edge)
@@ -107,7 +99,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
                                    [](const MapPanel& panel) { return panel.classes.empty(); });
     const PictureSize size;
 
-    std::string script = palette();
+    std::string script = viridis_palette();
     for (std::size_t k = 0; k < picture.panels.size(); ++k)
         script += fmt::format("$cells{} << EOD\n{}EOD\n", k, cells(picture, picture.panels[k], f, a));
     const std::string line = picture.line.empty() ? "" : lines(picture, f, a);

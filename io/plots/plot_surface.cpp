@@ -19,7 +19,7 @@
 namespace stylobate {
 namespace {
 
-constexpr std::array<double, 3> levels{0.05, 0.5, 0.95};
+constexpr std::array<double, 3> contour_levels{0.05, 0.5, 0.95};
 
 /// A surface in the unit square: (0, 0) and (1, 1) are the corners of the picture's frame.
 struct UnitScale {
@@ -98,11 +98,11 @@ struct ContourCommands {
 
 ContourCommands contour_commands(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a)
 {
-    std::array<std::vector<ContourLine>, levels.size()> lines;
-    for (std::size_t k = 0; k < levels.size(); ++k)
-        lines[k] = contours(surface, f, a, levels[k]);
+    std::array<std::vector<ContourLine>, contour_levels.size()> lines;
+    for (std::size_t k = 0; k < contour_levels.size(); ++k)
+        lines[k] = contours(surface, f, a, contour_levels[k]);
     ContourCommands commands;
-    for (std::size_t k = 0; k < levels.size(); ++k) {
+    for (std::size_t k = 0; k < contour_levels.size(); ++k) {
         commands.data += fmt::format("$contour{} << EOD\n", k);
         for (const ContourLine& line : lines[k]) {
             for (const ContourPoint& p : line)
@@ -113,23 +113,15 @@ ContourCommands contour_commands(const SurfaceTable& surface, const UnitScale& f
         if (lines[k].empty())
             continue;
         std::vector<ContourLine> others;
-        for (std::size_t other = 0; other < levels.size(); ++other)
+        for (std::size_t other = 0; other < contour_levels.size(); ++other)
             if (other != k)
                 others.insert(others.end(), lines[other].begin(), lines[other].end());
         const ContourPoint p = label_place(lines[k], others);
         commands.labels +=
-            fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n", levels[k],
-                        f.out(p.x), a.out(p.y));
+            fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n",
+                        contour_levels[k], f.out(p.x), a.out(p.y));
     }
     return commands;
-}
-
-std::string palette()
-{
-    std::string text = "set palette defined (";
-    for (std::size_t i = 0; i < viridis.size(); ++i)
-        text += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, viridis[i]);
-    return text + ")\n";
 }
 
 std::string subtitle(const SurfaceTable& surface)
@@ -206,7 +198,8 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
     }
     cells += "EOD\n";
 
-    std::string script = cells + contour.data + palette() + gnuplot_heading(title, below_title) + contour.labels;
+    std::string script =
+        cells + contour.data + viridis_palette() + gnuplot_heading(title, below_title) + contour.labels;
     script += "set lmargin at screen 0.095\nset rmargin at screen 0.855\n"
               "set bmargin at screen 0.115\nset tmargin at screen 0.865\n"
               "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.8,0.6\n"
@@ -226,11 +219,11 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
     if (empty < surface.probability.size())
         layers.emplace_back("$cells using 1:2:3:4:5:6:7 with boxxyerror linecolor palette");
     // A dark line under a white one is seen on every colour.
-    for (std::size_t k = 0; k < levels.size(); ++k)
+    for (std::size_t k = 0; k < contour_levels.size(); ++k)
         if (contour.data.find(fmt::format("$contour{} << EOD\nEOD", k)) == std::string::npos) {
             layers.push_back(fmt::format("$contour{} with lines linewidth 3.4 linecolor rgb '#202020'", k));
             layers.push_back(fmt::format("$contour{} with lines linewidth {} linecolor rgb '#ffffff'", k,
-                                         levels[k] == 0.5 ? 2.0 : 1.4));
+                                         contour_levels[k] == 0.5 ? 2.0 : 1.4));
         }
     if (layers.empty())
         layers.emplace_back("1/0"); // the frame with nothing in it

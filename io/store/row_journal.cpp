@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 /// What a machine that stops loses is what has ended in this time; waiting for the disk takes no twentieth of the run.
 constexpr std::chrono::seconds between_syncs{2};
-constexpr int patience = 20;
+constexpr int syncs_apart = 20;
 
 struct Head {
     std::uint64_t size; ///< of the content [bytes]
@@ -60,7 +60,7 @@ RowJournal::Record RowJournal::append(FileHandle& file, Kind kind, std::span<con
     if (const Clock::time_point now = Clock::now(); now >= due_) {
         file.sync();
         const Clock::time_point after = Clock::now();
-        due_ = after + std::max<Clock::duration>(between_syncs, patience * (after - now));
+        due_ = after + std::max<Clock::duration>(between_syncs, syncs_apart * (after - now));
     }
     return record;
 }

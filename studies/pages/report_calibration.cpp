@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_runs = 40;      ///< of the table of runs; the file has all
 constexpr double strong_correlation = 0.5; ///< is named
 
-std::string number(double value)
+std::string parameter_text(double value)
 {
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–";
 }
@@ -37,16 +37,6 @@ std::string name_of(const std::string& measured)
 std::string interval(const FittedParameter& p)
 {
     return p.determined || p.effective ? fmt::format("{:.4g} to {:.4g}", p.low, p.high) : "–";
-}
-
-Html tag(const char* tone, const char* text)
-{
-    return Html::ready(fmt::format("<span class=\"tag {}\">{}</span>", tone, text));
-}
-
-Html code(const std::string& text)
-{
-    return Html::ready("<code>" + html_escaped(text) + "</code>");
 }
 
 /// "better", "worse", or that it cannot be told.
@@ -116,7 +106,7 @@ private:
         std::vector<std::pair<std::string, Html>> facts;
         for (const FittedParameter& p : best_.parameters)
             if (p.determined)
-                facts.emplace_back(p.key, fmt::format("{} (95 %: {})", number(p.value), interval(p)));
+                facts.emplace_back(p.key, fmt::format("{} (95 %: {})", parameter_text(p.value), interval(p)));
         std::vector<std::string> effective, open;
         for (const FittedParameter& p : best_.parameters)
             if (!p.determined)
@@ -138,7 +128,7 @@ private:
         page_.section("Parameters");
         HtmlTable table{"lrrrrl", {"parameter", "start", "calibrated", "95 % interval", "searched", ""}, {}, ""};
         for (const FittedParameter& p : best_.parameters)
-            table.rows.push_back({code(p.key), number(p.start), number(p.value), interval(p),
+            table.rows.push_back({code(p.key), parameter_text(p.start), parameter_text(p.value), interval(p),
                                   fmt::format("{:.4g} to {:.4g}", p.from, p.to),
                                   p.determined  ? tag("good", "determined")
                                   : p.effective ? tag("warn", "effective")
@@ -210,7 +200,7 @@ private:
             figure.x_log = p.from > 0 && p.to > 5 * p.from;
             figure.series = {ends, line, marks};
             Html caption = Html::ready("<b>" + html_escaped(p.key) + "</b> ");
-            caption += fmt::format("{} (95 %: {}){}", number(p.value), interval(p),
+            caption += fmt::format("{} (95 %: {}){}", parameter_text(p.value), interval(p),
                                    p.determined  ? "."
                                    : p.effective ? "; effective."
                                                  : "; not determined.");
@@ -240,7 +230,7 @@ private:
         for (std::size_t i = 0; i < std::min(best_.runs.size(), most_runs); ++i) {
             const RunScore& run = best_.runs[i];
             table.rows.push_back({run.run, fmt::format("{}", run.motion_id), fmt::format("{}", run.units),
-                                  number(run.nominal), number(run.calibrated),
+                                  parameter_text(run.nominal), parameter_text(run.calibrated),
                                   signed_number(run.calibrated - run.nominal)});
         }
         page_.table(table);

@@ -20,16 +20,6 @@ std::string cell(MaybeReal value)
     return value ? number_words(value) : "–";
 }
 
-Html tag(const char* tone, const std::string& text)
-{
-    return Html::ready(fmt::format("<span class=\"tag {}\">{}</span>", tone, html_escaped(text)));
-}
-
-Html code(const std::string& text)
-{
-    return Html::ready("<code>" + html_escaped(text) + "</code>");
-}
-
 Html decision_tag(Decision decision)
 {
     return tag(decision == Decision::named ? "bad" : decision == Decision::in_set ? "warn" : "", to_string(decision));

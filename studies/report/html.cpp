@@ -110,6 +110,16 @@ std::string html_escaped(std::string_view text)
     return out;
 }
 
+Html code(std::string_view text)
+{
+    return Html::ready("<code>" + html_escaped(text) + "</code>");
+}
+
+Html tag(std::string_view tone, std::string_view text)
+{
+    return Html::ready(fmt::format("<span class=\"tag {}\">{}</span>", tone, html_escaped(text)));
+}
+
 Html::Html(std::string_view text) : markup(html_escaped(text)) {}
 
 Html Html::ready(std::string markup)

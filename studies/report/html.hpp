@@ -27,6 +27,11 @@ struct Html {
 /// A text for HTML and for the values of attributes; bytes that are no UTF-8, and control characters, become U+FFFD.
 std::string html_escaped(std::string_view text);
 
+/// A word of a file or of the command line.
+Html code(std::string_view text);
+/// A word in a coloured field. @param tone "good", "warn", "bad" or empty
+Html tag(std::string_view tone, std::string_view text);
+
 struct HtmlTable {
     std::string align; ///< a letter for each column: l, n (short words, on one line), r (numbers) or c
     std::vector<Html> head;

@@ -7,7 +7,7 @@
 
 namespace stylobate::hidden {
 
-inline constexpr double frame_s = 0.002; ///< between two frames
+inline constexpr double frame_s = 0.002; ///< between two frames of the cameras; a whole number of steps
 inline constexpr int window_frames = 20; ///< of a window, over which forces are compared: 40 ms
 
 struct History {

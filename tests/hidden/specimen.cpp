@@ -1,6 +1,7 @@
 #include "tests/hidden/specimen.hpp"
 
 #include "tests/hidden/laws/stepper.hpp"
+#include "tests/hidden/shake.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +19,6 @@ void add_block(Specimen& specimen, double width, double height, double depth, do
     specimen.rest_x_m.push_back(x);
     specimen.rest_y_m.push_back(bottom + height / 2);
 }
-
-/// Frames per second of the cameras; a whole number of steps lies between two frames.
-constexpr double frame_s = 0.002;
 
 double inertia_of(const Body& body)
 {

@@ -390,6 +390,13 @@ inline std::vector<std::string> run_words(const std::string& study, const std::v
     return words;
 }
 
+/// Settings and more of them; the later ones count.
+inline std::vector<std::string> with(std::vector<std::string> settings, const std::vector<std::string>& more)
+{
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+}
+
 /// Settings of a surface: 16 cells of a short column; in about half of them it collapses.
 inline std::vector<std::string> short_surface(int realizations_per_cell)
 {

@@ -13,13 +13,7 @@ namespace {
 
 const std::vector<std::string> small = short_surface(300);
 
-std::vector<std::string> with(std::vector<std::string> settings, const std::string& more)
-{
-    settings.push_back(more);
-    return settings;
-}
-
-const std::vector<std::string> adaptive = with(small, "surface.adaptive={budget=4000,half_width=0.1}");
+const std::vector<std::string> adaptive = with(small, {"surface.adaptive={budget=4000,half_width=0.1}"});
 
 class AdaptiveProgram : public Program {
 protected:
@@ -90,7 +84,7 @@ TEST_F(AdaptiveProgram, ItsMeanIsThatOfTheUniformSurface)
 
 TEST_F(AdaptiveProgram, WhereTheBudgetEndsItSaysSoAndTheWidestComeFirst)
 {
-    const auto settings = with(small, "surface.adaptive={budget=400,half_width=0.02,minimum=16,borrow=false}");
+    const auto settings = with(small, {"surface.adaptive={budget=400,half_width=0.02,minimum=16,borrow=false}"});
     const Ended ended = run(words(settings, "short.h5", "2"));
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     const ResultReader reader(folder / "short.h5");
@@ -130,7 +124,7 @@ TEST_F(AdaptiveProgram, TablesPicturesPageAndReplay)
 TEST_F(AdaptiveProgram, BadInputIsRefusedWithItsRange)
 {
     const auto refused = [&](const std::string& setting, const std::string& says) {
-        const Ended ended = run(words(with(small, setting), "none.h5", "1"));
+        const Ended ended = run(words(with(small, {setting}), "none.h5", "1"));
         EXPECT_EQ(ended.status, 2) << setting;
         EXPECT_NE(ended.err.find(says), std::string::npos) << setting << '\n' << ended.err;
         EXPECT_FALSE(fs::exists(folder / "none.h5"));

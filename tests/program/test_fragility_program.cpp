@@ -14,7 +14,7 @@ namespace stylobate {
 namespace {
 
 const std::string study = STYLOBATE_SOURCE_DIR "/studies/inputs/fragility_column.toml";
-const std::vector<std::string> small = {
+const std::vector<std::string> small_fragility = {
     "study.realizations=12", "fragility.motions=20",
     "fragility.intensity={measure=\"pgv\",from=0.3,to=2.5,count=5,spacing=\"log\"}"};
 
@@ -23,7 +23,7 @@ protected:
     ProgramRun words(const std::string& results, const char* threads, const std::string& simd = "auto",
                      std::vector<std::string> more = {}) const
     {
-        std::vector<std::string> settings = small;
+        std::vector<std::string> settings = small_fragility;
         settings.insert(settings.end(), more.begin(), more.end());
         return {.arguments =
                     run_words(study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};

@@ -7,7 +7,7 @@
 namespace stylobate {
 namespace {
 
-const std::string rocking_study = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
+const std::string rocking_report_study = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
 
 class Report : public Program {
 protected:
@@ -53,7 +53,7 @@ TEST_F(Report, OfASurface)
 
 TEST_F(Report, OfASingleRealizationAndOfAReplay)
 {
-    expect_done({"run", rocking_study, "-o", "one.h5", "--quiet"});
+    expect_done({"run", rocking_report_study, "-o", "one.h5", "--quiet"});
     expect_done({"report", "one.h5", "-o", "page.html", "--quiet"});
     std::string html = page("page.html");
     expect_has(html, {"Results: one", "Realization 0 did not collapse; it rocked more than it slid", "1 drum: width",
@@ -85,7 +85,7 @@ TEST_F(Report, OfADiagnosis)
 
 TEST_F(Report, IsWrittenWithoutPicturesWhereNoneCanBeDrawn)
 {
-    expect_done({"run", rocking_study, "-o", "one.h5", "--quiet"});
+    expect_done({"run", rocking_report_study, "-o", "one.h5", "--quiet"});
     ::setenv("STYLOBATE_GNUPLOT", "/none/such", 1);
     const Ended ended = run(Words{"report", "one.h5"});
     ::unsetenv("STYLOBATE_GNUPLOT");
@@ -98,9 +98,9 @@ TEST_F(Report, IsWrittenWithoutPicturesWhereNoneCanBeDrawn)
 
 TEST_F(Report, RefusesBadInputAndWritesNothing)
 {
-    expect_done({"run", rocking_study, "-o", "one.h5", "--quiet"});
+    expect_done({"run", rocking_report_study, "-o", "one.h5", "--quiet"});
     write_diagnosis(filled_diagnosis(), folder / "diagnosis.h5");
-    write_bytes(folder / "study.h5", read_bytes(rocking_study));
+    write_bytes(folder / "study.h5", read_bytes(rocking_report_study));
     write_bytes(folder / "empty.h5", "");
     for (const std::string name : {"one", "diagnosis"}) {
         std::string bytes = read_bytes(folder / (name + ".h5"));

@@ -26,12 +26,6 @@ const std::vector<std::string> quick = {"structure.blocks=4",
                                         "sensitivity.samples=60",
                                         "sensitivity.inner=2"};
 
-std::vector<std::string> with(std::vector<std::string> settings, const std::vector<std::string>& more)
-{
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-}
-
 /// Of numbers that may be undetermined.
 bool same(double a, double b)
 {

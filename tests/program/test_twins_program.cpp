@@ -10,17 +10,12 @@
 namespace stylobate {
 namespace {
 
-std::vector<std::string> with(std::vector<std::string> settings, const std::vector<std::string>& more)
-{
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-}
-
 constexpr int realizations = 6;
 constexpr std::uint64_t originals = 16 * realizations;
-const std::vector<std::string> small = short_surface(realizations);
-const std::vector<std::string> twins = with(small, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2",
-                                                    "run.max_invalid_fraction=0.1"}); // some in other contact forms
+const std::vector<std::string> small_twins = short_surface(realizations);
+const std::vector<std::string> twins =
+    with(small_twins, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2",
+                       "run.max_invalid_fraction=0.1"}); // some in other contact forms
 
 class TwinsProgram : public Program {
 protected:
@@ -44,7 +39,7 @@ TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
 {
     const Ended ended = run(words(twins, "twins.h5", "2"));
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
-    ASSERT_EQ(run(words(small, "plain.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(small_twins, "plain.h5", "2")).status, 0);
     const ResultReader with_twins(folder / "twins.h5"), plain(folder / "plain.h5");
     ASSERT_EQ(with_twins.rows().size(), 7 * originals);
     for (const ResultRow& row : plain.rows())
@@ -103,7 +98,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
     EXPECT_NE(page.find("moved by 1e-09 m"), std::string::npos);
     EXPECT_NE(page.find(std::to_string(originals) + " valid realizations"), std::string::npos);
 
-    ASSERT_EQ(run(words(small, "plain.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(small_twins, "plain.h5", "2")).status, 0);
     expect_refused(Words{"export", "plain.h5", "--to", "png", "--picture", "twins"}, {"plain.h5", "[twins]"});
     ASSERT_EQ(run(words(with(twins, {"twins.followed=0"}), "none.h5", "2")).status, 0);
     expect_refused(Words{"export", "none.h5", "--to", "png", "--picture", "predictability"}, {"twins.followed"});
@@ -112,7 +107,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
 TEST_F(TwinsProgram, BadInputIsRefusedWithItsRange)
 {
     const auto refused = [&](const std::vector<std::string>& settings, const std::vector<std::string>& says) {
-        expect_refused(words(with(small, settings), "none.h5", "1"), says);
+        expect_refused(words(with(small_twins, settings), "none.h5", "1"), says);
     };
     refused({"twins.moves_m=[1e-3, 1e-6]"}, {"twins.moves_m", "ascending", "1e-06"});
     refused({"twins.moves_m=[1e-6, 1e-6]"}, {"twins.moves_m", "ascending"});

@@ -2,6 +2,7 @@
 /// Regression of counts on predictors through a link, by maximum likelihood.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
 #include "ensemble/estimators/fragility/link.hpp"
 
 #include <Eigen/Core>
@@ -23,14 +24,6 @@ BinomialCounts counts_of(const FragilityData& data, const Eigen::VectorXd& weigh
 
 /// (points x (1 + measures)): 1, and the logarithms of the intensities.
 Eigen::MatrixXd log_predictors(const FragilityData& data);
-
-/// How a likelihood is shaped.
-enum class Maximum : std::uint8_t {
-    inside,    ///< it has its maximum at finite coefficients
-    separated, ///< it grows for ever: a plane parts what reached the limit state from what did not
-    none,      ///< nothing reached it
-    all        ///< everything did
-};
 
 struct BinomialFit {
     Maximum maximum = Maximum::inside;

@@ -2,16 +2,11 @@
 /// What is asked of a fitted curve: a number that its coefficients determine, with its intervals.
 
 #include "ensemble/estimators/fragility/binomial_regression.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
 
-#include <limits>
 #include <vector>
 
 namespace stylobate {
-
-struct Limits {
-    double lower = -std::numeric_limits<double>::infinity();
-    double upper = std::numeric_limits<double>::infinity();
-};
 
 /// A function of the coefficients whose level sets are planes, value(b) = v where c(v) . b = d(v).
 class CurveTarget {

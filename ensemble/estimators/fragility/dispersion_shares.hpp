@@ -13,7 +13,7 @@
 /// D_l - D_(l+1), the total is D of the records, and the shares add up to 1 by construction. An estimate may be
 /// negative where the truth is near 0; it is not cut off, which would bias it.
 
-#include "ensemble/estimators/fragility/curve_target.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
 
 #include <array>
 #include <span>

@@ -5,7 +5,9 @@
 /// likelihood. Which interval covers how often is measured in `docs/fragility_statistics.md`: those by runs cover only
 /// where runs are independent, which runs of one record are not.
 
-#include "ensemble/estimators/fragility/curve_target.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
+#include "ensemble/estimators/fragility/link.hpp"
 
 #include <string>
 #include <vector>

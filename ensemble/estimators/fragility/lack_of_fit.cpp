@@ -1,5 +1,6 @@
 #include "ensemble/estimators/fragility/lack_of_fit.hpp"
 
+#include "ensemble/estimators/fragility/curve_target.hpp"
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <boost/math/distributions/fisher_f.hpp>

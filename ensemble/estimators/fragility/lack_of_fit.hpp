@@ -6,11 +6,11 @@
 /// there are several measures) are tested by the sums of their scores over each record, which are independent:
 /// Hotelling's T2 of the records' efficient scores, against F(terms, records - terms).
 
-#include "ensemble/estimators/fragility/curve_target.hpp"
-
 #include <string>
 
 namespace stylobate {
+
+struct FittedCurve;
 
 struct LackOfFit {
     int terms = 0;        ///< that bend the curve; 0 where there is nothing to test with

@@ -1,5 +1,6 @@
 #include "ensemble/estimators/fragility/measure_ranking.hpp"
 
+#include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/model/input_error.hpp"
 

@@ -2,8 +2,8 @@
 /// Which intensity measure tells most about a limit state, and whether it tells all that the records' other features
 /// could.
 
-#include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/fragility_data.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
 
 #include <string>
 #include <vector>

@@ -16,7 +16,7 @@
 /// trial more is reached. It holds in at least as many repeats as it states, in more where records are alike
 /// (docs/fragility_statistics.md has the measured coverage).
 
-#include "ensemble/estimators/fragility/curve_target.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
 
 #include <span>
 

@@ -1,5 +1,6 @@
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 
+#include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 /// Shares by stripe without any form of a curve, the monotone curve through them, and whether they are monotone at all.
 
-#include "ensemble/estimators/fragility/curve_target.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
+#include "ensemble/estimators/fragility/limits.hpp"
 
 #include <string>
 #include <vector>

@@ -19,7 +19,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr std::array forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
+constexpr std::array null_forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
 constexpr std::array form_names = {"area", "two_corner", "points"};
 // A block has fallen whose centre is below this part of its height at rest, or that leans by more.
 constexpr double fallen = 0.6;
@@ -62,20 +62,20 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
     Draws draw(seed, number, Stream::virtual_specimen);
     Study study = about;
     // drawn in any case, so that the rest does not depend on it
-    const std::size_t form = number % forms.size();
+    const std::size_t form = number % null_forms.size();
     const double stiffness = std::exp(scatter.stiffness * draw.normal());
     const double damping =
         scatter.least_damping * std::pow(scatter.most_damping / scatter.least_damping, draw.uniform());
     const double friction = 1 + scatter.common_friction * draw.normal();
     const double share = draw.uniform() < 0.5 ? draw.uniform() : 1;
     const double bend = draw.uniform() * draw.uniform(), hurry = draw.uniform();
-    const double exponent = forms[form] == ContactForm::area ? 1 + (scatter.most_exponent - 1) * bend : 1;
+    const double exponent = null_forms[form] == ContactForm::area ? 1 + (scatter.most_exponent - 1) * bend : 1;
     double height = 0;
     for (const double y : measured.specimen.rest_y_m)
         height = std::max(height, y);
     const double rate = scatter.most_rate_s_m * hurry / (0.1 * std::sqrt(measured.specimen.gravity_m_s2 * height));
     if (scatter.contacts) {
-        study.contact.form = forms[form];
+        study.contact.form = null_forms[form];
         study.contact.normal_stiffness_n_m2 *= stiffness;
         study.contact.tangential_stiffness_n_m *= stiffness;
         study.contact.normal_damping_ratio = damping;

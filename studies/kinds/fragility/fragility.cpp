@@ -1,5 +1,6 @@
 #include "studies/kinds/fragility/fragility.hpp"
 
+#include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/numerics/quantiles.hpp"

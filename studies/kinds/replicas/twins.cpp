@@ -15,7 +15,6 @@ namespace stylobate {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void count_flips(const Study& study, const std::vector<ResultRow>& rows, Twins& out)
@@ -40,8 +39,9 @@ void count_flips(const Study& study, const std::vector<ResultRow>& rows, Twins& 
         ++(fell && twin_fell ? c.both : fell ? c.original : twin_fell ? c.twin : c.neither);
     }
     for (std::size_t cell = 0; cell < cells; ++cell)
-        out.probability.push_back(
-            valid[cell] > 0 ? static_cast<double>(collapsed[cell]) / static_cast<double>(valid[cell]) : nan);
+        out.probability.push_back(valid[cell] > 0
+                                      ? static_cast<double>(collapsed[cell]) / static_cast<double>(valid[cell])
+                                      : std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k < out.kinds.size(); ++k) {
         TwinFlips& kind = out.kinds[k];
         kind.all = flip_ratio(counts[k]);
@@ -164,7 +164,7 @@ Twins twins_of(const ResultReader& results, const std::string& file)
             out.growth.push_back(growth_of(study, k, pairs));
     }
     for (std::size_t i = 0; i < out.growth.size(); ++i) {
-        out.growth[i].gained_exponent_per_s = nan;
+        out.growth[i].gained_exponent_per_s = std::numeric_limits<double>::quiet_NaN();
         if (i + 1 < out.growth.size())
             add_gain(study.twins->kinds, out.growth[i + 1].kind, pairs, out.growth[i]);
     }

@@ -1,6 +1,7 @@
 /// The slots of a device, on the device that is the processor: outcomes have the bits of the processor's own lanes,
 /// with any number of slots, however they are refilled, and whatever the realizations are.
 
+#include "ensemble/engine/host_device.hpp"
 #include "ensemble/engine/slots.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"

@@ -1,5 +1,6 @@
 /// Fragility curves: published fits, known truths, coverage of the intervals, and data that bear no curve.
 
+#include "ensemble/estimators/fragility/binomial_regression.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"

@@ -12,6 +12,9 @@
 
 namespace stylobate {
 
+/// Noise of the cameras that see these motions.
+inline constexpr double camera_m = 3e-5, camera_rad = 3e-4;
+
 inline constexpr double formula_rate_hz = 1000;
 inline constexpr double formula_gravity = 9.81;
 

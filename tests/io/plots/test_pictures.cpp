@@ -61,7 +61,7 @@ TEST(PlotAxis, ScaleAndCells)
     EXPECT_GT(lone.edges[1], 4);
     EXPECT_THROW(make_plot_axis({}, "pga_m_s2"), InputError);
     EXPECT_THROW(make_plot_axis({1, 1}, "pga_m_s2"), InputError);
-    EXPECT_THROW(make_plot_axis({1, nan_value}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_plot_axis({1, no_number}, "pga_m_s2"), InputError);
 }
 
 TEST(Texts, Words)
@@ -89,7 +89,7 @@ TEST(Slice, NearestRowsOnTheAxisScale)
     EXPECT_EQ(slice_rows(surface, {2.8}), std::vector<std::size_t>{1});
     EXPECT_EQ(slice_rows(surface, {16, 1, 15}), (std::vector<std::size_t>{0, 4}));
     EXPECT_EQ(slice_rows(surface, {}), (std::vector<std::size_t>{0, 2, 4}));
-    for (const double bad : {0.0, -1.0, 0.9, 17.0, nan_value}) // none is drawn instead of another
+    for (const double bad : {0.0, -1.0, 0.9, 17.0, no_number}) // none is drawn instead of another
         EXPECT_THROW(slice_rows(surface, {bad}), InputError);
     EXPECT_THROW(slice_rows(surface, std::vector<double>(7, 1.0)), InputError);
 }
@@ -120,9 +120,9 @@ TEST(Strip, SnapshotsAreAscendingAndCatchTheMotion)
     }
     EXPECT_THROW(snapshot_samples(t, 1), InputError);
     EXPECT_THROW(snapshot_samples(t, 17), InputError);
-    t.theta_rad[2 * 300] = nan_value; // what comes after it is not drawn
+    t.theta_rad[2 * 300] = no_number; // what comes after it is not drawn
     EXPECT_EQ(snapshot_samples(t, 8).back(), 299U);
-    t.x_m[0] = nan_value;
+    t.x_m[0] = no_number;
     EXPECT_THROW(snapshot_samples(t, 8), InputError);
     EXPECT_THROW(snapshot_samples(Trajectory{}, 8), InputError);
 }
@@ -159,7 +159,7 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
 
     // Without a trial: grey.
     for (std::size_t cell = 0; cell < 96; ++cell)
-        halves.probability[cell] = nan_value;
+        halves.probability[cell] = no_number;
     plot_surface(halves, "collapse", "", folder / "grey.png");
     EXPECT_NEAR(share(decode(folder / "grey.png"), 0xb8b8b8, 1), frame / 2, 0.03);
 }
@@ -172,7 +172,7 @@ TEST_F(Pictures, SmallAndOddSurfaces)
     one.pga_m_s2.resize(1);
     one.trials = {0};
     one.collapses = {0};
-    one.probability = one.lower = one.upper = {nan_value};
+    one.probability = one.lower = one.upper = {no_number};
     plot_surface(one, "collapse", "nothing", folder / "nothing.png");
     EXPECT_GT(decode(folder / "nothing.png").colours, 10U);
     plot_slice(one, {}, "collapse", "nothing", folder / "slice.png");
@@ -298,9 +298,9 @@ RareTable some_rare_event()
     table.realizations = 560;
     table.repeats = {0.002, 0};
     table.levels = 3;
-    table.threshold_m = {nan_value, 0.011, 0.015, nan_value, 0.012, nan_value};
-    table.share = {0.1, 0.1, 0.2, 0.1, 0, nan_value};
-    table.acceptance = table.stuck = {nan_value, 0.4, 0.4, nan_value, 0.4, nan_value};
+    table.threshold_m = {no_number, 0.011, 0.015, no_number, 0.012, no_number};
+    table.share = {0.1, 0.1, 0.2, 0.1, 0, no_number};
+    table.acceptance = table.stuck = {no_number, 0.4, 0.4, no_number, 0.4, no_number};
     return table;
 }
 
@@ -330,11 +330,11 @@ TEST_F(Pictures, RareEvent)
     EXPECT_GT(share(pixels, 0x56b4e9, 2), 0.00005) << "the repeats";
     EXPECT_GT(share(pixels, 0xd55e00, 2), 0.0002) << "their mean";
     RareTable open = some_rare_event(); // too few repeats for an interval
-    open.lower = open.upper = nan_value;
+    open.lower = open.upper = no_number;
     plot_rare(open, "", folder / "open.png");
     EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00002) << "their mean";
     RareTable none = some_rare_event(); // no repeat came to a collapse
-    none.probability = none.lower = none.upper = nan_value;
+    none.probability = none.lower = none.upper = no_number;
     none.repeats = {0, 0};
     plot_rare(none, "", folder / "none.png");
     EXPECT_LT(share(decode(folder / "none.png"), 0xd55e00, 2), 1e-5);

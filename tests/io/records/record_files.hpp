@@ -317,4 +317,13 @@ inline std::string smc(int n = 21, const std::string& kind = "2 CORRECTED ACCELE
            rows(n, 8, [](int i) { return smc_value(1000 * sample(i)); });
 }
 
+/// Largest |acceleration|.
+inline double pga_of(const Record& record)
+{
+    double pga = 0;
+    for (const double a : record.acceleration_m_s2)
+        pga = std::max(pga, std::fabs(a));
+    return pga;
+}
+
 } // namespace stylobate

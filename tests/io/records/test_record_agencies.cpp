@@ -18,14 +18,6 @@ std::vector<Record> read(const std::string& content, const std::string& unit = "
     return read_records(content, "record.txt", unit);
 }
 
-double pga_of(const Record& record)
-{
-    double pga = 0;
-    for (const double a : record.acceleration_m_s2)
-        pga = std::max(pga, std::fabs(a));
-    return pga;
-}
-
 /// Every beginning of a file is refused, up to the one that holds all that is needed.
 void expect_no_part_is_taken(const std::string& content, std::size_t needed)
 {

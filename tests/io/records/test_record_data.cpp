@@ -1,6 +1,7 @@
 /// Real earthquakes: every file beside the checkout, against figures that other code computed from them, and against
 /// what each file says of itself.
 
+#include "tests/io/records/record_files.hpp"
 #include "tests/io/store/csv_line.hpp"
 
 #include "ensemble/model/input_error.hpp"
@@ -85,14 +86,6 @@ std::map<std::string, std::vector<Expected>> expectations()
     all["formats/5526-1.V1"] = {{9472, 0.005, 0.058010, ""}, {9472, 0.005, 0.063750, ""}, {9472, 0.005, 0.129420, ""}};
     all["formats/017m30lw.s0a"] = {{34717, 0.001, 2.595820, ""}};
     return all;
-}
-
-double pga_of(const Record& record)
-{
-    double pga = 0;
-    for (const double a : record.acceleration_m_s2)
-        pga = std::max(pga, std::fabs(a));
-    return pga;
 }
 
 /// "header Max. Acc. 6.847 gal" to m/s2.

@@ -18,7 +18,7 @@
 
 namespace stylobate {
 
-inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A fresh folder for each test, removed afterwards.
 class ExportFolder : public ::testing::Test {

@@ -105,7 +105,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
     rows[0].outcome.state = State::collapsed;
     rows[1].outcome.state = State::invalid;
     rows[1].outcome.invalid_reason = InvalidReason::energy;
-    rows[1].outcome.energy_residual = nan_value;
+    rows[1].outcome.energy_residual = no_number;
     rows[2].outcome.energy_residual = std::numeric_limits<double>::infinity();
     rows[2].outcome.total_sliding_m = std::numeric_limits<double>::denorm_min();
     rows[2].outcome.energy_kinetic_j = -0.0;
@@ -152,7 +152,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
                                                  {"residual_dislocation", o.residual_dislocation},
                                                  {"rocking_path_rad", o.rocking_path_rad},
                                                  {"fall_time_s[0]", o.fall_time_s[0]},
-                                                 {"fall_time_s[1]", nan_value}}; // never
+                                                 {"fall_time_s[1]", no_number}}; // never
         for (const auto& [column, value] : want) {
             SCOPED_TRACE(column);
             expect_bits(table.at(column).at(r), value);
@@ -169,7 +169,7 @@ TEST_F(Export, SurfaceReadsBackBitByBit)
 {
     SurfaceTable surface = some_surface(3, 4);
     surface.trials[5] = 0;
-    surface.probability[5] = surface.lower[5] = surface.upper[5] = nan_value;
+    surface.probability[5] = surface.lower[5] = surface.upper[5] = no_number;
     write_csv(folder, ResultHeader{}, {}, surface);
     const auto table = read_csv(folder / "surface.csv");
     ASSERT_EQ(table.at("cell").size(), 12U);
@@ -321,7 +321,7 @@ TEST(Contour, SaddleHolesAndPlateaus)
     std::vector<double> z;
     for (std::size_t i = 0; i < 5; ++i)
         for (std::size_t j = 0; j < 3; ++j)
-            z.push_back(i == 2 && j == 0 ? nan_value : static_cast<double>(j));
+            z.push_back(i == 2 && j == 0 ? no_number : static_cast<double>(j));
     EXPECT_EQ(contour_lines(x, y, z, 1.5).size(), 1U);
     EXPECT_EQ(contour_lines(x, y, z, 0.5).size(), 2U);
     EXPECT_TRUE(contour_lines(x, y, z, 2.5).empty());

@@ -9,8 +9,6 @@
 namespace stylobate {
 namespace {
 
-constexpr double camera_m = 3e-5, camera_rad = 3e-4;
-
 BalanceEvidence evidence_of(const Campaign& campaign)
 {
     std::vector<std::vector<double>> base;

@@ -13,8 +13,6 @@
 namespace stylobate {
 namespace {
 
-constexpr double camera_m = 3e-5, camera_rad = 3e-4;
-
 /// A block that coasts on the table from these velocities, with the friction of each run, by formula.
 Campaign coasting_campaign(const std::vector<double>& velocities_m_s, const std::vector<double>& friction)
 {

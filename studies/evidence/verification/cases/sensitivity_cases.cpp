@@ -100,7 +100,7 @@ Finding contact_stiffness()
                  1.96 * std::sqrt(2 * std::max(p * (1 - p), 1.0 / realizations) / realizations));
     }
     f.remarks.push_back(table);
-    f.remarks.push_back(
+    f.remarks.emplace_back(
         "The step does not matter, the contact does: it is the model's compliance, not the integration. 2.15 m/s2 is "
         "below the 2.706 m/s2 at which a rigid column opens at all. On a bed of any stiffness the joints begin to open "
         "at a third of that (see Uplift); how far they then open, how much the column can carry, and how near its "

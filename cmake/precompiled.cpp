@@ -1,0 +1,1 @@
+/// Nothing: a library of this one file keeps the precompiled headers.

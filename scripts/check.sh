@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# What a compiler and the tests do not see, or see too late: the gates before a change goes in.
+#
+#   scripts/check.sh [GATE...]       all of them, or some:
+#
+#   format     clang-format has nothing to change
+#   headers    every header compiles by itself, with clang's warnings as errors
+#   clang      so does every source file
+#   tidy       clang-tidy finds nothing in the files that changed last, and then in as many others as TIDY_S seconds
+#              (300) allow; TIDY_S=0: in all files
+#   sanitize   the tests of files, results and numerics under AddressSanitizer and UndefinedBehaviorSanitizer
+#   fuzz       a minute (FUZZ_S) of broken ground-motion files
+#
+# Exit status 1 if a gate is closed; its findings stand above the last line.
+set -euo pipefail
+
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+scripts/install_packages.sh
+scripts/install_packages.sh clang clang-format clang-tidy libclang-rt-14-dev
+jobs=$(nproc)
+work=build/check
+mkdir -p "$work"
+
+# The commands of clang for every source file, without building anything.
+configure() {
+    [[ -z ${configured:-} ]] || return 0
+    cmake -S . -B "$work/clang" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
+        -DCMAKE_C_COMPILER=clang -DSTYLOBATE_WERROR=ON -DSTYLOBATE_CUDA=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSTYLOBATE_UNITY=OFF \
+        -DCMAKE_CXX_COMPILER_LAUNCHER= -DCMAKE_C_COMPILER_LAUNCHER= >"$work/configure.log" || { cat "$work/configure.log"; return 1; }
+    configured=yes
+}
+
+sources() { git ls-files --cached --others --exclude-standard -- "$@"; }
+
+# Runs commands from standard input, a line each, in parallel; fails if one does.
+in_parallel() { xargs -P "$jobs" -d '\n' -I{} bash -c '{}'; }
+
+gate_format() { sources '*.cpp' '*.hpp' '*.cu' | xargs -P "$jobs" -n 40 clang-format --dry-run --Werror; }
+
+gate_clang() {
+    configure
+    ninja -C "$work/clang" -t commands all | grep -- ' -c ' | grep -v version.cpp |
+        sed -E "s| -o [^ ]+||; s| -M[DTF]+( [^ ]+\.(o\|d))?||g; s|^|cd $work/clang \&\& |; s|\$| -fsyntax-only|" | in_parallel
+}
+
+gate_headers() {
+    configure
+    local flags
+    flags=$(ninja -C "$work/clang" -t commands test_evidence | grep -m 1 -- 'evidence.*page.cpp' |
+        grep -oE -- ' -(I|isystem |D|std=|W|m|f)[^ ]+( [^-][^ ]*)?' | grep -vE 'precompile|fsyntax' | tr -d '\n' || true)
+    flags+=" -I$PWD -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial -mavx2 -mfma"
+    sources '*.hpp' | grep -v '^bench/peers/' |
+        sed -E "s|(.*)|clang++ -std=c++20 -fsyntax-only -x c++ -Wno-pragma-once-outside-header $flags \1|" | in_parallel
+}
+
+gate_tidy() {
+    configure
+    local until=$((SECONDS + ${TIDY_S:-300})) checked=0 total part
+    # those that changed last first
+    mapfile -t files < <({
+        git diff --name-only HEAD -- '*.cpp'
+        git log -n 200 --name-only --format= -- '*.cpp'
+        sources '*.cpp'
+    } | awk '!seen[$0]++' | grep -vE '^bench/peers/|^tests/house/consumer/|fuzz_record' | while read -r file; do
+        [[ -f $file ]] && echo "$file"
+    done)
+    total=${#files[@]}
+    while ((checked < total)) && ((SECONDS < until || ${TIDY_S:-300} == 0)); do
+        part=("${files[@]:checked:4*jobs}")
+        printf '%s\n' "${part[@]}" |
+            xargs -P "$jobs" -n 1 clang-tidy -p "$work/clang" --quiet --warnings-as-errors='*' 2>"$work/tidy.log" ||
+            return 1
+        checked=$((checked + ${#part[@]}))
+    done
+    echo "tidy: $checked of $total files"
+}
+
+gate_sanitize() {
+    cmake --preset asan >/dev/null
+    cmake --build build/asan --target test_inputs test_results test_estimators --parallel "$jobs"
+    ctest --preset asan --parallel "$jobs" --label-exclude long --tests-regex '^(inputs|results|estimators)\.' \
+        --output-on-failure --quiet
+}
+
+gate_fuzz() { scripts/fuzz.sh "${FUZZ_S:-60}s" "$work/fuzz" 2>&1 | tail -n 20; }
+
+all=(format headers clang tidy sanitize fuzz)
+gates=("$@")
+[[ $# -gt 0 ]] || gates=("${all[@]}")
+for gate in "${gates[@]}"; do
+    [[ " ${all[*]} " == *" $gate "* ]] || { echo "check.sh: '$gate' is no gate. Gates: ${all[*]}" >&2; exit 2; }
+done
+closed=()
+for gate in "${gates[@]}"; do
+    begin=$SECONDS
+    set +e # a function in a condition would run on after an error
+    (
+        set -e
+        "gate_$gate"
+    )
+    status=$?
+    set -e
+    if [[ $status -eq 0 ]]; then
+        echo "check.sh: $gate passed, $((SECONDS - begin)) s"
+    else
+        closed+=("$gate")
+        echo "check.sh: $gate FAILED, see above" >&2
+    fi
+done
+[[ ${#closed[@]} -eq 0 ]] || { echo "check.sh: closed: ${closed[*]}" >&2; exit 1; }
