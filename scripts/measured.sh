@@ -13,4 +13,4 @@ if [[ ! -d $data ]]; then
 fi
 cmake --preset release >/dev/null
 cmake --build build/release --target stylobate_measured --parallel "$(nproc)"
-build/release/studies/evidence/measured/stylobate_measured "$data" --output docs/measured --studies studies/evidence/measured "$@"
+build/release/studies/evidence/measured/stylobate_measured "$data" --output docs/measured --studies studies/evidence/measured/fitted "$@"

@@ -304,7 +304,8 @@ TEST(MeasuredData, DoublePulsesAreReadAsTheyWerePublished)
 TEST(PageCases, StudiesOfTheFittedModelsAreStudies)
 {
     int files = 0;
-    for (const auto& entry : fs::directory_iterator(fs::path(STYLOBATE_SOURCE_DIR) / "studies" / "measured"))
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(STYLOBATE_SOURCE_DIR) / "studies/evidence/measured/fitted"))
         if (entry.path().extension() == ".toml") {
             ++files;
             const Study study = read_study(entry.path(), {"excitation.file=motion.csv"});

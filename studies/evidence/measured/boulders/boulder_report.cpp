@@ -212,8 +212,8 @@ std::string model_section(const BoulderResults& r)
     return text +
            fmt::format(
                "\nThe two models are the study files "
-               "[boulder_baseline.toml](../../studies/evidence/measured/boulders/boulder_baseline.toml) and "
-               "[boulder_extended.toml](../../studies/evidence/measured/boulders/boulder_extended.toml); the held-out "
+               "[boulder_baseline.toml](../../studies/evidence/measured/fitted/boulder_baseline.toml) and "
+               "[boulder_extended.toml](../../studies/evidence/measured/fitted/boulder_extended.toml); the held-out "
                "scores are those of these studies, with {} realizations in each test.\n\n",
                r.realizations);
 }
