@@ -245,8 +245,8 @@ private:
                                    get(J::wedge_sine, joint),
                                    get(J::wedge_versine, joint),
                                    get(J::per_root_depth, joint)};
-        const auto far = [this](const Placement<Real>& place, const PairSizes<Real>& left, auto fits, Overlap<Real>& o,
-                                auto& points) { fall_back(place, left, fits, o, points); };
+        const auto far = [&](const Placement<Real>& place, const PairSizes<Real>& left, auto fits, Overlap<Real>& o,
+                             auto& points) { fall_back(place, left, fits, o, points); };
         if constexpr (Mechanism::points > 0) {
             return bed_overlap<Mechanism::form>(s.place, faces, s.place.sine < s.place.sine, s.points, far);
         } else {

@@ -25,8 +25,9 @@ mkdir -p "$work"
 configure() {
     [[ -z ${configured:-} ]] || return 0
     cmake -S . -B "$work/clang" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
-        -DCMAKE_C_COMPILER=clang -DSTYLOBATE_WERROR=ON -DSTYLOBATE_CUDA=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSTYLOBATE_UNITY=OFF \
+        -DCMAKE_C_COMPILER=clang -DSTYLOBATE_WERROR=ON -DSTYLOBATE_CUDA=OFF -DSTYLOBATE_UNITY=OFF \
         -DCMAKE_CXX_COMPILER_LAUNCHER= -DCMAKE_C_COMPILER_LAUNCHER= >"$work/configure.log" || { cat "$work/configure.log"; return 1; }
+    ninja -C "$work/clang" stylobate_precompiled stylobate_tests_headers >"$work/configure.log" || { cat "$work/configure.log"; return 1; }
     configured=yes
 }
 
@@ -39,18 +40,16 @@ gate_format() { sources '*.cpp' '*.hpp' '*.cu' | xargs -P "$jobs" -n 40 clang-fo
 
 gate_clang() {
     configure
-    ninja -C "$work/clang" -t commands all | grep -- ' -c ' | grep -v version.cpp |
+    ninja -C "$work/clang" -t commands all | grep -- ' -c ' | grep -vE 'version.cpp|cmake_pch.hxx.cxx' |
         sed -E "s| -o [^ ]+||; s| -M[DTF]+( [^ ]+\.(o\|d))?||g; s|^|cd $work/clang \&\& |; s|\$| -fsyntax-only|" | in_parallel
 }
 
 gate_headers() {
-    configure
-    local flags
-    flags=$(ninja -C "$work/clang" -t commands test_evidence | grep -m 1 -- 'evidence.*page.cpp' |
-        grep -oE -- ' -(I|isystem |D|std=|W|m|f)[^ ]+( [^-][^ ]*)?' | grep -vE 'precompile|fsyntax' | tr -d '\n' || true)
-    flags+=" -I$PWD -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial -mavx2 -mfma"
-    sources '*.hpp' | grep -v '^bench/peers/' |
-        sed -E "s|(.*)|clang++ -std=c++20 -fsyntax-only -x c++ -Wno-pragma-once-outside-header $flags \1|" | in_parallel
+    local flags=(-std=c++20 -fsyntax-only -x c++ -I. -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial
+        -DFMT_SHARED '-DSTYLOBATE_SOURCE_DIR=""' '-DSTYLOBATE_DATA_DIR=""' '-DSTYLOBATE_PROGRAM=""' -mavx2 -mfma
+        -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align -Wconversion -Werror
+        -Wno-pragma-once-outside-header -Wno-unused-const-variable -Wno-unused-function)
+    sources '*.hpp' | grep -v '^bench/peers/' | xargs -P "$jobs" -n 1 clang++ "${flags[@]}"
 }
 
 gate_tidy() {

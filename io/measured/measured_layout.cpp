@@ -185,31 +185,31 @@ void check_shapes(Campaign& campaign)
                 refuse(fmt::format("specimen/joints: joints {} and {} are the same.\n  Remove one.", i, j));
     }
     for (MeasuredRun& run : campaign.runs) {
-        std::size_t times = run.time_s.size();
-        if (times == 0) {
+        std::size_t count = run.time_s.size();
+        if (count == 0) {
             const char* counted = "";
             for (const SeriesName& name : series_names())
-                if (times == 0 && !name.in(run).empty()) {
-                    times = name.in(run).values.size() / (name.per_block ? std::max<std::size_t>(blocks, 1) : 1);
+                if (count == 0 && !name.in(run).empty()) {
+                    count = name.in(run).values.size() / (name.per_block ? std::max<std::size_t>(blocks, 1) : 1);
                     counted = name.path;
                 }
-            if (times > 0 && !(run.rate_hz > 0))
+            if (count > 0 && !(run.rate_hz > 0))
                 refuse(fmt::format("run {}: there is neither time_s nor rate_hz, so that the times of {} are "
                                    "unknown.\n  Add one of them.",
                                    run.name, counted));
-            for (std::size_t i = 0; i < times; ++i)
+            for (std::size_t i = 0; i < count; ++i)
                 run.time_s.push_back(static_cast<double>(i) / run.rate_hz);
-            if (times > 0)
+            if (count > 0)
                 campaign.findings.push_back(
                     {Severity::note, fmt::format("run {}, time_s", run.name),
                      fmt::format("there is no clock: times from 0 at {:g} Hz are taken.", run.rate_hz)});
         }
         for (const SeriesName& name : series_names()) {
             const std::size_t n = name.in(run).values.size();
-            const std::size_t wanted = times * (name.per_block ? blocks : 1);
+            const std::size_t wanted = count * (name.per_block ? blocks : 1);
             if (n != 0 && n != wanted)
                 refuse(fmt::format("run {}: {} has {} values where {} times{} make {}.\n  One row for each time.",
-                                   run.name, name.path, n, times,
+                                   run.name, name.path, n, count,
                                    name.per_block ? fmt::format(" and {} blocks", blocks) : std::string(), wanted));
         }
     }

@@ -12,6 +12,8 @@
 
 namespace stylobate {
 
+struct JsonMember;
+
 struct JsonValue {
     enum class Kind { null, boolean, number, text, list, object };
     Kind kind = Kind::null;
@@ -19,24 +21,33 @@ struct JsonValue {
     double number = 0;
     std::string text;
     std::vector<JsonValue> items;
-    std::vector<std::pair<std::string, JsonValue>> members;
+    std::vector<JsonMember> members;
 
-    bool has(std::string_view key) const
-    {
-        for (const auto& [name, value] : members)
-            if (name == key)
-                return true;
-        return false;
-    }
+    bool has(std::string_view key) const;
     /// @throws std::runtime_error if there is no such member
-    const JsonValue& operator[](std::string_view key) const
-    {
-        for (const auto& [name, value] : members)
-            if (name == key)
-                return value;
-        throw std::runtime_error("no member " + std::string(key));
-    }
+    const JsonValue& operator[](std::string_view key) const;
 };
+
+struct JsonMember {
+    std::string name;
+    JsonValue value;
+};
+
+inline bool JsonValue::has(std::string_view key) const
+{
+    for (const JsonMember& member : members)
+        if (member.name == key)
+            return true;
+    return false;
+}
+
+inline const JsonValue& JsonValue::operator[](std::string_view key) const
+{
+    for (const JsonMember& member : members)
+        if (member.name == key)
+            return member.value;
+    throw std::runtime_error("no member " + std::string(key));
+}
 
 class JsonParser {
 public:
@@ -95,7 +106,7 @@ private:
                 blanks();
                 if (next() != ':')
                     fail("a colon is expected");
-                value.members.emplace_back(std::move(key), this->value(depth + 1));
+                value.members.push_back({std::move(key), this->value(depth + 1)});
             });
             break;
         case '[':

@@ -75,7 +75,7 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
         out.why_not = "No joint slid or rocked long enough, in a way that leaves none of its forces unknown.";
         return out;
     }
-    out.fit.emplace(campaign.specimen, scales, std::move(all), friction, static_cast<int>(campaign.runs.size()));
+    out.fit.emplace(campaign.specimen, std::move(all), friction, static_cast<int>(campaign.runs.size()));
     std::vector<CauseFit> fits;
     for (const Cause& cause : balance_causes(campaign.specimen, scales))
         fits.push_back(out.fit->fit(cause, given));

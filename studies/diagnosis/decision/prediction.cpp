@@ -291,8 +291,9 @@ std::vector<double> outcome_of(const Specimen& s, const MeasuredRun& run)
         --last;
     for (const auto& [lower, upper] : s.joints) {
         const auto u = static_cast<std::size_t>(upper);
+        const int base = lower; // clang 14 captures no structured binding
         const auto apart = [&](std::size_t i, const Series& series) {
-            const double low = lower < 0 ? 0 : series.values[i * n + static_cast<std::size_t>(lower)];
+            const double low = base < 0 ? 0 : series.values[i * n + static_cast<std::size_t>(base)];
             return series.values[i * n + u] - low;
         };
         double open = 0;

@@ -77,10 +77,9 @@ double CauseFit::gain_without_best() const
     return gain_by_run.empty() ? gain : gain - *std::max_element(gain_by_run.begin(), gain_by_run.end());
 }
 
-BalanceFit::BalanceFit(const Specimen& specimen, const TrackScales& scales, std::vector<LawSample> samples,
-                       double friction, int runs, const Scatter& scatter)
-    : specimen_(specimen), scales_(scales), samples_(std::move(samples)), friction_(friction), runs_(runs),
-      scatter_(scatter)
+BalanceFit::BalanceFit(const Specimen& specimen, std::vector<LawSample> samples, double friction, int runs,
+                       const Scatter& scatter)
+    : specimen_(specimen), samples_(std::move(samples)), friction_(friction), runs_(runs), scatter_(scatter)
 {
     if (!samples_.empty())
         baseline_ = regress({}, nullptr);

@@ -69,8 +69,8 @@ class BalanceFit {
 public:
     /// @param friction with which the samples were written
     /// @param runs number of runs in the campaign
-    BalanceFit(const Specimen& specimen, const TrackScales& scales, std::vector<LawSample> samples, double friction,
-               int runs, const Scatter& scatter = {});
+    BalanceFit(const Specimen& specimen, std::vector<LawSample> samples, double friction, int runs,
+               const Scatter& scatter = {});
 
     bool empty() const { return samples_.empty(); }
     const std::vector<LawSample>& samples() const { return samples_; }
@@ -102,7 +102,6 @@ private:
     Result regress(const std::vector<Column>& given, const Column* tried) const;
 
     const Specimen& specimen_;
-    const TrackScales& scales_;
     std::vector<LawSample> samples_;
     double friction_;
     int runs_;

@@ -111,7 +111,7 @@ FrictionJudgement judge_friction(const Specimen& specimen, const TrackScales& sc
         for (std::size_t i = 0; i < samples.size(); ++i)
             if (slide[i] < 0 || slide[i] != left_out)
                 used.push_back(samples[i]);
-        return BalanceFit(specimen, scales, std::move(used), friction, runs, scatter);
+        return BalanceFit(specimen, std::move(used), friction, runs, scatter);
     };
     const BalanceFit all = without(-2);
     const double ratio = all.friction_ratio();

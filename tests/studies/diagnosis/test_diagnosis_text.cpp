@@ -17,7 +17,7 @@ std::vector<std::string> keys_of(const JsonValue& object)
 {
     std::vector<std::string> keys;
     for (const auto& member : object.members)
-        keys.push_back(member.first);
+        keys.push_back(member.name);
     return keys;
 }
 

@@ -12,7 +12,6 @@ namespace stylobate::measured::impact {
 
 namespace {
 
-constexpr int fit_evaluations = 600;
 constexpr int term_evaluations = 200; ///< a term more, from the fit without it
 constexpr int shufflings = 999;       ///< of a regression
 constexpr int refitted_shufflings = 19;
