@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What a compiler and the tests do not see, or see too late: the gates before a change goes in.
+# What the build and the tests do not see, or see too late: the gates before a change goes in.
 #
-#   scripts/check.sh [GATE...]       all of them, or some:
+#   scripts/check.sh [GATE...]       all of them, or some (CI runs format, headers and clang):
 #
 #   format     clang-format has nothing to change
 #   headers    every header compiles by itself, with clang's warnings as errors
@@ -54,7 +54,7 @@ gate_headers() {
 
 gate_tidy() {
     configure
-    local until=$((SECONDS + ${TIDY_S:-300})) checked=0 total part
+    local until=$((SECONDS + ${TIDY_S:-300})) checked=0 total part found=0
     # those that changed last first
     mapfile -t files < <({
         git diff --name-only HEAD -- '*.cpp'
@@ -67,11 +67,11 @@ gate_tidy() {
     while ((checked < total)) && ((SECONDS < until || ${TIDY_S:-300} == 0)); do
         part=("${files[@]:checked:4*jobs}")
         printf '%s\n' "${part[@]}" |
-            xargs -P "$jobs" -n 1 clang-tidy -p "$work/clang" --quiet --warnings-as-errors='*' 2>"$work/tidy.log" ||
-            return 1
+            xargs -P "$jobs" -n 1 clang-tidy -p "$work/clang" --quiet --warnings-as-errors='*' 2>"$work/tidy.log" || found=1
         checked=$((checked + ${#part[@]}))
     done
     echo "tidy: $checked of $total files"
+    return $found
 }
 
 gate_sanitize() {

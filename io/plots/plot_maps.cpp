@@ -135,7 +135,8 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
     for (std::size_t k = 0; k < picture.panels.size(); ++k) {
         const MapPanel& panel = picture.panels[k];
         const double x = left + width * static_cast<double>(k % columns);
-        const double y = top - height * static_cast<double>(k / columns);
+        const std::size_t row = k / columns;
+        const double y = top - height * static_cast<double>(row);
         const bool lowest = k + columns >= picture.panels.size();
         script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset "
                               "bmargin at screen {}\n",

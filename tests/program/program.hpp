@@ -430,7 +430,8 @@ struct Burst {
     double value_g(int i) const
     {
         const double pi = 3.14159265358979323846;
-        const double t = dt_s * (i - (samples - 1) / 2);
+        const int middle = (samples - 1) / 2;
+        const double t = dt_s * (i - middle);
         return amplitude_g * std::exp(-(t / width_s) * (t / width_s)) * std::sin(2 * pi * frequency_hz * t);
     }
     std::string at2() const

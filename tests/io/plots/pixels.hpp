@@ -112,7 +112,8 @@ inline Extent extent(const Pixels& pixels, std::uint32_t colour)
         if (!similar(pixels.colour[k], colour, 3))
             continue;
         const auto x = static_cast<double>(k % pixels.width);
-        const auto y = static_cast<double>(k / pixels.width);
+        const auto row = k / pixels.width;
+        const auto y = static_cast<double>(row);
         e.left = std::min(e.left, x);
         e.right = std::max(e.right, x + 1);
         e.top = std::min(e.top, y);

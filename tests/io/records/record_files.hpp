@@ -236,7 +236,10 @@ inline std::string bhrc_component(const std::string& component, int n, int shift
         for (const char c : numbers) {
             if (c == '\n')
                 text += line.substr(0, 70) + '\n';
-            line = c == '\n' ? "" : line + c;
+            if (c == '\n')
+                line.clear();
+            else
+                line += c;
         }
         return text;
     };
