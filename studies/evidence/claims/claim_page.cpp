@@ -259,7 +259,9 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
 
     std::string page = fmt::format(
         "# The paper's claims, put to the test\n\n"
-        "Papaloizou and Komodromos draw conclusions on multi-drum columns and colonnades from single runs of a planar "
+        "L. Papaloizou and P. Komodromos, \"Numerical analysis of ancient multi-drum columns with epistyles under "
+        "dynamic "
+        "loadings\", draw conclusions on multi-drum columns and colonnades from single runs of a planar "
         "discrete-element model. Here each of these conclusions is judged on ensembles: every point is at least {} "
         "realizations that differ by what nobody knows of a real structure (friction, contact stiffness, damping, "
         "sizes, placement, level, phase), and what the paper leaves open is varied. Everything on this page is written "
