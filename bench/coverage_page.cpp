@@ -63,7 +63,7 @@ void curve_coverage(std::uint64_t repeats, std::size_t resamples)
         const auto at = [](double im) { return CurveTarget::sum((ParameterVector(2) << 1, std::log(im)).finished()); };
         const std::vector<CurveTarget> targets = {CurveTarget::log_median(), CurveTarget::slope(), at(low), at(high)};
         const double values[] = {0, 1 / beta, -1, 1.5};
-        const char* const names[] = {"median", "dispersion", "P where it is .16", "P where it is .93"};
+        const char* const names[] = {"median", "dispersion", "P where it is 0.16", "P where it is 0.93"};
         std::array<std::array<std::uint64_t, 7>, 4> covered{};
         std::uint64_t counted = 0, drawn_again = 0;
         for (std::uint64_t r = 0; r < repeats; ++r) {
@@ -207,13 +207,14 @@ void few_coverage(std::uint64_t repeats)
 
 void share_coverage(std::uint64_t repeats)
 {
-    fmt::print("### Shares of the dispersion\n\nStandard deviations .5 between records, .4 imperfections, .3 contact "
-               "parameters, .3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 twins of each. "
-               "Percent of {} repeats in which the interval of the share at 95 % holds the truth, and the mean "
-               "estimate beside the truth (of outcomes: that of 200,000 records). Sum: the largest distance of the sum "
-               "of the four estimates from 1.\n\n| response | records | record | imperfection | contact | chaos | sum "
-               "|\n|---|---|---|---|---|---|---|\n",
-               repeats);
+    fmt::print(
+        "### Shares of the dispersion\n\nStandard deviations 0.5 between records, 0.4 imperfections, 0.3 contact "
+        "parameters, 0.3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 twins of each. "
+        "Percent of {} repeats in which the interval of the share at 95 % holds the truth, and the mean "
+        "estimate beside the truth (of outcomes: that of 200,000 records). Sum: the largest distance of the sum "
+        "of the four estimates from 1.\n\n| response | records | record | imperfection | contact | chaos | sum "
+        "|\n|---|---|---|---|---|---|---|\n",
+        repeats);
     for (const bool binary : {false, true}) {
         NestedTruth truth{.sd = {0.5, 0.4, 0.3, 0.3}, .binary = binary};
         std::array<double, 4> wanted{};

@@ -1,8 +1,9 @@
 /// Box2D 2.4: planar, single precision, sequential impulses.
 ///
-/// Its tolerances are lengths fixed at its build, meant for blocks of .1 to 10 units: a slop of .005 and a skin of .01
-/// around every polygon. So the specimen is built in larger units, gravity with it, which leaves times as they are; and
-/// polygons are lower than their blocks by what faces at rest keep apart, so that these rest where they should.
+/// Its tolerances are lengths fixed at its build, meant for blocks of 0.1 to 10 units: a slop of 0.005 and a skin of
+/// 0.01 around every polygon. So the specimen is built in larger units, gravity with it, which leaves times as they
+/// are; and polygons are lower than their blocks by what faces at rest keep apart, so that these rest where they
+/// should.
 
 #include "bench/peers/engine.hpp"
 

@@ -1,7 +1,7 @@
 /// Bullet: spatial, in its build with double precision, sequential impulses.
 ///
-/// Its tolerances are meant for bodies of .2 to 5 units, so the specimen is built in units of a decimetre, gravity with
-/// it; times are as they are.
+/// Its tolerances are meant for bodies of 0.2 to 5 units, so the specimen is built in units of a decimetre, gravity
+/// with it; times are as they are.
 
 #include "bench/peers/engine.hpp"
 

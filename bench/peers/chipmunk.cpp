@@ -1,6 +1,6 @@
 /// Chipmunk 7: planar, double precision, sequential impulses.
 ///
-/// Its customary unit is a pixel (a collision slop of .1 by default), so a millimetre is one here; times are as they
+/// Its customary unit is a pixel (a collision slop of 0.1 by default), so a millimetre is one here; times are as they
 /// are.
 
 #include "bench/peers/engine.hpp"
@@ -20,7 +20,7 @@ struct Setting {
     double slop;
 };
 constexpr std::array settings{Setting{"10 iterations", 10, 0.1}, Setting{"50 iterations", 50, 0.1},
-                              Setting{"50 iterations, slop .01", 50, 0.01}};
+                              Setting{"50 iterations, slop 0.01", 50, 0.01}};
 constexpr double units_per_metre = 1000;
 
 class ChipmunkWorld final : public World {

@@ -22,7 +22,7 @@ struct Setting {
 };
 constexpr std::array settings{Setting{"contacts as by default", 0.02, "0.9 0.95 0.001"},
                               Setting{"stiff contacts", 0, "0.9 0.95 0.001"},
-                              Setting{"stiff contacts, impedance .999", 0, "0.999 0.9999 0.0001"}};
+                              Setting{"stiff contacts, impedance 0.999", 0, "0.999 0.9999 0.0001"}};
 
 /// x to the right and z up are the plane; the hinge's axis is -y, so that its angle is counter-clockwise.
 std::string model_text(const Scene& scene, const Setting& setting, double step_s)

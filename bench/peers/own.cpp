@@ -1,4 +1,4 @@
-/// Stylobate among the others: the library as a study uses it, its step at .9 of each realization's safe bound.
+/// Stylobate among the others: the library as a study uses it, its step at 0.9 of each realization's safe bound.
 
 #include "bench/peers/contender.hpp"
 #include "bench/peers/overturning.hpp"

@@ -108,7 +108,7 @@ void bound_of_the_structure(Report& report, std::uint64_t realizations)
     auto out = std::back_inserter(report.text);
     fmt::format_to(
         out, "\n### The step bound of the structure\n\nThe same specimen with K_N = 1e8 N/m2 and its dashpots at "
-             "the ends, at .9 of both bounds.\n\n| damping ratio | amplitude [m/s2] | block-steps per s: blocks | "
+             "the ends, at 0.9 of both bounds.\n\n| damping ratio | amplitude [m/s2] | block-steps per s: blocks | "
              "structure | fewer steps | collapsed: blocks | structure | difference | energy residual, worst: "
              "blocks | structure |\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (const double xi : {0.05, 0.1, 0.3, 0.5}) {

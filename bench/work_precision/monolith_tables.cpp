@@ -106,7 +106,7 @@ const Way one_run{"one run", {0}, [](const std::vector<double>& v) { return v[0]
 const std::vector<Way> ways{
     one_run,
     {"K, 4 K: exponent 1/2", {0, 2}, [](const auto& v) { return verification::richardson(v, 4, {0.5}); }},
-    {"K, 4 K: exponent .4", {0, 2}, [](const auto& v) { return verification::richardson(v, 4, {0.4}); }},
+    {"K, 4 K: exponent 0.4", {0, 2}, [](const auto& v) { return verification::richardson(v, 4, {0.4}); }},
     {"K, 4 K, 16 K: exponents 1/2 and 1",
      {0, 2, 4},
      [](const auto& v) {
@@ -180,7 +180,7 @@ verification::Series series(const std::string& title, const std::vector<Point>& 
 void shear_and_step(Report& report)
 {
     auto out = std::back_inserter(report.text);
-    fmt::format_to(out, "\n### Tangential stiffness\n\nBlock-steps per simulated second at K_N = 1e8 N/m2, .9 of the "
+    fmt::format_to(out, "\n### Tangential stiffness\n\nBlock-steps per simulated second at K_N = 1e8 N/m2, 0.9 of the "
                         "bound; the specimen has six free drums of 48 x 29 mm.\n\n"
                         "| form, dashpot | structure | K_T = K_N B | 1/2 | 1/3 | 1/5 | 1/10 |\n"
                         "|---|---|---|---|---|---|---|\n");
@@ -204,7 +204,7 @@ void limits_of_stiffness(Report& report)
     auto out = std::back_inserter(report.text);
     fmt::format_to(
         out,
-        "\n### What an error costs\n\nThe step is .9 of the bound. *K* is the softest stiffness, in steps of 2, from "
+        "\n### What an error costs\n\nThe step is 0.9 of the bound. *K* is the softest stiffness, in steps of 2, from "
         "which on every stiffer one is within the error too; the cost is that of all runs of the way together, the "
         "gain that over one run of the same form with K_T = K_N B. *Exponent* of the error over K_N from 1.3e8 to "
         "1.3e11 N/m2, one run. 1e6 N/m2 is the softest tried. Ways that gain at neither error are left out.\n\n");
@@ -212,8 +212,9 @@ void limits_of_stiffness(Report& report)
     const char* titles[] = {"Quarter period", "Overturning amplitude"};
     double Errors::*answers[] = {&Errors::quarter, &Errors::overturning};
     for (std::string& table : tables)
-        table = "| form, dashpot | K_T / (K_N B) | exponent | way | 1 %: K [N/m2] | block-steps per s | gain | .2 %: K "
-                "[N/m2] | block-steps per s | gain |\n|---|---|---|---|---|---|---|---|---|---|\n";
+        table =
+            "| form, dashpot | K_T / (K_N B) | exponent | way | 1 %: K [N/m2] | block-steps per s | gain | 0.2 %: K "
+            "[N/m2] | block-steps per s | gain |\n|---|---|---|---|---|---|---|---|---|---|\n";
     int colour = 0;
     for (const Form& form : forms) {
         double single[2][2];
@@ -254,7 +255,7 @@ void limits_of_stiffness(Report& report)
 
 void monolith_tables(Report& report)
 {
-    report.text += fmt::format("The monolith is one block of 48 x 174 mm, damping ratio .1. Oracles: quarter period "
+    report.text += fmt::format("The monolith is one block of 48 x 174 mm, damping ratio 0.1. Oracles: quarter period "
                                "{:.6f} s from half its slenderness, overturning by half a sine of w = 4 p at "
                                "{:.6f} g tan alpha (`studies/evidence/verification/rigid_block.hpp`).\n\n",
                                exact_quarter_period_s(), exact_overturning_eta());

@@ -4,9 +4,9 @@
 /// Surfaces use Jeffreys' interval. Exact coverage at level 0.95, by summing the binomial probabilities:
 ///
 ///                        n = 16          n = 64          n = 256
-///   average over p       J .9516 W .9533  J .9500 W .9515  J .9499 W .9506
-///   worst p              J .8962 W .8362  J .8822 W .8377  J .8777 W .8381
-///   average width        J .3556 W .3587  J .1882 W .1892  J .0957 W .0958
+///   average over p       J 0.9516 W 0.9533  J 0.9500 W 0.9515  J 0.9499 W 0.9506
+///   worst p              J 0.8962 W 0.8362  J 0.8822 W 0.8377  J 0.8777 W 0.8381
+///   average width        J 0.3556 W 0.3587  J 0.1882 W 0.1892  J 0.0957 W 0.0958
 ///
 /// Both are right on average. Wilson's fails most at p = 0.18 / n, and most cells of a collapse surface have a
 /// probability near 0 or 1; Jeffreys' errs less there, and is not wider.

@@ -68,9 +68,9 @@ StepBound step_bound(const Realization& realization);
 
 /// The same for a realization that is followed until what has fallen lies. A block that stands alone has no watched
 /// pair, yet comes down on its bed with the whole of a long face at once: K_N times its height. Let w be the face's own
-/// circular frequency. Of 288 such falls (1 m wide, 2.5 to 9 m high, damping ratios of .01 to .5) 27 broke their energy
-/// bound with steps of .9 / w, one of 1440 did with .45 / w; of 96 faster ones one did with .3 / w and none with .15 /
-/// w, whose largest residual was .026. So the bound is 1 / (6 w).
+/// circular frequency. Of 288 such falls (1 m wide, 2.5 to 9 m high, damping ratios of 0.01 to 0.5) 27 broke their
+/// energy bound with steps of 0.9 / w, one of 1440 did with 0.45 / w; of 96 faster ones one did with 0.3 / w and none
+/// with 0.15 / w, whose largest residual was 0.026. So the bound is 1 / (6 w).
 StepBound step_bound_to_rest(const Realization& realization);
 
 /// A longer step that is safe too: of the whole structure instead of its blocks one by one. The largest one for which

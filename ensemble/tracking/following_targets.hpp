@@ -41,8 +41,8 @@ struct FollowScales {
                             ///< this x the local speed
 };
 
-/// @param size_m of a drum (its width); drums of 48 mm: pull 60 rad/s, windows of .2 s, lag 20 ms; of 1.5 m: 24 rad/s,
-///        1.1 s, .11 s. (The pull grows more slowly than 1 / time as drums shrink: their noise is larger in
+/// @param size_m of a drum (its width); drums of 48 mm: pull 60 rad/s, windows of 0.2 s, lag 20 ms; of 1.5 m: 24 rad/s,
+///        1.1 s, 0.11 s. (The pull grows more slowly than 1 / time as drums shrink: their noise is larger in
 ///        comparison.)
 FollowScales follow_scales(double size_m, double gravity_m_s2);
 

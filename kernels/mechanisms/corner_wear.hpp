@@ -3,7 +3,7 @@
 ///
 ///   loss = chip + k P,  P: path of the relative rotation so far
 ///
-/// at both ends, as `corner_loss` takes it from the face, up to .45 of the narrower block's width each.
+/// at both ends, as `corner_loss` takes it from the face, up to 0.45 of the narrower block's width each.
 ///
 /// Parameter: k [m/rad].  Neutral: 0.  Acts in the overlap of a bed. The bed's energy over what is lost goes with it.
 /// Signature: uplift begins earlier in each run than in the one before.

@@ -36,8 +36,8 @@ struct FitKey {
     double to = 0;
     bool logarithmic = true; ///< equal steps for equal ratios; needs from > 0
     /// What following itself adds to the error (the pull, the smoothing, starts from noisy states), as a part of the
-    /// value, 1 sigma; of friction .01. Measured on 20 simulated campaigns of known parameters: friction came out .6 %
-    /// too low in the median, K_N 5 %, in one of ten 20 %.
+    /// value, 1 sigma; of friction 0.01. Measured on 20 simulated campaigns of known parameters: friction came out 0.6
+    /// % too low in the median, K_N 5 %, in one of ten 20 %.
     double method_deviation = 0.1;
     bool asked = false; ///< by the user: the friction is then searched for too, as an effective value
 };

@@ -91,7 +91,7 @@ struct Falls {
         const double s = chaos ? std::fmod(w + 1000 * u[2], 1.0) : w;
         return s < probability(u) ? 1 : 0;
     }
-    // with q = u_1 r, r = 0.3 + 0.7 u_2: E u = 1/2, Var u = 1/12, E r = .65, Var r = .49 / 12
+    // with q = u_1 r, r = 0.3 + 0.7 u_2: E u = 1/2, Var u = 1/12, E r = 0.65, Var r = 0.49 / 12
     static constexpr double variance_u = 1.0 / 12, variance_r = 0.49 / 12, mean_r = 0.65;
     static double variance()
     {

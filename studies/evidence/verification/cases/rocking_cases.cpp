@@ -127,7 +127,7 @@ Cases rocking_cases()
         {"RockingRestitution", subject,
          "Ratio of the angular velocities after and before the first impact, from the energies of the rigid block at "
          "the peaks on both sides.",
-         "another program's e for the same contact law (dashpot at the centroid): .995, .984, .967. **Not Housner's "
+         "another program's e for the same contact law (dashpot at the centroid): 0.995, 0.984, 0.967. **Not Housner's "
          "e**, which this contact law does not have.",
          "another program's figures hold to 0.002, and the peaks are those of a compliant block.", loss_at_impact},
         {"SpecimenOnset", subject,
