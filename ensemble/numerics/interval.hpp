@@ -3,7 +3,7 @@
 ///
 /// Surfaces use Jeffreys' interval. Exact coverage at level 0.95, by summing the binomial probabilities:
 ///
-///                        n = 16          n = 64          n = 256
+///                        n = 16              n = 64              n = 256
 ///   average over p       J 0.9516 W 0.9533  J 0.9500 W 0.9515  J 0.9499 W 0.9506
 ///   worst p              J 0.8962 W 0.8362  J 0.8822 W 0.8377  J 0.8777 W 0.8381
 ///   average width        J 0.3556 W 0.3587  J 0.1882 W 0.1892  J 0.0957 W 0.0958
