@@ -1,1 +1,0 @@
-/// Nothing: a library of this one file keeps the precompiled headers of the tests.
