@@ -21,7 +21,7 @@ namespace {
 void on_devices(benchmark::State& state, int slots)
 {
     const Study study = small_surface(20'000);
-    const Sampler sampler(study, nullptr);
+    const Experiment experiment(study);
     RunOptions options{best_isa(), static_cast<int>(std::thread::hardware_concurrency())};
     options.devices = open_cuda_devices();
     options.slots = slots;
@@ -32,7 +32,7 @@ void on_devices(benchmark::State& state, int slots)
     Progress progress;
     double seconds = 0, realizations = 0, block_steps = 0;
     for (auto _ : state) {
-        progress = run_ensemble(study, sampler, nullptr, options, plan, observer);
+        progress = run_ensemble(experiment, options, plan, observer);
         seconds += progress.seconds;
         realizations += static_cast<double>(progress.done);
         block_steps += static_cast<double>(progress.block_steps);

@@ -15,7 +15,7 @@ namespace {
 void ensemble(benchmark::State& state, Isa isa, int threads)
 {
     const Study study = small_surface(isa == Isa::scalar ? 4 : 32);
-    const Sampler sampler(study, nullptr);
+    const Experiment experiment(study);
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [](const Realization&, const Outcome&) {};
@@ -25,7 +25,7 @@ void ensemble(benchmark::State& state, Isa isa, int threads)
     double seconds = 0;
     std::uint64_t realizations = 0, block_steps = 0;
     for (auto _ : state) {
-        progress = run_ensemble(study, sampler, nullptr, {isa, threads}, plan, observer);
+        progress = run_ensemble(experiment, {isa, threads}, plan, observer);
         seconds += progress.seconds;
         realizations += progress.done;
         block_steps += progress.block_steps;

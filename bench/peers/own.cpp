@@ -66,7 +66,7 @@ Study study_of(ContactForm form, double K_n, bool shaken)
 Columns run_own(ContactForm form, double K_n, bool shaken, double seconds)
 {
     const Study study = study_of(form, K_n, shaken);
-    const Sampler sampler(study, nullptr);
+    const Experiment experiment(study);
     const RunOptions options{best_isa(), 1};
     Columns columns;
     double spent = 0;
@@ -85,7 +85,7 @@ Columns run_own(ContactForm form, double K_n, bool shaken, double seconds)
         };
         Observer quiet;
         const double begin = processor_seconds();
-        run_ensemble(study, sampler, nullptr, options, plan, quiet);
+        run_ensemble(experiment, options, plan, quiet);
         const double took = processor_seconds() - begin;
         spent += took;
         columns.realizations_per_second = std::max(columns.realizations_per_second, simulated / column_seconds / took);
@@ -116,7 +116,7 @@ std::vector<Contender> own_contenders()
         for (int k = -12; k < 40; ++k)
             c.dials.push_back(c.customary * std::pow(2, 0.5 * k));
         const ContactForm f = form;
-        c.step_s = [f](double K_n) { return Sampler(study_of(f, K_n, true), nullptr).realization(0).step_s; };
+        c.step_s = [f](double K_n) { return Experiment(study_of(f, K_n, true)).sampler().realization(0).step_s; };
         c.quarter_period_s = [f](double K_n) { return upright_s(f, K_n); };
         c.overturning_eta = [f](double K_n) { return eta_of(f, K_n); };
         c.columns = [f](double K_n, bool shaken, double seconds) { return run_own(f, K_n, shaken, seconds); };

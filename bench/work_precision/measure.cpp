@@ -139,7 +139,7 @@ Ensemble collapses(const Setting& setting, double pga_m_s2, std::uint64_t realiz
         steps += static_cast<double>(o.steps);
     };
     Observer quiet;
-    run_ensemble(study, Sampler(study, nullptr), nullptr, {best_isa(), 1}, plan, quiet);
+    run_ensemble(Experiment(study), {best_isa(), 1}, plan, quiet);
     all.cost = 6 * steps / simulated;
     return all;
 }

@@ -28,11 +28,10 @@ constexpr std::uint64_t most_slots = 1 << 24;
 /// What the workers share.
 class Run {
 public:
-    Run(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
-        const RunPlan& plan, Observer& observer)
-        : study_(study), sampler_(sampler), record_(record), kernels_(kernels(options.isa)), plan_(plan),
-          observer_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
-          pattern_(realize(plan.index(0)))
+    Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
+        : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
+          kernels_(kernels(options.isa)), plan_(plan), observer_(observer), order_(plan.total),
+          done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done), pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
         progress_.done = before_ = before.end;
@@ -217,10 +216,9 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
     progress.share_upper = interval.upper;
 }
 
-Progress run_ensemble(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
-                      const RunPlan& plan, Observer& observer)
+Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
 {
-    Run run(study, sampler, record, options, plan, observer);
+    Run run(experiment, options, plan, observer);
     // TBB would otherwise not start more threads than there are cores
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(options.threads));

@@ -2,11 +2,11 @@
 /// Many realizations: every core steps bundles, and a lane whose realization has ended takes the next one.
 
 #include "ensemble/engine/device.hpp"
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "ensemble/sampling/sampler.hpp"
 #include "kernels/isa.hpp"
 
 #include <cstdint>
@@ -34,6 +34,9 @@ struct RunPlan {
     /// Those that have been done before, by their places: number p of them (or index p) has place
     /// `RunOrder(total).place(p)`. `mark_done` fills it.
     DoneSet done;
+    /// The study that the realizations are stepped as, which must be the experiment's but for what a step needs
+    /// (`TwinRange`); null: the experiment's own.
+    const Study* as = nullptr;
     /// A realization by its index; called from several threads at once. Empty: the sampler's.
     std::function<Realization(std::uint64_t index)> realize;
     /// Takes the results. Called from one thread at a time, in any order of the indices.
@@ -56,7 +59,7 @@ struct RunPlan {
 /// nothing.
 void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t collapsed);
 
-/// Runs the realizations of a study.
+/// Runs the realizations of an experiment.
 ///
 /// They are begun in the order of `RunOrder`, so that what has been done at any time is spread over all of them; the
 /// progress' share is that of `DoneSet::sample`.
@@ -65,10 +68,8 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set
 /// and the number of threads, and on devices too (`docs/gpu.md` says what that rests on).
 ///
-/// @param record the base motion of a study of kind "record", else null
 /// @return the counts at the end; `done < total` if the observer asked to stop
 /// @throws what `Sampler::realization` or the sink throws, after all threads have stopped
-Progress run_ensemble(const Study& study, const Sampler& sampler, const Motion* record, const RunOptions& options,
-                      const RunPlan& plan, Observer& observer);
+Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer);
 
 } // namespace stylobate

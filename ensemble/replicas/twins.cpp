@@ -195,9 +195,10 @@ std::uint64_t followed_originals(const Study& study)
     return moves ? study.cells() * std::min(study.twins->followed, study.realizations) : 0;
 }
 
-std::vector<FollowedTwin> follow_twins(const Study& study, const Sampler& sampler, const Motion* record,
-                                       const RunOptions& options, Observer& observer)
+std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOptions& options, Observer& observer)
 {
+    const Study& study = experiment.study();
+    const Sampler& sampler = experiment.sampler();
     const std::uint64_t all = followed_originals(study), of_cell = all / study.cells();
     std::vector<std::vector<FollowedTwin>> pairs(all);
     if (all == 0)
@@ -223,7 +224,7 @@ std::vector<FollowedTwin> follow_twins(const Study& study, const Sampler& sample
     };
 
     const auto work = [&](int) {
-        LaneSet lanes(study, record, kernels(options.isa), pattern);
+        LaneSet lanes(study, experiment.record(), kernels(options.isa), pattern);
         std::vector<std::unique_ptr<Group>> groups(static_cast<std::size_t>(lanes.lanes()));
         std::vector<std::uint64_t> task(groups.size());
         const auto refill = [&](int lane) {

@@ -14,10 +14,10 @@
 /// passes; so the exponent belongs to a size.
 
 #include "ensemble/engine/executor.hpp"
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/sampling/sampler.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -44,11 +44,9 @@ inline constexpr int least_looks = 8;
 /// and the kinds; pairs whose original is invalid are left out. The same bits for every instruction set and number of
 /// threads.
 ///
-/// @param record as for `run_ensemble`
 /// @param observer is told of originals that are done
 /// @return fewer originals' if the observer asked to stop
-std::vector<FollowedTwin> follow_twins(const Study& study, const Sampler& sampler, const Motion* record,
-                                       const RunOptions& options, Observer& observer);
+std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOptions& options, Observer& observer);
 
 /// Originals that are followed.
 std::uint64_t followed_originals(const Study& study);

@@ -68,11 +68,31 @@ bool replaces(const Perturbation& perturbation)
            perturbation.distribution == DistributionKind::log_uniform;
 }
 
+/// The originals of a study with twins, in another contact form.
+Study in_form(Study study, ContactForm form)
+{
+    study.twins.reset();
+    study.contact.form = form;
+    return study;
+}
+
 } // namespace
+
+struct Sampler::OtherForm {
+    Study study; // stays where it is: the sampler refers to it
+    Sampler sampler;
+
+    OtherForm(const Study& of, ContactForm form, const Motion* record, const Motion* vertical)
+        : study(in_form(of, form)), sampler(study, record, vertical)
+    {
+    }
+    OtherForm(const OtherForm&) = delete;
+    OtherForm& operator=(const OtherForm&) = delete;
+};
 
 Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertical,
                  std::shared_ptr<const MotionSet> motions)
-    : study_(study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
+    : study_(&study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
       shaking_(study, record, vertical, std::move(motions))
 {
     if (study.fragility && study.fragility->twins > 1) {
@@ -86,7 +106,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     if (watches)
         watch_pairs();
     for (int q = 0; q < quantity_count; ++q)
-        nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study_, layout_, static_cast<Quantity>(q));
+        nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study, layout_, static_cast<Quantity>(q));
     for (const auto& [quantity, value] : {std::pair{Quantity::friction, study.contact.friction},
                                           {Quantity::normal_stiffness, study.contact.normal_stiffness_n_m2},
                                           {Quantity::tangential_stiffness, study.contact.tangential_stiffness_n_m}})
@@ -120,7 +140,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
         ++draws[place.stream];
     std::stable_partition(places.begin(), places.end(),
                           [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
-    points_ = PointSet(study_, places);
+    points_ = PointSet(study, places);
 
     if (!study.twins)
         return;
@@ -129,21 +149,18 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
             forms_.push_back(nullptr);
             continue;
         }
-        Study other = study;
-        other.twins.reset();
-        other.contact.form = kind.form;
-        forms_.push_back(std::make_shared<const Sampler>(other, record, vertical));
+        forms_.push_back(std::make_shared<const OtherForm>(study, kind.form, record, vertical));
     }
 }
 
 Realization Sampler::realization(std::uint64_t index) const
 {
-    assert(index < study_.total() && "the index is one of the study's");
-    const Twin* twin = study_.twin(index);
+    assert(index < study_->total() && "the index is one of the study's");
+    const Twin* twin = study_->twin(index);
     if (twin == nullptr)
         return build(index, points_);
-    const Sampler* form = forms_[static_cast<std::size_t>(twin - study_.twins->kinds.data())].get();
-    Realization realization = (form ? *form : *this).realization(study_.original(index));
+    const OtherForm* form = forms_[static_cast<std::size_t>(twin - study_->twins->kinds.data())].get();
+    Realization realization = (form ? form->sampler : *this).realization(study_->original(index));
     realization.index = index;
     if (twin->by == TwinBy::move)
         move(*twin, realization);
@@ -155,7 +172,7 @@ Realization Sampler::realization(std::uint64_t index) const
 /// Last of all, so that nothing follows from it: contacts, dashpots and step stay as they are.
 void Sampler::move(const Twin& twin, Realization& realization) const
 {
-    const int moved = study_.twins->block;
+    const int moved = study_->twins->block;
     realization.blocks[static_cast<std::size_t>(moved)].x_m += twin.size;
     for (int j = 0; j < realization.beds(); ++j) {
         const Joint& bed = realization.joints[static_cast<std::size_t>(j)];
@@ -166,7 +183,7 @@ void Sampler::move(const Twin& twin, Realization& realization) const
         if (std::abs(above.x_m - below.x_m) >= above.half_width_m + below.half_width_m)
             throw InputError(fmt::format("twins.moves_m: moved by {:g} m, {} of realization {} does not touch {} any "
                                          "more. Move it less.",
-                                         twin.size, name(moved), study_.original(realization.index),
+                                         twin.size, name(moved), study_->original(realization.index),
                                          name(bed.lower == moved ? bed.upper : bed.lower)));
     }
 }
@@ -176,9 +193,9 @@ Realization Sampler::build(std::uint64_t index, const PointSet& points) const
 {
     Realization realization;
     realization.index = index;
-    realization.gravity_m_s2 = study_.structure.gravity_m_s2;
-    realization.initial_tilt_rad = study_.initial.tilt_rad;
-    realization.initial_tilt_block = study_.initial.tilt_from_block;
+    realization.gravity_m_s2 = study_->structure.gravity_m_s2;
+    realization.initial_tilt_rad = study_->initial.tilt_rad;
+    realization.initial_tilt_block = study_->initial.tilt_from_block;
     Values values = draw(points, index, realization.inputs);
     const MechanismSampler::Values mechanisms = mechanisms_.draw(points, index, realization.inputs);
     for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
@@ -192,7 +209,7 @@ Realization Sampler::build(std::uint64_t index, const PointSet& points) const
     join(values, realization);
     watch(values, realization);
     mechanisms_.apply(mechanisms, realization);
-    shaking_.apply(study_,
+    shaking_.apply(*study_,
                    {values[Quantity::tilt][0], values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
                     values[Quantity::pulse_gamma][0]},
                    realization);
@@ -234,7 +251,7 @@ Block Sampler::block(const Values& values, std::size_t i, double height_m) const
 {
     const PlacedBlock& placed = layout_.blocks[i];
     const double width = values[Quantity::drum_width][i];
-    const double density = placed.mass_kg / (placed.width_m * placed.height_m * study_.structure.depth_m);
+    const double density = placed.mass_kg / (placed.width_m * placed.height_m * study_->structure.depth_m);
     Block block;
     block.half_width_m = width / 2;
     block.half_height_m = height_m / 2;
@@ -254,7 +271,7 @@ Block Sampler::block(const Values& values, std::size_t i, double height_m) const
 void Sampler::stack(const Values& values, Realization& realization) const
 {
     const std::vector<PlacedBlock>& blocks = layout_.blocks;
-    const bool dressed = study_.structure.kind == StructureKind::colonnade &&
+    const bool dressed = study_->structure.kind == StructureKind::colonnade &&
                          std::any_of(drawn_.begin(), drawn_.end(),
                                      [](const Drawn& drawn) { return drawn.quantity == Quantity::drum_height; });
     double top = 0;
@@ -311,9 +328,9 @@ Block Sampler::ground() const
         right = std::max(right, block.right());
         tallest = std::max(tallest, block.height_m);
     }
-    for (const ColumnSpec& column : study_.structure.columns)
+    for (const ColumnSpec& column : study_->structure.columns)
         drums = std::max(drums, column.drums.size());
-    const std::size_t courses = drums + (study_.structure.epistyles.empty() ? 0 : 1);
+    const std::size_t courses = drums + (study_->structure.epistyles.empty() ? 0 : 1);
 
     // so wide that what has fallen and slid still lies on it
     Block ground;
@@ -341,10 +358,10 @@ Sampler::Ratios Sampler::ratios(const Values& values) const
 {
     // The ratio that is drawn is the normal one. A value that takes the nominal one's place is that of both; a change
     // of the nominal one changes both in proportion.
-    const ContactSpec& contact = study_.contact;
+    const ContactSpec& contact = study_->contact;
     const double normal = values[Quantity::damping_ratio][0];
     double tangential = contact.tangential_damping_ratio;
-    for (const Perturbation& perturbation : study_.perturbations)
+    for (const Perturbation& perturbation : study_->perturbations)
         if (perturbation.quantity == Quantity::damping_ratio)
             tangential = replaces(perturbation) || contact.normal_damping_ratio == 0
                              ? normal
@@ -356,7 +373,7 @@ Sampler::Ratios Sampler::ratios(const Values& values) const
 Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int lower, int upper, std::size_t value,
                      double chord_m) const
 {
-    const ContactSpec& contact = study_.contact;
+    const ContactSpec& contact = study_->contact;
     const Block& below = blocks[static_cast<std::size_t>(lower)];
     const Block& above = blocks[static_cast<std::size_t>(upper)];
     const double mass = below.fixed   ? above.mass_kg
@@ -427,18 +444,19 @@ void Sampler::watch(const Values& values, Realization& realization) const
 
 double Sampler::step(const Realization& realization) const
 {
-    StepBound bound = study_.outcome.follow == Follow::rest ? step_bound_to_rest(realization) : step_bound(realization);
-    if (study_.run.step_bound == StepBasis::structure)
+    StepBound bound =
+        study_->outcome.follow == Follow::rest ? step_bound_to_rest(realization) : step_bound(realization);
+    if (study_->run.step_bound == StepBasis::structure)
         bound = structure_step_bound(realization, bound);
-    if (!study_.run.step_s)
-        return study_.run.step_fraction * bound.dt_s;
-    if (*study_.run.step_s > bound.dt_s && !study_.run.allow_step_above_bound)
+    if (!study_->run.step_s)
+        return study_->run.step_fraction * bound.dt_s;
+    if (*study_->run.step_s > bound.dt_s && !study_->run.allow_step_above_bound)
         throw InputError(
             fmt::format("run.step_s = {:g} is above {:.6g} s, the safe bound of realization {} (set by the "
                         "{}); allowed: (0, {:.6g}].\n  Lower it, or leave it out: the step is then chosen "
                         "for each realization. If it is meant, set run.allow_step_above_bound = true.",
-                        *study_.run.step_s, bound.dt_s, realization.index, to_string(bound.governed_by), bound.dt_s));
-    return *study_.run.step_s;
+                        *study_->run.step_s, bound.dt_s, realization.index, to_string(bound.governed_by), bound.dt_s));
+    return *study_->run.step_s;
 }
 
 } // namespace stylobate

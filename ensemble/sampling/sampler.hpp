@@ -25,6 +25,8 @@ namespace stylobate {
 
 /// Draws the realizations of a study. Each is a pure function of (study, index): asking for them in another order,
 /// twice, or from several threads at once changes nothing.
+///
+/// It refers to its study, which must outlive it, stay where it is and not change (`Experiment` keeps both).
 class Sampler {
 public:
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
@@ -34,6 +36,7 @@ public:
     /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
     Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr,
             std::shared_ptr<const MotionSet> motions = nullptr);
+    Sampler(const Study&&, const Motion*, const Motion* = nullptr, std::shared_ptr<const MotionSet> = nullptr) = delete;
 
     /// @param index from 0 to study.total() - 1; in a surface it says the cell too. A twin has all that its original
     ///        has but what its kind says: moved, its step stays; in another form, it has that form's own step
@@ -77,6 +80,7 @@ private:
         double normal;
         double tangential;
     };
+    struct OtherForm; ///< the study in another contact form, with its sampler
 
     void watch_pairs();
     Realization build(std::uint64_t index, const PointSet& points) const;
@@ -94,7 +98,7 @@ private:
     double step(const Realization& realization) const;
     std::string name(int block) const;
 
-    Study study_;
+    const Study* study_;
     Layout layout_;
     MechanismSampler mechanisms_;
     bool has_ground_ = false;
@@ -104,7 +108,7 @@ private:
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
     PointSet points_;
-    std::vector<std::shared_ptr<const Sampler>> forms_; ///< (kinds of twins) of another contact form, else null
+    std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of twins) of another contact form, else null
     std::optional<Distribution> twin_; ///< of a fragility study with twins: how far a drum is from its twin's place
 };
 

@@ -115,7 +115,7 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.frequency_hz.clear();
     one.pga_m_s2.clear();
     one.code_version = code_version();
-    const FollowedRealization f = follow(loaded, index, options.isa());
+    const FollowedRealization f = follow(loaded.experiment(), index, options.isa());
     const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
     if (!trajectory.empty()) // made only now: an interrupted replay leaves no file
         write_replay(trajectory, one, row, f.trajectory);

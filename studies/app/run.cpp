@@ -106,7 +106,7 @@ Progress run_single(const LoadedStudy& loaded, Isa isa, std::uint64_t kept, Resu
     for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
         std::optional<State> state = writer.state(index);
         if (!state) {
-            const FollowedRealization f = follow(loaded, index, isa);
+            const FollowedRealization f = follow(loaded.experiment(), index, isa);
             const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
             if (index < kept)
                 writer.add(f.trajectory); // before its row: where the row is, it is
@@ -142,7 +142,7 @@ Progress run_many(const LoadedStudy& loaded, const RunOptions& options, ResultWr
         if (sensitivity)
             sensitivity->add(row);
     };
-    return run_ensemble(loaded.study(), loaded.sampler(), loaded.record(), options, plan, observer);
+    return run_ensemble(loaded.experiment(), options, plan, observer);
 }
 
 /// @param fair whether all cells have equally many realizations; else the shares among all mean nothing

@@ -128,7 +128,8 @@ public:
                 study.outcome.follow = Follow::collapse;
                 // the same draws for every candidate: what differs is the parameters' doing
                 study.seed = candidate.seed + share.size();
-                const Sampler sampler(study, shaking.motion.get());
+                const Experiment experiment(study,
+                                            {.record = shaking.motion ? std::optional(*shaking.motion) : std::nullopt});
                 RunPlan plan;
                 plan.total = ensemble_;
                 std::uint64_t collapsed = 0, valid = 0;
@@ -138,7 +139,7 @@ public:
                     for (const Block& block : r.blocks)
                         cost_.block_steps += block.fixed ? 0 : o.steps;
                 };
-                const Progress p = run_ensemble(study, sampler, shaking.motion.get(), options, plan, quietly);
+                const Progress p = run_ensemble(experiment, options, plan, quietly);
                 if (p.done < plan.total)
                     return false;
                 cost_.simulations += plan.total;

@@ -16,6 +16,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace stylobate {
 
@@ -33,6 +35,37 @@ std::string fingerprint(const Motion& motion, const char* what)
     return fmt::format("# {}: {} samples, dt {} s, PGA {:.4f} m/s2, predominant frequency {:.4f} Hz, crc {:08x}\n",
                        what, motion.acceleration_m_s2.size(), motion.dt_s, motion.pga_m_s2,
                        motion.predominant_frequency_hz, crc);
+}
+
+/// The text by which the motions of a study are known again, a line each.
+std::string fingerprints(const Motions& motions)
+{
+    std::string text;
+    if (motions.drawn)
+        for (std::size_t i = 0; i < motions.drawn->size(); ++i)
+            text += fingerprint(*motions.drawn->motions[i], ("motion " + motions.drawn->names[i]).c_str());
+    if (motions.record)
+        text += fingerprint(*motions.record, "record");
+    if (motions.vertical)
+        text += fingerprint(*motions.vertical, "vertical");
+    return text;
+}
+
+/// Reads or draws the motions of a study.
+Experiment with_motions(Study study)
+{
+    Motions motions;
+    const ExcitationSpec& excitation = study.excitation;
+    if (study.fragility)
+        motions.drawn = std::make_shared<const MotionSet>(load_motions(study));
+    else if (excitation.kind == ExcitationKind::record)
+        motions.record = make_motion(read_record(excitation.file, excitation.component, excitation.unit),
+                                     excitation.baseline, excitation.band_pass);
+    else if (excitation.kind == ExcitationKind::table)
+        motions.record = read_base_table(excitation.file, excitation.run);
+    if (const std::optional<VerticalSpec>& spec = study.vertical)
+        motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);
+    return Experiment(std::move(study), std::move(motions));
 }
 
 } // namespace
@@ -55,30 +88,11 @@ void check_settings(const ResultHeader& header, const std::string& file, const s
     }
 }
 
-LoadedStudy::LoadedStudy(Study study) : study_(std::make_unique<Study>(std::move(study)))
+LoadedStudy::LoadedStudy(Study study)
+    : experiment_(with_motions(std::move(study))), text_(this->study().text + fingerprints(experiment_.motions()))
 {
-    text_ = study_->text;
-    const ExcitationSpec& excitation = study_->excitation;
-    std::shared_ptr<const MotionSet> motions;
-    if (study_->fragility) {
-        motions = std::make_shared<const MotionSet>(load_motions(*study_));
-        motions_ = motion_table(*motions);
-        for (std::size_t i = 0; i < motions->size(); ++i)
-            text_ += fingerprint(*motions->motions[i], ("motion " + motions->names[i]).c_str());
-    } else if (excitation.kind == ExcitationKind::record) {
-        motion_ = make_motion(read_record(excitation.file, excitation.component, excitation.unit), excitation.baseline,
-                              excitation.band_pass);
-    } else if (excitation.kind == ExcitationKind::table) {
-        motion_ = read_base_table(excitation.file, excitation.run);
-    }
-    if (motion_)
-        text_ += fingerprint(*motion_, "record");
-    std::optional<Motion> vertical;
-    if (const std::optional<VerticalSpec>& spec = study_->vertical) {
-        vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);
-        text_ += fingerprint(*vertical, "vertical");
-    }
-    sampler_ = std::make_unique<Sampler>(*study_, record(), vertical ? &*vertical : nullptr, motions);
+    if (experiment_.motions().drawn)
+        motions_ = motion_table(*experiment_.motions().drawn);
 }
 
 LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<std::string>& settings)
@@ -125,9 +139,9 @@ std::vector<Doubt> LoadedStudy::doubts() const
 {
     const ResultHeader header = plain_header();
     StudyFacts facts;
-    if (motion_) {
-        facts.pga_m_s2 = motion_->pga_m_s2;
-        facts.motion_frequency_hz = motion_->predominant_frequency_hz;
+    if (record()) {
+        facts.pga_m_s2 = record()->pga_m_s2;
+        facts.motion_frequency_hz = record()->predominant_frequency_hz;
     }
     const std::size_t measures = motions_.measures.size();
     for (std::size_t k = 0; k < measures; ++k)
@@ -136,32 +150,32 @@ std::vector<Doubt> LoadedStudy::doubts() const
                 facts.pga_m_s2 = std::max(facts.pga_m_s2, motions_.value[i * measures + k]);
     if (header.has_rows())
         facts.file_bytes = static_cast<double>(header.total) * static_cast<double>(ResultLayout(header).row_bytes());
-    return stylobate::doubts(*study_, facts);
+    return stylobate::doubts(study(), facts);
 }
 
 ResultHeader LoadedStudy::plain_header() const
 {
     ResultHeader header;
-    header.kind = word_for(study_kind_names, study_->kind);
+    header.kind = word_for(study_kind_names, study().kind);
     header.motions = motions_;
     header.study_toml = text_;
-    header.seed = study_->seed;
+    header.seed = study().seed;
     header.code_version = code_version();
-    header.total = most_realizations(*study_);
-    header.selected = (study_->surface && study_->surface->adaptive) || study_->rare;
-    if (study_->kept == KeptRealizations::none)
+    header.total = most_realizations(study());
+    header.selected = (study().surface && study().surface->adaptive) || study().rare;
+    if (study().kept == KeptRealizations::none)
         header.limit_states = limit_state_names();
-    header.input_names = sampler_->input_names();
-    header.block_names = block_names(*study_);
-    if (study_->surface) {
+    header.input_names = sampler().input_names();
+    header.block_names = block_names(study());
+    if (study().surface) {
         const auto values = [](const Axis& axis) {
             std::vector<double> all;
             for (int i = 0; i < axis.count; ++i)
                 all.push_back(axis.value(i));
             return all;
         };
-        header.frequency_hz = values(study_->surface->frequency_hz);
-        header.pga_m_s2 = values(study_->surface->pga_m_s2);
+        header.frequency_hz = values(study().surface->frequency_hz);
+        header.pga_m_s2 = values(study().surface->pga_m_s2);
     }
     return header;
 }

@@ -1,14 +1,10 @@
 #pragma once
-/// A study with all that running it needs: its record, its sampler, and the header of its results.
+/// An experiment read from files: from a study file or from results; and the header of its results.
 
-#include "ensemble/model/motion.hpp"
-#include "ensemble/model/study.hpp"
+#include "ensemble/experiment.hpp"
 #include "ensemble/sampling/plausible.hpp"
-#include "ensemble/sampling/sampler.hpp"
 #include "io/store/result_store.hpp"
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +21,10 @@ public:
     static LoadedStudy from_results(const ResultHeader& header, const std::string& file,
                                     const std::vector<std::string>& settings);
 
-    const Study& study() const { return *study_; }
-    const Motion* record() const { return motion_ ? &*motion_ : nullptr; }
-    const Sampler& sampler() const { return *sampler_; }
+    const Experiment& experiment() const { return experiment_; }
+    const Study& study() const { return experiment_.study(); }
+    const Motion* record() const { return experiment_.record(); }
+    const Sampler& sampler() const { return experiment_.sampler(); }
 
     /// What a results file of this study begins with. Its text of the study ends with a comment that identifies the
     /// record by its samples, so that another record under the same name is another study.
@@ -41,11 +38,9 @@ private:
     ResultHeader plain_header() const;
     explicit LoadedStudy(Study study);
 
-    std::unique_ptr<Study> study_;
-    std::optional<Motion> motion_;
+    Experiment experiment_;
     MotionTable motions_; ///< of a fragility study
-    std::unique_ptr<Sampler> sampler_;
-    std::string text_;
+    std::string text_;    ///< of the study, and what identifies its motions
 };
 
 /// How many realizations a study has; of an adaptive surface or a rare event at most.

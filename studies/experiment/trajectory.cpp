@@ -48,14 +48,14 @@ private:
 
 } // namespace
 
-FollowedRealization follow(const LoadedStudy& loaded, std::uint64_t index, Isa isa)
+FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa)
 {
     FollowedRealization followed;
-    followed.realization = loaded.sampler().realization(index);
+    followed.realization = experiment.sampler().realization(index);
     const Realization& r = followed.realization;
     Trajectory& t = followed.trajectory;
     t.index = index;
-    t.name = block_names(loaded.study());
+    t.name = block_names(experiment.study());
     for (std::size_t i = 0; i < t.name.size(); ++i) { // the ground is not recorded
         t.rest_x_m.push_back(r.blocks[i].x_m);
         t.rest_y_m.push_back(r.blocks[i].y_m);
@@ -66,10 +66,10 @@ FollowedRealization follow(const LoadedStudy& loaded, std::uint64_t index, Isa i
     }
 
     constexpr int lane = 0;
-    const Study stepped = stepped_as(loaded.study(), index);
-    LaneSet lanes(stepped, loaded.record(), kernels(isa), r);
+    const Study stepped = stepped_as(experiment.study(), index);
+    LaneSet lanes(stepped, experiment.record(), kernels(isa), r);
     lanes.load(lane, r);
-    Recorder recorder(t, lanes.motion(lane), loaded.study().output.trajectory_rate_hz, r.step_s);
+    Recorder recorder(t, lanes.motion(lane), experiment.study().output.trajectory_rate_hz, r.step_s);
     for (std::uint64_t n = 0; !lanes.outcome(lane); ++n) {
         const int k = static_cast<int>(n % chunk_steps);
         const bool due = recorder.due(n);

@@ -78,7 +78,7 @@ bool run_round(const LoadedStudy& loaded, const RunOptions& options, std::span<c
     Progress progress{.done = before.end, .collapsed = before.collapsed, .invalid = before.invalid};
     RoundObserver observed(observer, whole);
     if (before.end < plan.total)
-        progress = run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observed);
+        progress = run_ensemble(loaded.experiment(), options, plan, observed);
     whole = observed.joined(progress);
     return progress.done == plan.total;
 }

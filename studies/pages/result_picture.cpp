@@ -40,7 +40,7 @@ Followed trajectory_of(const Rerun& rerun, const ResultReader& reader, const std
     if (index < header.first || index >= end)
         throw InputError(
             fmt::format("--realization {}: {} has realizations {} to {}", index, results, header.first, end - 1));
-    FollowedRealization f = follow(loaded, index, rerun.isa);
+    FollowedRealization f = follow(loaded.experiment(), index, rerun.isa);
     return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
 }
 

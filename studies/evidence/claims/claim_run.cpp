@@ -83,7 +83,7 @@ bool compute(const LoadedStudy& loaded, const fs::path& results, bool resume, co
         writer->add(row);
         counts.add(row);
     };
-    const Progress progress = run_ensemble(loaded.study(), loaded.sampler(), loaded.record(), options, plan, observer);
+    const Progress progress = run_ensemble(loaded.experiment(), options, plan, observer);
     if (progress.done < progress.total) {
         writer->flush();
         return false;

@@ -20,17 +20,18 @@ TwinsRun run_twins(const LoadedStudy& loaded, const RunOptions& options, const R
         RunPlan plan;
         plan.total = indices.size();
         plan.indices = indices;
+        plan.as = &range.study;
         plan.mark_done([&](std::uint64_t index) { return writer.state(index); });
         plan.sink = [&](const Realization& realization, const Outcome& outcome) {
             sink(result_row(study, realization, outcome));
         };
         RoundObserver observed(observer, run.progress, range.begin == 0); // twins are no further trials
-        const Progress progress = run_ensemble(range.study, loaded.sampler(), loaded.record(), options, plan, observed);
+        const Progress progress = run_ensemble(loaded.experiment(), options, plan, observed);
         run.progress = observed.joined(progress);
         if (progress.done < plan.total)
             return run;
     }
-    run.followed = follow_twins(study, loaded.sampler(), loaded.record(), options, observer);
+    run.followed = follow_twins(loaded.experiment(), options, observer);
     run.complete = !observer.stop_requested();
     return run;
 }

@@ -20,7 +20,7 @@ CountedRun run_counted(const LoadedStudy& loaded, const RunOptions& options, con
         writer->add(tally_entry(result_row(study, realization, outcome)));
     };
     const Tally& tally = writer->tally();
-    const Progress progress = run_ensemble(study, loaded.sampler(), loaded.record(), options, plan, observer);
+    const Progress progress = run_ensemble(loaded.experiment(), options, plan, observer);
     const bool complete = progress.done == progress.total;
     if (complete)
         writer->finish(surface_of(header, tally, LimitState::collapse));

@@ -22,7 +22,7 @@ struct EnsembleRun {
 
 inline EnsembleRun run_all(const Study& study, const RunOptions& options, const Motion* record = nullptr)
 {
-    const Sampler sampler(study, record);
+    const Experiment experiment(study, {.record = record ? std::optional(*record) : std::nullopt});
     EnsembleRun result;
     RunPlan plan;
     plan.total = study.total();
@@ -32,20 +32,19 @@ inline EnsembleRun run_all(const Study& study, const RunOptions& options, const 
         ++result.states[outcome.state];
     };
     Observer observer;
-    result.progress = run_ensemble(study, sampler, record, options, plan, observer);
+    result.progress = run_ensemble(experiment, options, plan, observer);
     return result;
 }
 
 /// The outcomes of all realizations of a study, by their index.
 inline std::vector<Outcome> outcomes_of(const Study& study, const RunOptions& options)
 {
-    const Sampler sampler(study, nullptr);
     std::vector<Outcome> outcomes(study.total());
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [&](const Realization& r, const Outcome& o) { outcomes[r.index] = o; };
     Observer observer;
-    run_ensemble(study, sampler, nullptr, options, plan, observer);
+    run_ensemble(Experiment(study), options, plan, observer);
     return outcomes;
 }
 

@@ -6,6 +6,7 @@
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/experiment/block_names.hpp"
+#include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 
@@ -128,7 +129,7 @@ TEST(Determinism, OneRealizationFollowedStepByStepHasTheBitsOfTheEnsemble)
     const EnsembleRun want = run_all(loaded.study(), {best_isa(), 2});
     for (const std::uint64_t index : {0U, 13U, 27U, 39U})
         for (const Isa isa : usable_isas()) {
-            const FollowedRealization f = follow(loaded, index, isa);
+            const FollowedRealization f = follow(loaded.experiment(), index, isa);
             EXPECT_EQ(outcome_bits(f.outcome), want.outcomes.at(index)) << to_string(isa) << ", realization " << index;
             // samples from 0 to the end, evenly
             ASSERT_FALSE(f.trajectory.time_s.empty());
@@ -188,7 +189,7 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
     };
     const Study study = mix("{ from = 1.0, to = 8.0, count = 8, spacing = \"log\" }",
                             "{ from = 3.0, to = 11.0, count = 8, spacing = \"linear\" }");
-    const Sampler sampler(study, nullptr);
+    const Experiment experiment(study);
     const EnsembleRun want = run_all(study, {best_isa(), 2});
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("stylobate-continue-" + std::to_string(getpid()) + ".h5");
@@ -199,7 +200,7 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
     header.seed = study.seed;
     header.code_version = "test";
     header.total = study.total();
-    header.input_names = sampler.input_names();
+    header.input_names = experiment.sampler().input_names();
     header.block_names = block_names(study);
     for (const Axis* axis : {&study.surface->frequency_hz, &study.surface->pga_m_s2})
         for (int i = 0; i < axis->count; ++i)
@@ -218,7 +219,7 @@ TEST(Determinism, ARunThatIsStoppedAndContinuedGivesTheSameBits)
         // a random part of what is left, fixed by the number of the part
         observer.after =
             writer->rows() + 256 + random_bits(1, static_cast<std::uint64_t>(parts), Stream::friction, 0) % 200;
-        const Progress p = run_ensemble(study, sampler, nullptr, {best_isa(), 1 + parts % 3}, plan, observer);
+        const Progress p = run_ensemble(experiment, {best_isa(), 1 + parts % 3}, plan, observer);
         complete = p.done == p.total;
         if (complete)
             writer->finish(nullptr);
@@ -246,7 +247,6 @@ TEST(Ensemble, LanesStayFullWhenMostRealizationsFall)
 TEST(Ensemble, RealizationsAtRestEndBeforeTheirTime)
 {
     const Study study = quiet();
-    const Sampler sampler(study, nullptr);
     int early = 0;
     RunPlan plan;
     plan.total = study.total();
@@ -256,7 +256,7 @@ TEST(Ensemble, RealizationsAtRestEndBeforeTheirTime)
         early += o.end_time_s < shaking + 0.9 * tail_after_shaking(r);
     };
     Observer observer;
-    run_ensemble(study, sampler, nullptr, {best_isa(), 2}, plan, observer);
+    run_ensemble(Experiment(study), {best_isa(), 2}, plan, observer);
     EXPECT_GT(early, static_cast<int>(study.total()) / 2);
 }
 
@@ -264,7 +264,6 @@ TEST(Ensemble, EnergyBalances)
 {
     // what the balance lacks stays far below the bound that makes a realization invalid
     const Study study = collapse_heavy();
-    const Sampler sampler(study, nullptr);
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [&](const Realization& r, const Outcome& o) {
@@ -273,5 +272,5 @@ TEST(Ensemble, EnergyBalances)
         EXPECT_NE(o.state, State::invalid);
     };
     Observer observer;
-    run_ensemble(study, sampler, nullptr, {best_isa(), 2}, plan, observer);
+    run_ensemble(Experiment(study), {best_isa(), 2}, plan, observer);
 }

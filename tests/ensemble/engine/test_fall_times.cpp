@@ -147,7 +147,7 @@ TEST(FallTimes, NeitherColumnOfASymmetricColonnadeIsFirst)
 /// A look finds two blocks outside: the steps tell which was first, and the order of their numbers does not.
 TEST(FallTimes, OfTwoBlocksFoundAtOneLook)
 {
-    const Realization r = Sampler(column({}), nullptr).realization(0);
+    const Realization r = Experiment(column({})).sampler().realization(0);
     std::vector<BlockMotion> moved(r.blocks.size());
     moved[3].theta_rad = moved[5].theta_rad = 3;
     const auto ended = [&](int inside_3, int inside_5) {

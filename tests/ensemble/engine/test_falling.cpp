@@ -59,7 +59,6 @@ struct Ends {
 
 Ends ends_of(const Study& study)
 {
-    const Sampler sampler(study, nullptr);
     Ends ends;
     RunPlan plan;
     plan.total = study.realizations;
@@ -69,7 +68,7 @@ Ends ends_of(const Study& study)
         ends.most_residual = std::max(ends.most_residual, std::fabs(o.energy_residual));
     };
     Observer observer;
-    run_ensemble(study, sampler, nullptr, {best_isa(), 1}, plan, observer);
+    run_ensemble(Experiment(study), {best_isa(), 1}, plan, observer);
     return ends;
 }
 

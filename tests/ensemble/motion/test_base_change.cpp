@@ -1,6 +1,7 @@
 // What mechanisms make of the base's motion: gain, offset in time and harmonic distortion against their formulas in
 // extended precision, for every kind of motion; motions through displacements; vertical records.
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/distortion.hpp"
 #include "ensemble/numerics/fourier.hpp"
@@ -337,6 +338,26 @@ TEST(BaseChange, AVerticalRecordGoesWithTheHorizontalOne)
     study.excitation = study_of(ExcitationKind::harmonic).excitation;
     EXPECT_EQ(Sampler(study, nullptr, &up).realization(0).vertical->acceleration_m_s2, up.acceleration_m_s2);
     EXPECT_THROW(Sampler(study, nullptr), std::invalid_argument);
+}
+
+TEST(BaseChange, AnExperimentKeepsItsMotions)
+{
+    const Motion record = burst(0.02, 2, 8, 0.005), up = burst(0.004, 5, 8, 0.005);
+    Study study = study_of(ExcitationKind::record);
+    study.vertical = VerticalSpec{"up", "", "", true};
+    study.mechanisms = {neutral_spec(Mechanism::vertical_motion, 0.68)};
+    const Experiment experiment(study, {.record = record, .vertical = up});
+    ASSERT_NE(experiment.record(), nullptr);
+    EXPECT_EQ(experiment.record()->acceleration_m_s2, record.acceleration_m_s2);
+    EXPECT_EQ(experiment.motions().vertical->acceleration_m_s2, up.acceleration_m_s2);
+    const Realization r = experiment.sampler().realization(3), want = Sampler(study, &record, &up).realization(3);
+    EXPECT_EQ(r.vertical->acceleration_m_s2, want.vertical->acceleration_m_s2);
+    EXPECT_EQ(r.inputs, want.inputs);
+    EXPECT_THROW(Experiment(study, {.record = record}), std::invalid_argument);
+    study.vertical.reset();
+    study.mechanisms.clear();
+    study.excitation.kind = ExcitationKind::harmonic;
+    EXPECT_EQ(Experiment(study).record(), nullptr);
 }
 
 TEST(BaseChange, StudiesThatNeedTheHost)

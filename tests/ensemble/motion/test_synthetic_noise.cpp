@@ -2,6 +2,7 @@
 /// stated. And the way of a drawn shaking from the study to the loop.
 
 #include "ensemble/engine/executor.hpp"
+#include "ensemble/experiment.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
@@ -211,8 +212,10 @@ const std::string short_noise = "kind = \"noise\"\nfrequency_hz = 4\npga_m_s2 = 
 
 TEST(Shaking, PgaIsEachRealizationsOrTheMean)
 {
-    const Sampler each(study_of(short_noise), nullptr);
-    const Sampler mean(study_of(short_noise + "pga_of = \"mean\"\n"), nullptr);
+    const Experiment each_experiment(study_of(short_noise));
+    const Sampler& each = each_experiment.sampler();
+    const Experiment mean_experiment(study_of(short_noise + "pga_of = \"mean\"\n"));
+    const Sampler& mean = mean_experiment.sampler();
     double sum = 0, squares = 0;
     for (std::uint64_t i = 0; i < 400; ++i) {
         const Realization one = each.realization(i), other = mean.realization(i);
@@ -301,7 +304,8 @@ TEST(Shaking, PulsesAreDrawn)
     EXPECT_EQ(gammas.size(), 400u);
     // without perturbation the study's own
     const Realization plain =
-        Sampler(study_of("kind = \"pulse\"\nfrequency_hz = 2\npga_m_s2 = 3\ngamma = 1.6\nphase_rad = 0.3\n"), nullptr)
+        Experiment(study_of("kind = \"pulse\"\nfrequency_hz = 2\npga_m_s2 = 3\ngamma = 1.6\nphase_rad = 0.3\n"))
+            .sampler()
             .realization(0);
     EXPECT_EQ(plain.frequency_hz, 2);
     EXPECT_EQ(plain.pulse_gamma, 1.6);
@@ -313,7 +317,6 @@ using Bits = std::vector<std::uint64_t>;
 std::map<std::uint64_t, Bits> run(const Study& study, Isa isa, int threads)
 {
     std::map<std::uint64_t, Bits> outcomes;
-    const Sampler sampler(study, nullptr);
     RunPlan plan;
     plan.total = 24;
     plan.sink = [&](const Realization& realization, const Outcome& o) {
@@ -325,7 +328,7 @@ std::map<std::uint64_t, Bits> run(const Study& study, Isa isa, int threads)
         EXPECT_LT(std::fabs(o.energy_residual), 0.05) << realization.index;
     };
     Observer observer;
-    run_ensemble(study, sampler, nullptr, {isa, threads}, plan, observer);
+    run_ensemble(Experiment(study), {isa, threads}, plan, observer);
     return outcomes;
 }
 

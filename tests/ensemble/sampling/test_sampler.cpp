@@ -1,5 +1,6 @@
 /// From study and index to a realization: geometry, mass, contacts, draws, step.
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/step_bound.hpp"
@@ -139,7 +140,7 @@ double upper_tail(double z)
 
 TEST(Sampler, UnperturbedSpecimen)
 {
-    const Realization r = Sampler(specimen(), nullptr).realization(12);
+    const Realization r = Experiment(specimen()).sampler().realization(12);
     EXPECT_EQ(r.index, 12U);
     EXPECT_EQ(r.drums, 7);
     EXPECT_TRUE(r.inputs.empty());
@@ -211,7 +212,8 @@ TEST(Sampler, OnlyJointsWithAFreeBlock)
 
 TEST(Sampler, InputsNameEveryDrawnValueInOrder)
 {
-    const Sampler sampler(perturbed(), nullptr);
+    const Experiment experiment(perturbed());
+    const Sampler& sampler = experiment.sampler();
     const Realization r = sampler.realization(3);
     ASSERT_EQ(r.inputs.size(), sampler.input_names().size());
     ASSERT_EQ(r.inputs.size(), 6U + 1 + 6 + 1 + 7 + 7 + 7 + 7 + 1 + 1);
@@ -249,7 +251,8 @@ TEST(Sampler, InputsNameEveryDrawnValueInOrder)
 
 TEST(Sampler, DampingFollowsThePerturbedBlocks)
 {
-    const Sampler sampler(perturbed(), nullptr);
+    const Experiment experiment(perturbed());
+    const Sampler& sampler = experiment.sampler();
     for (const std::uint64_t index : {0U, 1U, 2U, 3U}) {
         const Realization r = sampler.realization(index);
         const double xi = input(sampler, r, "damping_ratio");
@@ -306,7 +309,7 @@ TEST(Sampler, ADrawDependsOnItsOwnNumberOnly)
     Study study = specimen();
     study.perturbations = {perturbed().perturbations[0]};
     const std::vector<double> alone = Sampler(study, nullptr).realization(4).inputs;
-    const std::vector<double> among = Sampler(perturbed(), nullptr).realization(4).inputs;
+    const std::vector<double> among = Experiment(perturbed()).sampler().realization(4).inputs;
     study.structure = equal_column(12, 1, 0.048, 0.029, 0.048, 0.1355);
     const std::vector<double> taller = Sampler(study, nullptr).realization(4).inputs;
     for (std::size_t j = 0; j < 6; ++j) {
@@ -319,7 +322,8 @@ TEST(Sampler, ADrawDependsOnItsOwnNumberOnly)
 
 TEST(Sampler, OrderAndThreadsChangeNothing)
 {
-    const Sampler sampler(perturbed(), nullptr);
+    const Experiment experiment(perturbed());
+    const Sampler& sampler = experiment.sampler();
     const int n = 300;
     std::vector<std::vector<double>> forward, threaded(n);
     for (int i = 0; i < n; ++i)
@@ -333,7 +337,7 @@ TEST(Sampler, OrderAndThreadsChangeNothing)
     for (std::thread& thread : threads)
         thread.join();
     EXPECT_EQ(forward, threaded);
-    EXPECT_EQ(flat(Sampler(perturbed(), nullptr).realization(299)), forward.back());
+    EXPECT_EQ(flat(Experiment(perturbed()).sampler().realization(299)), forward.back());
 }
 
 TEST(Sampler, CellsOfASurface)

@@ -15,12 +15,11 @@ int main(int argc, char** argv)
     const Study study =
         read_study(argv[1], {"study.realizations=4", "surface.frequency_hz.count=1", "surface.frequency_hz.to=0.5",
                              "surface.pga_m_s2.count=1", "surface.pga_m_s2.from=12.0"});
-    const Sampler sampler(study, nullptr);
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [](const Realization&, const Outcome&) {};
     Observer observer;
-    const Progress progress = run_ensemble(study, sampler, nullptr, {best_isa(), 1}, plan, observer);
+    const Progress progress = run_ensemble(Experiment(study), {best_isa(), 1}, plan, observer);
     const BinomialInterval interval = jeffreys(progress.done, progress.collapsed, 0.95);
     std::printf("%llu of %llu collapsed, %.3f to %.3f\n", static_cast<unsigned long long>(progress.collapsed),
                 static_cast<unsigned long long>(progress.done), interval.lower, interval.upper);

@@ -2,6 +2,7 @@
 
 #include "tests/kernels/column_reference.hpp"
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/sampling/sampler.hpp"
@@ -279,7 +280,7 @@ TEST(StructureRealization, ColonnadeWithItsGroundAndWatchedPairs)
     s.columns[0].fixed_blocks = 1;
     s.columns[1].fixed_blocks = 1;
     s.epistyles[0].bed.friction = 0.4;
-    const Realization r = Sampler(study_of(s), nullptr).realization(0);
+    const Realization r = Experiment(study_of(s)).sampler().realization(0);
     ASSERT_EQ(r.blocks.size(), 6U); // 2 + 2 drums, the epistyle, the ground
     EXPECT_EQ(r.drums, 5);
     EXPECT_EQ(r.blocks[4].role, BlockRole::epistyle);
@@ -332,7 +333,7 @@ TEST(StructureRealization, PairsOfAColumnAreWatchedWhereItIsFollowedToRest)
 
 TEST(StructureRealization, EpistylesShareADampedSeat)
 {
-    const Realization r = Sampler(study_of(three_columns()), nullptr).realization(0);
+    const Realization r = Experiment(study_of(three_columns())).sampler().realization(0);
     // on the outer column the whole top of 1 m, on the middle one a half; the column's top drum is the lighter block
     EXPECT_NEAR(r.joints[6].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 1.0 * 6480), 1e-6);
     EXPECT_NEAR(r.joints[7].normal_damping_n_s_m, 0.2 * std::sqrt(3e9 * 0.5 * 6480), 1e-6);
@@ -367,11 +368,10 @@ TEST(StructureRealization, EachBlockVariesAboutItsOwnValues)
     StructureSpec s;
     s.depth_m = 1;
     s.columns = {{.drums = {drum(1.4, 0.3, 900), drum(1.2, 1.0, 2000, 0.05), drum(1.0, 0.8, 1500)}}};
-    const Sampler sampler(
-        study_of(s, {normal(Quantity::drum_width, Per::block, 0, 0.01),
-                     normal(Quantity::drum_height, Per::structure, 0, 0.02),
-                     normal(Quantity::drum_offset, Per::block, 0.003), normal(Quantity::density, Per::block, 0, 0.03)}),
-        nullptr);
+    const Experiment experiment(study_of(
+        s, {normal(Quantity::drum_width, Per::block, 0, 0.01), normal(Quantity::drum_height, Per::structure, 0, 0.02),
+            normal(Quantity::drum_offset, Per::block, 0.003), normal(Quantity::density, Per::block, 0, 0.03)}));
+    const Sampler& sampler = experiment.sampler();
     const Realization r = sampler.realization(5);
     ASSERT_EQ(r.inputs.size(), 3U + 1 + 3 + 3);
     const double width[] = {1.4, 1.2, 1.0}, height[] = {0.3, 1.0, 0.8}, mass[] = {900, 2000, 1500};
@@ -398,7 +398,8 @@ TEST(StructureRealization, ColonnadesStayLevelAndTheirEpistylesApart)
     const std::vector<Perturbation> rough = {normal(Quantity::drum_width, Per::block, 0.02),
                                              normal(Quantity::drum_height, Per::block, 0.02),
                                              normal(Quantity::drum_offset, Per::block, 0.02)};
-    const Sampler sampler(study_of(three_columns(), rough), nullptr);
+    const Experiment experiment(study_of(three_columns(), rough));
+    const Sampler& sampler = experiment.sampler();
     int pushed = 0;
     for (std::uint64_t i = 0; i < 200; ++i) {
         const Realization r = sampler.realization(i);
@@ -431,7 +432,8 @@ TEST(StructureRealization, ColonnadesStayLevelAndTheirEpistylesApart)
 TEST(StructureRealization, RefusesDrawsThatCannotBeBuilt)
 {
     const auto draw = [](const StructureSpec& s, const Perturbation& p) {
-        const Sampler sampler(study_of(s, {p}), nullptr);
+        const Experiment experiment(study_of(s, {p}));
+        const Sampler& sampler = experiment.sampler();
         for (std::uint64_t i = 0; i < 1000; ++i)
             sampler.realization(i);
     };
@@ -456,7 +458,8 @@ TEST(StructureRealization, OneDrumPerColumnKeepsItsHeight)
 {
     StructureSpec s = two_columns();
     s.columns[1].drums = s.columns[0].drums;
-    const Sampler sampler(study_of(s, {normal(Quantity::drum_height, Per::block, 0.002)}), nullptr);
+    const Experiment experiment(study_of(s, {normal(Quantity::drum_height, Per::block, 0.002)}));
+    const Sampler& sampler = experiment.sampler();
     const Realization r = sampler.realization(1);
     EXPECT_EQ(2 * r.blocks[0].half_height_m, 0.1);
     EXPECT_EQ(2 * r.blocks[1].half_height_m, 0.1);

@@ -64,7 +64,6 @@ std::string table_of(const std::vector<std::string>& truth)
             settings.push_back(fmt::format("study.seed={}", 900 + csv.size())); // other draws than the calibration's
             settings.push_back("study.realizations=3");
             const Study study = study_with(settings);
-            const Sampler sampler(study, nullptr);
             RunPlan plan;
             plan.total = study.realizations;
             plan.sink = [&](const Realization&, const Outcome& o) {
@@ -72,7 +71,7 @@ std::string table_of(const std::vector<std::string>& truth)
                                    o.state == State::collapsed ? "yes" : "no");
             };
             Observer observer;
-            run_ensemble(study, sampler, nullptr, {best_isa(), 1}, plan, observer);
+            run_ensemble(Experiment(study), {best_isa(), 1}, plan, observer);
         }
     return csv;
 }

@@ -251,14 +251,14 @@ TEST(ExtendedStudy, HasWhatTheBaseDoesAndRuns)
 
     // it runs, and what shakes it is the table as it was
     const Motion base = read_base_table(extended.excitation.file, extended.excitation.run);
-    const Sampler sampler(extended, &base);
-    const Realization r = sampler.realization(0);
+    const Experiment experiment(extended, {.record = base});
+    const Realization r = experiment.sampler().realization(0);
     EXPECT_NEAR(r.base.vertical_ratio, 0.12, 0.005);
     RunPlan plan;
     plan.total = extended.realizations;
     int valid = 0;
     plan.sink = [&](const Realization&, const Outcome& o) { valid += o.state != State::invalid; };
-    run_ensemble(extended, sampler, &base, options.run, plan, observer);
+    run_ensemble(experiment, options.run, plan, observer);
     EXPECT_EQ(valid, static_cast<int>(extended.realizations));
 }
 

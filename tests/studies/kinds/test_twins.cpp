@@ -72,7 +72,7 @@ using Outcomes = std::map<std::uint64_t, std::vector<std::uint64_t>>;
 /// All realizations of a study with twins, range by range.
 Outcomes run(const Study& study, Isa isa, int threads)
 {
-    const Sampler sampler(study, nullptr);
+    const Experiment experiment(study);
     Outcomes outcomes;
     for (const TwinRange& range : twin_ranges(study)) {
         std::vector<std::uint64_t> indices;
@@ -81,30 +81,29 @@ Outcomes run(const Study& study, Isa isa, int threads)
         RunPlan plan;
         plan.total = indices.size();
         plan.indices = indices;
+        plan.as = &range.study;
         plan.sink = [&](const Realization& r, const Outcome& o) { outcomes[r.index] = outcome_bits(o); };
         Observer observer;
-        run_ensemble(range.study, sampler, nullptr, {isa, threads}, plan, observer);
+        run_ensemble(experiment, {isa, threads}, plan, observer);
     }
     return outcomes;
 }
 
 Outcomes run_plain(const Study& study)
 {
-    const Sampler sampler(study, nullptr);
     Outcomes outcomes;
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [&](const Realization& r, const Outcome& o) { outcomes[r.index] = outcome_bits(o); };
     Observer observer;
-    run_ensemble(study, sampler, nullptr, {best_isa(), 2}, plan, observer);
+    run_ensemble(Experiment(study), {best_isa(), 2}, plan, observer);
     return outcomes;
 }
 
 std::vector<FollowedTwin> follow(const Study& study, Isa isa = best_isa(), int threads = 2)
 {
-    const Sampler sampler(study, nullptr);
     Observer observer;
-    return follow_twins(study, sampler, nullptr, {isa, threads}, observer);
+    return follow_twins(Experiment(study), {isa, threads}, observer);
 }
 
 std::vector<std::uint64_t> bits(const std::vector<FollowedTwin>& pairs)
@@ -125,9 +124,12 @@ TEST(Twins, EachDiffersFromItsOriginalInOneThingAlone)
     const std::uint64_t n = study.originals();
     EXPECT_EQ(study.total(), 7 * n);
     const Sampler sampler(study, nullptr);
-    const Sampler plain(twins_study({}), nullptr);
-    const Sampler two_corner(twins_study({"contact.form=\"two_corner\""}), nullptr);
-    const Sampler points(twins_study({"contact.form=\"points\""}), nullptr);
+    const Experiment plain_experiment(twins_study({}));
+    const Sampler& plain = plain_experiment.sampler();
+    const Experiment two_corner_experiment(twins_study({"contact.form=\"two_corner\""}));
+    const Sampler& two_corner = two_corner_experiment.sampler();
+    const Experiment points_experiment(twins_study({"contact.form=\"points\""}));
+    const Sampler& points = points_experiment.sampler();
     for (std::uint64_t i = 0; i < n; ++i) {
         const Realization original = sampler.realization(i);
         expect_same(original, plain.realization(i));
@@ -150,6 +152,24 @@ TEST(Twins, EachDiffersFromItsOriginalInOneThingAlone)
                 EXPECT_EQ(twin.step_s, kind == 2 ? 0.8 * original.step_s : original.step_s) << kind;
             }
         }
+    }
+}
+
+TEST(Twins, AnExperimentIsTheSameWhereverItLies)
+{
+    const Study study = twins_study({"twins.moves_m=[1e-3]", "twins.block=4"});
+    std::vector<Experiment> moved;
+    moved.emplace_back(study);
+    const Sampler& sampler = moved.front().sampler();
+    moved.emplace_back(std::move(moved.front())); // and the vector grows
+    moved.emplace_back(moved.back());
+    EXPECT_EQ(&moved.back().sampler(), &sampler);
+    EXPECT_EQ(&moved.back().study(), &moved[1].study());
+    moved.erase(moved.begin(), moved.begin() + 2);
+    const Experiment fresh(study);
+    for (std::uint64_t i = 0; i < study.total(); ++i) { // those in other forms have studies of their own
+        expect_same(sampler.realization(i), fresh.sampler().realization(i));
+        EXPECT_EQ(sampler.realization(i).step_s, fresh.sampler().realization(i).step_s);
     }
 }
 

@@ -60,12 +60,12 @@ Ends ensemble_ends(const Study& study, const Motion& motion, const RunOptions& r
     Ends ends;
     if (motion.empty())
         return ends;
-    const Sampler sampler(study, &motion);
+    const Experiment experiment(study, {.record = motion});
     RunPlan plan;
     plan.total = study.total();
     plan.sink = [&](const Realization&, const Outcome& outcome) { ends.add(outcome); };
     Observer nobody;
-    run_ensemble(study, sampler, &motion, run, plan, nobody);
+    run_ensemble(experiment, run, plan, nobody);
     if (ends.set_aside == ends.total)
         throw InputError(fmt::format("{}: every realization is invalid", motion.source));
     return ends;

@@ -53,13 +53,12 @@ Study shaken_specimen(double K_n, double pga, double step_fraction)
 
 std::uint64_t collapses(double K_n, double pga, double step_fraction = 0.9)
 {
-    const Study study = shaken_specimen(K_n, pga, step_fraction);
-    const Sampler sampler(study, nullptr);
+    const Experiment experiment(shaken_specimen(K_n, pga, step_fraction));
     RunPlan plan;
     plan.total = realizations;
     plan.sink = [](const Realization&, const Outcome&) {};
     Observer silent;
-    const Progress end = run_ensemble(study, sampler, nullptr, {best_isa(), 1}, plan, silent);
+    const Progress end = run_ensemble(experiment, {best_isa(), 1}, plan, silent);
     if (end.invalid > 0)
         throw std::runtime_error("some realizations are invalid");
     return end.collapsed;
