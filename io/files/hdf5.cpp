@@ -202,6 +202,52 @@ Handle open_group(hid_t parent, const std::string& path)
     return handle("no group '" + path + "'", H5Gclose, [&] { return H5Gopen2(parent, path.c_str(), H5P_DEFAULT); });
 }
 
+namespace {
+
+Kind kind_of_type(hid_t type, const std::string& what)
+{
+    if (H5Tequal(type, H5T_IEEE_F64LE) > 0)
+        return Kind::real;
+    if (H5Tequal(type, H5T_STD_U64LE) > 0)
+        return Kind::count;
+    if (H5Tequal(type, H5T_STD_I32LE) > 0)
+        return Kind::integer;
+    if (H5Tequal(type, text_type().id()) > 0)
+        return Kind::text;
+    throw Error(what + " is not of a type that it can have");
+}
+
+} // namespace
+
+Kind kind_of(hid_t parent, const std::string& path)
+{
+    const Handle dataset =
+        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+    const Handle type = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    return kind_of_type(type.id(), "'" + path + "'");
+}
+
+Kind kind_of_attribute(hid_t object, const std::string& name)
+{
+    const Handle attribute = open_attribute(object, name);
+    const Handle type =
+        handle("no type of the attribute '" + name + "'", H5Tclose, [&] { return H5Aget_type(attribute.id()); });
+    return kind_of_type(type.id(), "the attribute '" + name + "'");
+}
+
+std::vector<std::string> attributes_of(hid_t object)
+{
+    std::vector<std::string> names;
+    const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+        static_cast<std::vector<std::string>*>(list)->push_back(name);
+        return 0;
+    };
+    call("cannot list the attributes of a group",
+         [&] { return H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names); });
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 std::vector<std::string> names_in(hid_t group)
 {
     std::vector<std::string> names;

@@ -62,6 +62,14 @@ Dims dims_of(hid_t parent, const std::string& path);
 /// Where the data lie, in bytes from the start of the file. @throws Error if they are not contiguous and allocated
 std::uint64_t offset_of(hid_t dataset);
 
+/// What `write_array`, `write_texts` and the scalar attributes write.
+enum class Kind { real, count, integer, text };
+/// @throws Error if it is of another type
+Kind kind_of(hid_t parent, const std::string& path);
+Kind kind_of_attribute(hid_t object, const std::string& name);
+/// Names of the attributes, in the order of their characters.
+std::vector<std::string> attributes_of(hid_t object);
+
 /// A new one-step data set of doubles or counts, row by row, with its unit where it has one.
 void write_array(hid_t parent, const std::string& path, const std::vector<double>& values, const Dims& dims,
                  const std::string& unit);

@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/store/result_layout.hpp"
+#include "io/tables/csv.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,50 +17,6 @@
 
 namespace stylobate {
 namespace {
-
-/// One line of a table, field by field.
-class Line {
-public:
-    explicit Line(std::string& text) : text_(text) {}
-    ~Line() { text_ += '\n'; }
-    Line(const Line&) = delete;
-    Line& operator=(const Line&) = delete;
-
-    template <class Number>
-    Line& operator<<(Number value)
-    {
-        separate();
-        // fmt's default for doubles is the shortest decimal that reads back as the same double.
-        fmt::format_to(std::back_inserter(text_), "{}", value);
-        return *this;
-    }
-    Line& operator<<(std::string_view value)
-    {
-        separate();
-        if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
-            text_ += value;
-            return *this;
-        }
-        text_ += '"';
-        for (const char c : value)
-            text_.append(c == '"' ? 2 : 1, c);
-        text_ += '"';
-        return *this;
-    }
-    Line& operator<<(const char* value) { return *this << std::string_view(value); }
-    Line& operator<<(const std::string& value) { return *this << std::string_view(value); }
-
-private:
-    void separate()
-    {
-        if (!first_)
-            text_ += ',';
-        first_ = false;
-    }
-
-    std::string& text_;
-    bool first_ = true;
-};
 
 /// "normal_stiffness[3]" -> "input_normal_stiffness_n_m2[3]".
 std::string input_column(const std::string& name)
@@ -103,29 +60,22 @@ auto word(const Value& value)
         return value;
 }
 
-std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows,
-                              const FragilityTable& fragility)
+std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows, const Table& more)
 {
-    const auto known = [&](std::int32_t motion) {
-        return motion >= 0 && static_cast<std::size_t>(motion) < header.motions.names.size();
-    };
-    if (!fragility.empty() && (fragility.motion.size() != rows.size() || fragility.intensity.size() != rows.size() ||
-                               !std::all_of(fragility.motion.begin(), fragility.motion.end(), known)))
-        throw InputError(fmt::format("{} realizations have {} motions, or some that are not there: the results are "
-                                     "damaged.\n  Run the study again into "
-                                     "a new file.",
-                                     rows.size(), fragility.motion.size()));
+    for (const Table::Column& column : more.columns())
+        if (column.shape != Table::Shape{rows.size()})
+            throw InputError(fmt::format("{} realizations do not have a value of '{}' each: the results are damaged.\n"
+                                         "  Run the study again into a new file.",
+                                         rows.size(), column.name));
     std::string text;
     {
-        Line line(text);
+        CsvRow line(text);
         line << "index"
              << "cell"
              << "frequency_hz"
              << "pga_m_s2";
-        if (!fragility.empty())
-            line << "motion"
-                 << "motion_name"
-                 << "intensity_" + fragility.measure;
+        for (const Table::Column& column : more.columns())
+            line << column.name;
         for (const std::string& name : header.input_names)
             line << input_column(name);
         visit_outcome(ResultRow{}, [&](std::string_view name, const auto&) { line << name; });
@@ -142,11 +92,10 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
             throw InputError(fmt::format("realization {} has fall times of {} blocks where {} are named: the results "
                                          "are damaged.\n  Run the study again into a new file.",
                                          row.index, row.outcome.fall_time_s.size(), header.block_names.size()));
-        Line line(text);
+        CsvRow line(text);
         line << row.index << row.cell << row.frequency_hz << row.pga_m_s2;
-        if (!fragility.empty())
-            line << fragility.motion[i] << header.motions.names.at(static_cast<std::size_t>(fragility.motion[i]))
-                 << fragility.intensity[i];
+        for (const Table::Column& column : more.columns())
+            std::visit([&](const auto& values) { line << values[i]; }, column.values);
         for (const double value : row.inputs)
             line << value;
         visit_outcome(row, [&](std::string_view, const auto& value) { line << word(value); });
@@ -160,10 +109,10 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
 std::string blocks_text(const ResultHeader& header)
 {
     std::string text;
-    Line(text) << "block"
-               << "name";
+    CsvRow(text) << "block"
+                 << "name";
     for (std::size_t i = 0; i < header.block_names.size(); ++i)
-        Line(text) << i << header.block_names[i];
+        CsvRow(text) << i << header.block_names[i];
     return text;
 }
 
@@ -179,7 +128,7 @@ std::string surface_text(const SurfaceTable& surface)
     const bool adaptive = surface.method.size() == cells;
     std::string text;
     {
-        Line line(text);
+        CsvRow line(text);
         line << "cell"
              << "frequency_hz"
              << "pga_m_s2"
@@ -193,7 +142,7 @@ std::string surface_text(const SurfaceTable& surface)
             line << "method";
     }
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        Line line(text);
+        CsvRow line(text);
         line << cell << surface.frequency_hz[cell / columns] << surface.pga_m_s2[cell % columns] << surface.trials[cell]
              << surface.collapses[cell] << surface.probability[cell] << surface.lower[cell] << surface.upper[cell]
              << surface.interval;
@@ -208,7 +157,7 @@ std::string counts_text(const ResultHeader& header, const Tally& tally)
     const std::size_t columns = header.pga_m_s2.size();
     std::string text;
     {
-        Line line(text);
+        CsvRow line(text);
         line << "cell"
              << "frequency_hz"
              << "pga_m_s2"
@@ -221,7 +170,7 @@ std::string counts_text(const ResultHeader& header, const Tally& tally)
         line << "first_together";
     }
     for (std::size_t cell = 0; cell < tally.cells(); ++cell) {
-        Line line(text);
+        CsvRow line(text);
         line << cell << header.frequency_hz[cell / columns] << header.pga_m_s2[cell % columns] << tally.trials[cell]
              << tally.invalid[cell];
         for (std::size_t i = 0; i < tally.limit_states; ++i)
@@ -262,43 +211,15 @@ void write_tables(const std::filesystem::path& folder, const ResultHeader& heade
 } // namespace
 
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
-               const SurfaceTable& surface, const FragilityTable& fragility)
+               const SurfaceTable& surface, const Table& more)
 {
-    write_tables(folder, header, surface, "realizations.csv", realizations_text(header, rows, fragility));
+    write_tables(folder, header, surface, "realizations.csv", realizations_text(header, rows, more));
 }
 
 void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
                       const SurfaceTable& surface)
 {
     write_tables(folder, header, surface, "counts.csv", counts_text(header, tally));
-}
-
-void write_sensitivity_csv(const std::filesystem::path& file, const SensitivityTable& table)
-{
-    std::string text;
-    Line(text) << "outcome"
-               << "unit"
-               << "index"
-               << "factor"
-               << "value"
-               << "lower"
-               << "upper";
-    const auto line = [&](std::size_t outcome, const std::string& index, const std::string& factor,
-                          const IntervalArray& of, std::size_t i) {
-        Line(text) << table.outcomes[outcome] << table.units[outcome] << index << factor << of.value[i] << of.lower[i]
-                   << of.upper[i];
-    };
-    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
-        line(o, "mean", "", table.mean, o);
-        if (!table.explained.value.empty())
-            line(o, "explained", "", table.explained, o);
-        for (const SensitivityTable::Index& index : table.indices)
-            for (std::size_t k = 0; k < table.factors.size(); ++k)
-                line(o, index.name, table.factors[k], index.of, o * table.factors.size() + k);
-    }
-    AtomicFile out(file);
-    out.write(text);
-    out.commit();
 }
 
 void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory)
@@ -314,7 +235,7 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
                                      trajectory.index));
     std::string text;
     {
-        Line line(text);
+        CsvRow line(text);
         line << "time_s"
              << "base_x_m";
         for (std::size_t i = 0; i < blocks; ++i)
@@ -324,7 +245,7 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
                  << fmt::format("half_width_m[{}]", i) << fmt::format("half_height_m[{}]", i);
     }
     for (std::size_t t = 0; t < samples; ++t) {
-        Line line(text);
+        CsvRow line(text);
         line << trajectory.time_s[t] << trajectory.base_x_m[t];
         for (std::size_t i = t * blocks; i < (t + 1) * blocks; ++i)
             line << trajectory.x_m[i] << trajectory.y_m[i] << trajectory.theta_rad[i];

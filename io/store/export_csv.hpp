@@ -9,28 +9,22 @@
 namespace stylobate {
 
 /// Writes `realizations.csv` (one line per row, every field of `ResultRow` and `Outcome`; drawn values in the columns
-/// "input_...", fall times in "fall_time_s[i]"; of a fragility study the number and name of the motion and the
-/// intensity, "intensity_pgv_m_s"),  `blocks.csv` (the name of block i) and, if the surface has axes,
+/// "input_...", fall times in "fall_time_s[i]"), `blocks.csv` (the name of block i) and, if the surface has axes,
 /// `surface.csv` (one line per cell, frequency by frequency) into `folder`, which is made if its parent exists. Numbers
 /// are the shortest decimals with the same double, "nan" and "inf" where they are not finite; a time that never came is
 /// "nan", a block that is none -1. Each file appears whole, and nothing is touched if the input is refused.
 ///
+/// @param more columns with a value for each row, that follow the cell's; none: an empty table
 /// @throws InputError if the folder cannot be made or written, if a row has another number of inputs or of fall times
 ///         than the header, or if the surface's arrays do not fit its axes
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
-               const SurfaceTable& surface, const FragilityTable& fragility = {});
+               const SurfaceTable& surface, const Table& more = Table("realizations"));
 
 /// The same of a result that keeps no rows: `counts.csv` instead of `realizations.csv`, one line per cell: its trials,
 /// its invalid realizations, how many reached each limit state, and how often each block fell first
 /// ("first_fallen[i]"), or several at the same step ("first_together").
 void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
                       const SurfaceTable& surface);
-
-/// Writes a table of sensitivities: a line for each outcome, index and factor, with value, lower and upper; the lines
-/// "mean" and "explained" have no factor.
-///
-/// @throws InputError if the file cannot be written
-void write_sensitivity_csv(const std::filesystem::path& file, const SensitivityTable& table);
 
 /// Writes a trajectory as one line per time: time_s, base_x_m, then x_m[i], y_m[i], theta_rad[i] for each block i,
 /// from the bottom. Where the blocks stand at rest and their sizes follow as rest_x_m[i], rest_y_m[i], half_width_m[i],

@@ -2,11 +2,8 @@
 #include "io/store/result_file.hpp"
 #include "io/store/result_store.hpp"
 #include "io/store/result_trajectory.hpp"
-#include "io/store/tables/result_fragility.hpp"
-#include "io/store/tables/result_rare.hpp"
-#include "io/store/tables/result_sensitivity.hpp"
-#include "io/store/tables/result_twins.hpp"
 #include "io/store/tally_file.hpp"
+#include "io/tables/table_hdf5.hpp"
 
 #include <algorithm>
 #include <map>
@@ -213,24 +210,9 @@ SurfaceTable ResultReader::surface() const
     });
 }
 
-SensitivityTable ResultReader::sensitivity() const
+Table ResultReader::table(const std::string& name) const
 {
-    return impl_->guarded([](hid_t file) { return read_sensitivity_table(file); });
-}
-
-RareTable ResultReader::rare() const
-{
-    return impl_->guarded([](hid_t file) { return read_rare_table(file); });
-}
-
-FragilityTable ResultReader::fragility() const
-{
-    return impl_->guarded([](hid_t file) { return read_fragility_table(file); });
-}
-
-std::vector<FollowedTwin> ResultReader::twins() const
-{
-    return impl_->guarded([](hid_t file) { return read_twins_group(file); });
+    return impl_->guarded([&](hid_t file) { return read_table(file, name, impl_->file.path.string()); });
 }
 
 std::vector<std::uint64_t> ResultReader::trajectory_indices() const

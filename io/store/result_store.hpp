@@ -1,14 +1,11 @@
 #pragma once
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
-#include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "io/store/tally.hpp"
-#include "io/tables/fragility_table.hpp"
-#include "io/tables/rare_table.hpp"
-#include "io/tables/sensitivity_table.hpp"
+#include "io/tables/table.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -129,19 +126,19 @@ public:
     std::optional<State> state(std::uint64_t index) const;
     /// Rows in the file already.
     std::uint64_t rows() const;
+    /// These rows, in index order.
+    void for_each_row(const std::function<void(const ResultRow&)>& f) const;
 
     /// Takes one row; not thread-safe. A row that is there already changes nothing.
     /// @throws std::system_error if it cannot be written (full disk); what is written already stays
     void add(const ResultRow& row);
     /// Takes a trajectory; of several of one index the last. Added before its row it is there where the row is.
     void add(const Trajectory& trajectory);
-    /// Writes a file of all rows in index order, the table of the surface, of the sensitivities, of a rare event or of
-    /// fragility, the twins that were followed and the trajectories, which takes the place of this one, in one step:
-    /// killed meanwhile, the file stays as it was. All rows must have been added; where they are selected, those that
-    /// were added are all. Needs the disk space of the file once more.
-    void finish(const SurfaceTable* surface, const SensitivityTable* sensitivity = nullptr,
-                const RareTable* rare = nullptr, const std::vector<FollowedTwin>* twins = nullptr,
-                const FragilityTable* fragility = nullptr);
+    /// Writes a file of all rows in index order, the surface, the tables and the trajectories, which takes the place of
+    /// this one, in one step: killed meanwhile, the file stays as it was. All rows must have been added; where they are
+    /// selected, those that were added are all. Needs the disk space of the file once more.
+    /// @param surface null where the study has none
+    void finish(const SurfaceTable* surface, const std::vector<Table>& tables = {});
     /// Makes what was written so far safe against the end of the machine; that of the process cannot hurt them.
     void flush();
 
@@ -177,14 +174,8 @@ public:
     const Tally* tally() const;
     /// Empty axes if there is none.
     SurfaceTable surface() const;
-    /// Empty if there is none.
-    SensitivityTable sensitivity() const;
-    /// Empty if there is none.
-    RareTable rare() const;
-    /// Empty if there is none.
-    FragilityTable fragility() const;
-    /// Twins that were followed, of a surface with twins that is complete.
-    std::vector<FollowedTwin> twins() const;
+    /// A table that `ResultWriter::finish` was given; an empty one if there is none of this name.
+    Table table(const std::string& name) const;
     std::vector<std::uint64_t> trajectory_indices() const;
     /// @throws InputError if there is none of this index
     Trajectory trajectory(std::uint64_t index) const;

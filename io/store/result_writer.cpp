@@ -2,10 +2,7 @@
 #include "io/store/result_file.hpp"
 #include "io/store/result_store.hpp"
 #include "io/store/result_trajectory.hpp"
-#include "io/store/tables/result_fragility.hpp"
-#include "io/store/tables/result_rare.hpp"
-#include "io/store/tables/result_sensitivity.hpp"
-#include "io/store/tables/result_twins.hpp"
+#include "io/tables/table_hdf5.hpp"
 
 #include <map>
 #include <stdexcept>
@@ -60,6 +57,13 @@ struct ResultWriter::Impl {
             file.refuse_damaged("two of its rows are of one realization");
     }
 
+    /// @param place as in `places`
+    ResultRow row(std::uint64_t place) const
+    {
+        const RowJournal::Record record{RowJournal::Kind::row, place / states, file.layout.row_bytes()};
+        return file.decode(0, RowJournal::content(file.handle, record));
+    }
+
     /// A file of all rows in index order. @param handle holds the path
     /// @returns it, unsealed, its rows' places known
     ResultFile write_ordered(const std::filesystem::path& path, FileHandle handle) const;
@@ -88,8 +92,7 @@ ResultFile ResultWriter::Impl::write_ordered(const std::filesystem::path& path, 
     std::uint64_t chunk = 0, k = 0;
     std::vector<std::byte> bytes(to.layout.row_bytes() * to.layout.rows_in(0));
     places.for_each([&](std::uint64_t place) {
-        const RowJournal::Record record{RowJournal::Kind::row, place / states, file.layout.row_bytes()};
-        to.layout.encode(k++, file.decode(0, RowJournal::content(file.handle, record)), bytes);
+        to.layout.encode(k++, row(place), bytes);
         if (k < to.layout.rows_in(chunk))
             return;
         to.write_chunk(chunk, bytes);
@@ -177,6 +180,12 @@ std::uint64_t ResultWriter::rows() const
     return impl_->places.added();
 }
 
+void ResultWriter::for_each_row(const std::function<void(const ResultRow&)>& f) const
+{
+    impl_->check_open();
+    impl_->places.for_each([&](std::uint64_t place) { f(impl_->row(place)); });
+}
+
 void ResultWriter::add(const ResultRow& row)
 {
     impl_->check_open();
@@ -208,8 +217,7 @@ void ResultWriter::flush()
     impl_->file.handle.sync();
 }
 
-void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* sensitivity, const RareTable* rare,
-                          const std::vector<FollowedTwin>* twins, const FragilityTable* fragility)
+void ResultWriter::finish(const SurfaceTable* surface, const std::vector<Table>& tables)
 {
     impl_->check_open();
     ResultFile& file = impl_->file;
@@ -230,14 +238,8 @@ void ResultWriter::finish(const SurfaceTable* surface, const SensitivityTable* s
     hdf5::Handle opened = hdf5::open_file(unready, true);
     if (surface)
         write_surface(opened.id(), *surface);
-    if (sensitivity)
-        write_sensitivity(opened.id(), *sensitivity);
-    if (rare)
-        write_rare(opened.id(), *rare);
-    if (twins)
-        write_twins(opened.id(), *twins);
-    if (fragility)
-        write_fragility(opened.id(), *fragility);
+    for (const Table& table : tables)
+        write_table(opened.id(), table);
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, record] : impl_->trajectories)

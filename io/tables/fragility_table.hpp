@@ -1,7 +1,7 @@
 #pragma once
 /// What a fragility study found, as plain data: /fragility of a results file.
 
-#include "io/tables/sensitivity_table.hpp"
+#include "io/tables/table.hpp"
 
 #include <cstdint>
 #include <string>
@@ -25,5 +25,10 @@ struct FragilityTable {
 
     bool empty() const { return motion.empty(); }
 };
+
+/// /fragility.
+Table to_table(const FragilityTable& fragility);
+/// The same from what was read; empty if there is none. @throws InputError if it is not as it was written
+FragilityTable fragility_table(const Table& table);
 
 } // namespace stylobate

@@ -1,6 +1,8 @@
 #pragma once
 /// What a study of rare events found, as plain data: /rare of a results file.
 
+#include "io/tables/table.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -24,5 +26,10 @@ struct RareTable {
 
     bool empty() const { return repeats.empty(); }
 };
+
+/// /rare.
+Table to_table(const RareTable& rare);
+/// The same from what was read; empty if there is none. @throws InputError if it is not as it was written
+RareTable rare_table(const Table& table);
 
 } // namespace stylobate

@@ -1,23 +1,13 @@
 #pragma once
 /// What a sensitivity study found, as plain data: /sensitivity of a results file.
 
+#include "io/tables/table.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace stylobate {
-
-/// Values with their intervals, row by row; NaN, all three, where the data do not determine one.
-struct IntervalArray {
-    std::vector<double> value, lower, upper;
-
-    void add(double v, double low, double high)
-    {
-        value.push_back(v);
-        lower.push_back(low);
-        upper.push_back(high);
-    }
-};
 
 struct SensitivityTable {
     /// What is told of every factor: "first", "total", or "mu_star".
@@ -51,5 +41,12 @@ struct SensitivityTable {
 };
 
 inline constexpr char rest_name[] = "the rest";
+
+/// /sensitivity. @throws std::invalid_argument if its arrays do not fit its names
+Table to_table(const SensitivityTable& sensitivity);
+/// The same from what was read; empty if there is none. @throws InputError if it is not as it was written
+SensitivityTable sensitivity_table(const Table& table);
+/// A line for each outcome, index and factor, with value, lower and upper; "mean" and "explained" have no factor.
+Table listed(const SensitivityTable& sensitivity);
 
 } // namespace stylobate

@@ -33,7 +33,7 @@ struct CommonOptions {
 /// What `export` is asked for; empty, or -1: not said.
 struct ExportOptions {
     std::string format;              ///< "png", "svg" or "pdf" of a picture; "csv", "nrml" or "json" of tables
-    std::string picture;             ///< "surface", "slice", "fragility", "sensitivity", "strip" or "order"
+    std::string picture;             ///< of `picture_names`
     std::string output;              ///< file of the picture, folder of the tables
     std::string limit;               ///< limit state of a surface or slice
     long long realization = -1;      ///< of a strip
@@ -53,6 +53,13 @@ struct CalibrateOptions {
     bool held_out = true;           ///< predict each motion by what the others say
 };
 
+/// What `diagnose` is asked for.
+struct DiagnoseOptions {
+    long long nulls = 32; ///< campaigns with nothing hidden that are simulated for the null distribution
+    long long seed = 1;   ///< of what is drawn in them
+    bool windows = false; ///< whether free windows of the simulation judge causes too
+};
+
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
@@ -60,16 +67,16 @@ int replay_command(const CommonOptions& options, const std::string& results, con
 /// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none
 int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
                    const std::string& component, const std::string& block);
+/// The pictures of results of every kind.
+std::vector<std::string> picture_names();
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 /// @param output the page; empty: beside the file, with .html
 /// @param title of the page, instead of the study's or the file's name; empty: not said
 int report_command(const CommonOptions& options, const std::string& file, std::string output, const std::string& title);
 /// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with
 /// _diagnosis.h5
-/// @param nulls campaigns with nothing hidden that are simulated to learn what chance gives
-/// @param windows whether free windows of the simulation judge causes too
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,
-                     std::string output, long long nulls, long long seed, bool windows);
+                     std::string output, const DiagnoseOptions& wanted);
 /// @param file measured data, outcomes or results; empty: about the program
 int info_command(const CommonOptions& options, const std::string& file);
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);

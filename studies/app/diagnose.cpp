@@ -41,7 +41,7 @@ std::string shell_word(const std::string& word)
 } // namespace
 
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study_file,
-                     std::string output, long long nulls, long long seed, bool windows)
+                     std::string output, const DiagnoseOptions& wanted)
 {
     check_kind(measured, "diagnose");
     check_option_kind(study_file, FileKind::study, "--study");
@@ -64,9 +64,9 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         const AtomicFile writable(output);
     }
 
-    how.seed = static_cast<std::uint64_t>(seed);
-    how.nulls = static_cast<std::uint64_t>(nulls);
-    how.windows = windows;
+    how.seed = static_cast<std::uint64_t>(wanted.seed);
+    how.nulls = static_cast<std::uint64_t>(wanted.nulls);
+    how.windows = wanted.windows;
     how.cache = beside / (stem + "_chance.txt");
     how.run = {options.isa(), options.thread_count()};
     Console console(options.quiet);
@@ -93,8 +93,8 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         diagnosis->command += " --study " + shell_word(study_file);
     for (const std::string& setting : options.set)
         diagnosis->command += " --set " + shell_word(setting);
-    diagnosis->command +=
-        fmt::format(" -o {} --nulls {} --seed {}{}", shell_word(output), nulls, seed, windows ? " --windows" : "");
+    diagnosis->command += fmt::format(" -o {} --nulls {} --seed {}{}", shell_word(output), wanted.nulls, wanted.seed,
+                                      wanted.windows ? " --windows" : "");
     if (!diagnosis->extended_study.empty()) {
         AtomicFile file(how.extension);
         file.write(diagnosis->extended_study);

@@ -2,22 +2,15 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/plots/plot_rare.hpp"
-#include "io/plots/plot_sensitivity.hpp"
-#include "io/plots/plot_slice.hpp"
-#include "io/plots/plot_surface.hpp"
 #include "io/store/export_csv.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
-#include "studies/experiment/limit_state.hpp"
-#include "studies/experiment/loaded_study.hpp"
-#include "studies/kinds/fragility/exchange.hpp"
-#include "studies/kinds/fragility/fragility_text.hpp"
-#include "studies/kinds/replicas/twins_text.hpp"
-#include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
+#include "studies/results/kinds.hpp"
+#include "studies/results/result_picture.hpp"
+#include "studies/results/results.hpp"
 
 #include <fmt/format.h>
 
@@ -70,134 +63,117 @@ std::string format_of(const ExportOptions& wanted)
     return wanted.format;
 }
 
-/// The picture that is asked for, or else the one that suits the results.
-/// @throws InputError for an option that this picture does not use
-std::string picture_of(const ResultHeader& header, const ExportOptions& wanted)
+/// The pictures that all results have.
+constexpr PictureKind strip{"strip", ""}, order{"order", ""};
+
+/// The picture of that name.
+/// @throws InputError with what these results have, and which results have it
+PictureKind picture_named(const std::string& name, const Results& results)
 {
-    std::string picture = wanted.picture;
-    if (picture.empty())
-        picture = wanted.cell >= 0               ? "order"
-                  : wanted.realization >= 0      ? "strip"
-                  : !wanted.frequencies.empty()  ? "slice"
-                  : header.kind == "fragility"   ? "fragility"
-                  : header.kind == "sensitivity" ? "sensitivity"
-                  : header.kind == "rare"        ? "rare"
-                  : header.frequency_hz.empty()  ? "strip"
-                                                 : "surface";
-    const bool of_surface = picture == "surface" || picture == "slice" || picture == "fragility";
-    if (!wanted.limit.empty() && !of_surface)
+    std::vector<PictureKind> all(results.kind().pictures().begin(), results.kind().pictures().end());
+    all.insert(all.end(), {strip, order});
+    if (const auto found = std::ranges::find(all, name, &PictureKind::name); found != all.end())
+        return *found;
+    std::string names;
+    for (const PictureKind& each : all)
+        names += (names.empty() ? "" : ", ") + std::string(each.name);
+    const std::vector<PictureKind> of_kinds = kind_pictures();
+    const auto meant = std::ranges::find(of_kinds, name, &PictureKind::name);
+    throw InputError(fmt::format("--picture {}: {} is a result of kind '{}', which has the pictures {}.{}", name,
+                                 results.file(), results.header().kind, names,
+                                 meant == of_kinds.end() ? "" : fmt::format("\n  That one is of {}.", meant->of)));
+}
+
+/// The picture that is asked for, or else the one that suits the results.
+/// @throws InputError for a picture that they do not have, and for an option that the picture does not use
+PictureKind picture_of(const Results& results, const ExportOptions& wanted)
+{
+    const std::span<const PictureKind> own = results.kind().pictures();
+    const auto of_slices = std::ranges::find(own, true, &PictureKind::slices);
+    const PictureKind picture = !wanted.picture.empty()                  ? picture_named(wanted.picture, results)
+                                : wanted.cell >= 0                       ? order
+                                : wanted.realization >= 0 || own.empty() ? strip
+                                : !wanted.frequencies.empty() && of_slices != own.end() ? *of_slices
+                                                                                        : own.front();
+    if (!wanted.limit.empty() && !picture.limit)
         throw InputError(
             fmt::format("--limit {}: the picture '{}' shows no limit state; surface, slice and fragility do",
-                        wanted.limit, picture));
-    if (wanted.cell >= 0 && picture != "order")
+                        wanted.limit, picture.name));
+    if (wanted.cell >= 0 && picture.name != order.name)
         throw InputError(fmt::format("--cell {}: only --picture order is of one cell", wanted.cell));
-    if (wanted.realization >= 0 && picture != "strip")
+    if (wanted.realization >= 0 && picture.name != strip.name)
         throw InputError(
             fmt::format("--realization {}: only --picture strip is of one realization", wanted.realization));
-    if (!wanted.frequencies.empty() && picture != "slice")
+    if (!wanted.frequencies.empty() && !picture.slices)
         throw InputError(fmt::format("--frequency {}: only --picture slice is of some frequencies",
                                      fmt::join(wanted.frequencies, ",")));
     return picture;
 }
 
-/// "surface", "slice_2Hz_4Hz_slid", "strip_realization_7": two pictures of one result differ in their names.
-std::string picture_name(const std::string& picture, const ExportOptions& wanted, const SurfaceTable& surface,
-                         std::uint64_t realization)
-{
-    std::string name = picture;
-    if (picture == "strip")
-        name += fmt::format("_realization_{}", realization);
-    if (wanted.cell >= 0)
-        name += fmt::format("_cell_{}", wanted.cell);
-    if (!wanted.frequencies.empty())
-        for (const std::size_t row : slice_rows(surface, wanted.frequencies))
-            name += fmt::format("_{:.4g}Hz", surface.frequency_hz[row]);
-    return wanted.limit.empty() ? name : name + "_" + wanted.limit;
-}
-
-fs::path export_picture(const CommonOptions& options, const std::string& results, const ExportOptions& wanted,
+fs::path export_picture(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
                         const std::string& format)
 {
-    const ResultReader reader(results);
-    check_settings(reader.header(), results, options.set);
-    const std::string picture = picture_of(reader.header(), wanted);
-    LimitState limit = LimitState::collapse;
-    SurfaceTable surface;
-    if (picture == "surface" || picture == "slice") {
-        const std::vector<std::string>& known = limit_state_names();
-        if (!wanted.limit.empty() && std::find(known.begin(), known.end(), wanted.limit) == known.end())
-            throw InputError(fmt::format("--limit {}: a surface knows {}", wanted.limit, fmt::join(known, ", ")));
-        if (!wanted.limit.empty())
-            limit = limit_state_of(wanted.limit);
-        surface = surface_so_far(reader, results, limit);
-    }
+    const Results results(file, options.set);
+    const PictureKind asked = picture_of(results, wanted);
     const std::uint64_t realization =
-        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : reader.header().first;
-    const std::string name = picture_name(picture, wanted, surface, realization);
-    const fs::path file = wanted.output.empty() ? beside(results, "_" + name + "." + format) : fs::path(wanted.output);
-    check_output(results, file, options.force);
-
-    const auto title = [&](const std::string& of) {
-        const std::string partial = surface.trials.empty() ? "" : partial_words(reader, results, surface);
-        return (wanted.title.empty() ? of + ": " + title_of(reader, results) : wanted.title) + partial;
-    };
-    if (picture == "strip") {
-        strip_picture({options.set, options.isa()}, reader, results, realization, wanted.title, file);
-    } else if (picture == "fragility") {
-        std::vector<std::string> limits;
-        if (!wanted.limit.empty())
-            limits.push_back(wanted.limit);
-        plot_fragility(fragility_of(reader, results), limits, title("Fragility"), file);
-    } else if (picture == "order") {
-        order_picture(reader, results, wanted.cell, wanted.title, file);
-    } else if (picture == "sensitivity") {
-        plot_sensitivity(finished_sensitivity(reader, results), title("What it depends on"), file);
-    } else if (picture == "rare") {
-        plot_rare(finished_rare(reader, results), title("Probability of collapse"), file);
-    } else if (picture == "twins") {
-        plot_flips(twins_of(reader, results), title("How sure the verdict is"), file);
-    } else if (picture == "predictability") {
-        plot_growth(twins_of(reader, results), title("How long the motion can be foretold"), file);
-    } else if (picture == "slice") {
-        plot_slice(surface, wanted.frequencies, describe(limit),
-                   title("Probability of " + std::string(describe(limit))), file);
+        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+    Picture picture;
+    if (asked.name == strip.name) {
+        picture.name = fmt::format("strip_realization_{}", realization);
+        picture.draw = [&](const std::string& title, const fs::path& to) {
+            strip_picture(results, options.isa(), realization, title, to);
+        };
+    } else if (asked.name == order.name) {
+        picture.name = wanted.cell >= 0 ? fmt::format("order_cell_{}", wanted.cell) : "order";
+        picture.draw = [&](const std::string& title, const fs::path& to) {
+            order_picture(results, wanted.cell, title, to);
+        };
     } else {
-        plot_surface(surface, describe(limit), title("Probability of " + std::string(describe(limit))), file);
+        const bool all = results.kind().pictures_want_all(asked.name);
+        picture = (all ? results.concluded() : results.kind())
+                      .picture(results.reader(), file, {asked.name, wanted.limit, wanted.frequencies});
     }
-    return file;
+    // two pictures of one result differ in their names
+    const fs::path to =
+        wanted.output.empty() ? beside(file, "_" + picture.name + "." + format) : fs::path(wanted.output);
+    check_output(file, to, options.force);
+    const std::string title = !wanted.title.empty()   ? wanted.title
+                              : picture.title.empty() ? ""
+                                                      : picture.title + ": " + results.title();
+    picture.draw(title + picture.partial, to);
+    return to;
 }
 
-void export_csv(const ResultReader& reader, const std::string& results, const fs::path& folder)
+/// One that is refused leaves nothing half-written: all texts are there before the first file.
+void write_files(const std::vector<std::pair<std::string, std::string>>& files, const fs::path& folder)
 {
-    const SurfaceTable surface = reader.complete() ? reader.surface() : SurfaceTable{};
-    if (const Tally* tally = reader.tally())
+    std::error_code error;
+    fs::create_directory(folder, error);
+    if (!fs::is_directory(folder))
+        throw InputError(folder.string(), 0, "cannot be made a folder: " + error.message());
+    for (const auto& [name, text] : files)
+        write_whole(folder / name, text);
+}
+
+void export_csv(const Results& results, const std::string& name, const fs::path& folder)
+{
+    const ResultReader& reader = results.reader();
+    const bool complete = reader.complete();
+    const SurfaceTable surface = complete ? reader.surface() : SurfaceTable{};
+    const auto files =
+        complete ? results.concluded().files("csv", name) : std::vector<std::pair<std::string, std::string>>{};
+    if (const Tally* tally = reader.tally()) {
         write_counts_csv(folder, reader.header(), *tally, surface);
-    else
-        write_csv(folder, reader.header(), reader.rows(), surface, reader.fragility());
-    if (reader.header().kind == "fragility" && reader.complete()) {
-        write_whole(folder / "motions.csv", motions_csv(reader.header().motions));
-        const Fragility fragility = fragility_of(reader, results);
-        if (!fragility.states.empty())
-            write_models(fragility_models(fragility, fs::path(results).stem().string()), "csv", folder);
+    } else {
+        const std::vector<ResultRow> rows = reader.rows();
+        write_csv(folder, reader.header(), rows, surface, results.kind().columns(rows));
     }
-    if (reader.complete() && !reader.sensitivity().empty())
-        write_sensitivity_csv(folder / "sensitivity.csv", reader.sensitivity());
-    if (has_twins(reader, results))
-        write_twins_csv(folder, twins_of(reader, results));
+    write_files(files, folder);
     for (const std::uint64_t index : reader.trajectory_indices())
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
 }
 
-/// Fragility functions for other tools.
-void export_models(const ResultReader& reader, const std::string& results, const std::string& format,
-                   const fs::path& folder)
-{
-    if (!reader.complete())
-        throw InputError(results + ": the study is not finished; run it again to go on");
-    write_models(fragility_models(fragility_of(reader, results), fs::path(results).stem().string()), format, folder);
-}
-
-fs::path export_tables(const CommonOptions& options, const std::string& results, const ExportOptions& wanted,
+fs::path export_tables(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
                        const std::string& format)
 {
     const std::string of_picture = !wanted.limit.empty()     ? "--limit " + wanted.limit
@@ -211,18 +187,27 @@ fs::path export_tables(const CommonOptions& options, const std::string& results,
     if (!of_picture.empty())
         throw InputError(of_picture +
                          ": is for --to png, svg or pdf; the tables hold every realization and every limit state");
-    const ResultReader reader(results);
-    check_settings(reader.header(), results, options.set);
-    const fs::path folder = wanted.output.empty() ? beside(results, "_" + format) : fs::path(wanted.output);
-    check_output_folder(results, folder, options.force);
+    const Results results(file, options.set);
+    const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
+    check_output_folder(file, folder, options.force);
+    const std::string name = fs::path(file).stem().string();
     if (format == "csv")
-        export_csv(reader, results, folder);
+        export_csv(results, name, folder);
     else
-        export_models(reader, results, format, folder);
+        write_files(results.concluded().files(format, name), folder);
     return folder;
 }
 
 } // namespace
+
+std::vector<std::string> picture_names()
+{
+    std::vector<std::string> names;
+    for (const PictureKind& picture : kind_pictures())
+        names.emplace_back(picture.name);
+    names.insert(names.end(), {std::string(strip.name), std::string(order.name)});
+    return names;
+}
 
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted)
 {

@@ -15,8 +15,8 @@
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/experiment/loaded_study.hpp"
-#include "studies/pages/report_study.hpp"
 #include "studies/report/json.hpp"
+#include "studies/results/study_facts.hpp"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,9 @@
 #include "studies/app/command.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
-#include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/pages/result_picture.hpp"
 #include "studies/report/json.hpp"
+#include "studies/results/results.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -97,11 +96,11 @@ int replay_command(const CommonOptions& options, const std::string& results, con
                    const std::string& trajectory)
 {
     check_kind(results, "replay");
-    const ResultReader reader(results);
+    const Results file(results, options.set);
+    const ResultReader& reader = file.reader();
     const ResultHeader& header = reader.header();
-    check_replayable(header, results);
-    const LoadedStudy loaded = LoadedStudy::from_results(header, results, options.set);
-    const ChosenRealization chosen = choose_realization(reader, loaded.study(), results, choice);
+    const Experiment& experiment = file.experiment();
+    const ChosenRealization chosen = choose_realization(file, choice);
     const std::uint64_t index = chosen.index;
     if (!trajectory.empty())
         check_output(results, trajectory, options.force);
@@ -115,8 +114,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.frequency_hz.clear();
     one.pga_m_s2.clear();
     one.code_version = code_version();
-    const FollowedRealization f = follow(loaded.experiment(), index, options.isa());
-    const ResultRow row = result_row(loaded.study(), f.realization, f.outcome);
+    const FollowedRealization f = follow(experiment, index, options.isa());
+    const ResultRow row = result_row(experiment.study(), f.realization, f.outcome);
     if (!trajectory.empty()) // made only now: an interrupted replay leaves no file
         write_replay(trajectory, one, row, f.trajectory);
 
@@ -125,7 +124,7 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     const bool known = reader.has(index);
     const bool same = known && same_bits(reader.row(index), row);
     const Outcome& o = f.outcome;
-    const double total_s = total_collapse_s(loaded.study(), f);
+    const double total_s = total_collapse_s(experiment.study(), f);
     if (options.json) {
         Json json = Json::object();
         json.member("realization", index)

@@ -1,18 +1,16 @@
 /// `stylobate report`: a result, a diagnosis or a calibration as one page.
 
-#include "studies/pages/report.hpp"
-
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
-#include "studies/calibration/calibration_file.hpp"
+#include "studies/calibration/calibration_page.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/experiment/loaded_study.hpp"
-#include "studies/pages/result_picture.hpp"
+#include "studies/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/json.hpp"
+#include "studies/results/result_page.hpp"
 
 #include <fmt/format.h>
 
@@ -52,11 +50,10 @@ int report_command(const CommonOptions& options, const std::string& file, std::s
     } else if (kind == FileKind::calibration) {
         page = calibration_page(read_calibration(file), file, title).text();
     } else {
-        const ResultReader reader(file);
-        check_complete(reader, file);
-        check_settings(reader.header(), file, options.set);
+        const Results results(file, options.set);
+        check_complete(results.reader(), file);
         const AtomicFile writable(output); // refuses before the pictures are drawn
-        page = result_page({options.set, options.isa()}, reader, file, title, warnings).text();
+        page = result_page(results, options.isa(), title, warnings).text();
     }
     AtomicFile target(output);
     target.write(page);

@@ -70,11 +70,10 @@ Experiment with_motions(Study study)
 
 } // namespace
 
-void check_settings(const ResultHeader& header, const std::string& file, const std::vector<std::string>& settings)
+void check_settings(const Study& study, const std::string& file, const std::vector<std::string>& settings)
 {
     if (settings.empty())
         return;
-    const Study study = parse_study(header.study_toml, file + " (its study)");
     const ExcitationKind kind = study.excitation.kind;
     const bool has_record = (kind == ExcitationKind::record || kind == ExcitationKind::table) && !study.fragility;
     for (const std::string& setting : settings) {
@@ -100,11 +99,11 @@ LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<st
     return LoadedStudy(read_study(file, settings));
 }
 
-LoadedStudy LoadedStudy::from_results(const ResultHeader& header, const std::string& file,
+LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeader& header, const std::string& file,
                                       const std::vector<std::string>& settings)
 {
-    check_settings(header, file, settings);
-    LoadedStudy loaded(parse_study(header.study_toml, file + " (its study)", settings));
+    check_settings(of_results, file, settings);
+    LoadedStudy loaded(settings.empty() ? of_results : parse_study(header.study_toml, file + " (its study)", settings));
     const Study& study = loaded.study();
     const auto check = [&](const std::string& record, const std::string& setting, const std::string& print) {
         if (header.study_toml.find(print) == std::string::npos)

@@ -18,7 +18,8 @@ public:
 
     /// From the study inside a results file. `settings` may only say where the record lies now.
     /// @throws InputError as above, and if the record is not the one that the results were made with
-    static LoadedStudy from_results(const ResultHeader& header, const std::string& file,
+    /// @param study as its text says
+    static LoadedStudy from_results(const Study& study, const ResultHeader& header, const std::string& file,
                                     const std::vector<std::string>& settings);
 
     const Experiment& experiment() const { return experiment_; }
@@ -49,7 +50,7 @@ std::uint64_t most_realizations(const Study& study);
 /// The study of results is fixed: all that may be set is where its record lies now. For verbs that may not even need
 /// it.
 /// @throws InputError for any other setting, and if the study has no record
-void check_settings(const ResultHeader& header, const std::string& file, const std::vector<std::string>& settings);
+void check_settings(const Study& study, const std::string& file, const std::vector<std::string>& settings);
 
 /// One more than the last realization that a result may be asked for: of an adaptive surface any of its study, run or
 /// not.

@@ -5,6 +5,7 @@
 
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/fragility_table.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>
@@ -98,7 +99,7 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     EXPECT_GT(want.upper - want.lower, 0.1);
 
     // what the file keeps of it: motion and intensity of each realization, and the curves
-    const FragilityTable table = reader.fragility();
+    const FragilityTable table = fragility_table(reader.table("fragility"));
     EXPECT_EQ(table.measure, "pgv_m_s");
     ASSERT_EQ(table.motion.size(), 1200U);
     for (const ResultRow& row : reader.rows()) {

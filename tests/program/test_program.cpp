@@ -11,11 +11,11 @@
 namespace stylobate {
 namespace {
 
-using Kind = JsonValue::Kind;
+using JsonKind = JsonValue::Kind;
 
-void expect_members(const JsonValue& object, Kind kind, const std::vector<std::string>& keys)
+void expect_members(const JsonValue& object, JsonKind kind, const std::vector<std::string>& keys)
 {
-    ASSERT_EQ(object.kind, Kind::object);
+    ASSERT_EQ(object.kind, JsonKind::object);
     for (const std::string& key : keys) {
         ASSERT_TRUE(object.has(key)) << key;
         EXPECT_EQ(object[key].kind, kind) << key;
@@ -96,9 +96,9 @@ TEST_F(Verbs, Info)
         EXPECT_NE(plain.out.find(part), std::string::npos) << part;
 
     const JsonValue json = json_of(run({"info", "--json", "--threads", "3", "--simd", "scalar"}));
-    expect_members(json, Kind::text, {"version", "simd_used"});
-    expect_members(json, Kind::boolean, {"gpu", "mpi"});
-    ASSERT_EQ(json["simd"].kind, Kind::list);
+    expect_members(json, JsonKind::text, {"version", "simd_used"});
+    expect_members(json, JsonKind::boolean, {"gpu", "mpi"});
+    ASSERT_EQ(json["simd"].kind, JsonKind::list);
     EXPECT_EQ(json["simd"].items.at(0).text, "scalar");
     EXPECT_EQ(json["simd_used"].text, "scalar");
     EXPECT_EQ(json["lanes"].number, 1);
@@ -110,7 +110,8 @@ TEST_F(Verbs, RunSaysWhatItDid)
     const Ended ended = run_eight({"-o", "eight.h5", "--json", "--threads", "2"});
     EXPECT_EQ(ended.err, "");
     const JsonValue json = json_of(ended);
-    expect_members(json, Kind::number, {"seconds", "realizations_per_second", "block_steps_per_second", "occupancy"});
+    expect_members(json, JsonKind::number,
+                   {"seconds", "realizations_per_second", "block_steps_per_second", "occupancy"});
     EXPECT_EQ(json["kind"].text, "surface");
     EXPECT_EQ(json["results"].text, "eight.h5");
     EXPECT_TRUE(json["complete"].boolean);

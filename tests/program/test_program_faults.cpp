@@ -268,7 +268,7 @@ TEST_F(Faults, ResultsOfAnotherStudyAndCompleteOnes)
     const std::string rocking = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
     ASSERT_EQ(run({"run", rocking, "-o", "single.h5"}).status, 0);
     expect_refused({"export", "single.h5", "--to", "png", "--picture", "surface"},
-                   {"single.h5", "no surface", "strip"});
+                   {"single.h5", "single", "strip", "of a surface"});
 }
 
 TEST_F(Faults, DamagedResults)

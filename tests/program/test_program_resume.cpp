@@ -3,8 +3,9 @@
 #include "tests/program/program.hpp"
 
 #include "io/store/result_store.hpp"
+#include "io/study/study_file.hpp"
 #include "kernels/isa.hpp"
-#include "studies/pages/result_picture.hpp"
+#include "studies/kinds/surface/surface_kind.hpp"
 
 #include <cmath>
 #include <random>
@@ -238,7 +239,8 @@ TEST_F(Resume, AnInterimShareIsThatOfTheWhole)
 
         // so is a picture of it, which states of how many realizations it is
         const ResultReader reader(folder / "a.h5");
-        const SurfaceTable surface = surface_so_far(reader, "a.h5", LimitState::collapse);
+        const Study of_a = parse_study(reader.header().study_toml, "its study");
+        const SurfaceTable surface = surface_so_far(reader, of_a, "a.h5", LimitState::collapse);
         const SurfaceTable whole = ResultReader(folder / "whole.h5").surface();
         std::uint64_t drawn = 0;
         for (std::size_t cell = 0; cell < surface.trials.size(); ++cell) {
@@ -256,7 +258,7 @@ TEST_F(Resume, AnInterimShareIsThatOfTheWhole)
         EXPECT_LT(json["collapse_lower"].number, final_share + sd);
         EXPECT_GT(json["collapse_upper"].number, final_share - sd);
         EXPECT_LT(json["collapse_upper"].number - json["collapse_lower"].number, 4.2 * sd) << drawn;
-        const std::string words = partial_words(reader, "a.h5", surface);
+        const std::string words = partial_words(reader, of_a, surface);
         EXPECT_NE(words.find("partial: "), std::string::npos) << words;
         EXPECT_NE(words.find(slow_build ? " of 2,048 realizations" : " of 5,120 realizations"), std::string::npos)
             << words;
@@ -268,7 +270,7 @@ TEST_F(Resume, AnInterimShareIsThatOfTheWhole)
         }
     }
     const ResultReader reader(folder / "whole.h5");
-    EXPECT_EQ(partial_words(reader, "whole.h5", reader.surface()), "");
+    EXPECT_EQ(partial_words(reader, parse_study(reader.header().study_toml, "its study"), reader.surface()), "");
 }
 
 TEST_F(Resume, AFinishedResultIsNoMistake)

@@ -5,6 +5,7 @@
 
 #include "ensemble/numerics/interval.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/rare_table.hpp"
 
 #include <fmt/format.h>
 
@@ -98,7 +99,7 @@ TEST_F(RareStatistics, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
     EXPECT_TRUE(read_bytes(folder / "whole.h5") == read_bytes(folder / "parts.h5"));
 
     const ResultReader reader(folder / "whole.h5");
-    const RareTable table = reader.rare();
+    const RareTable table = rare_table(reader.table("rare"));
     EXPECT_EQ(table.repeats.size(), 5U);
     EXPECT_EQ(table.realizations, reader.rows().size());
     EXPECT_EQ(json_of(whole)["rare"]["probability"].number, table.probability);

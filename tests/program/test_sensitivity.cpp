@@ -7,6 +7,7 @@
 #include "ensemble/sampling/sampler.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
+#include "io/tables/sensitivity_table.hpp"
 
 #include <cmath>
 #include <set>
@@ -144,7 +145,7 @@ TEST_F(Sensitivity, TellsWhatItsRowsSay)
     const JsonValue found = json_of(ended)["sensitivity"];
     const ResultReader reader(folder / "factors.h5");
     EXPECT_EQ(reader.header().kind, "sensitivity");
-    const SensitivityTable table = reader.sensitivity();
+    const SensitivityTable table = sensitivity_table(reader.table("sensitivity"));
     ASSERT_EQ(table.outcomes.size(), 4U);
     ASSERT_EQ(table.factors.size(), 7U);
     EXPECT_EQ(table.factors.back(), rest_name);
@@ -236,7 +237,8 @@ TEST_F(Sensitivity, RefusesWhatCannotBeAnswered)
              "\"drum_height\", \"drum_offset\", \"density\", \"tilt\", \"phase\"]"},
             {"sensitivity.inner", "the same realizations again"});
     ASSERT_EQ(run(run_words(column_study, eight_realizations, {"-o", "surface.h5", "--quiet"})).status, 0);
-    expect_refused({"export", "surface.h5", "--to", "png", "--picture", "sensitivity"}, {"has no sensitivities"});
+    expect_refused({"export", "surface.h5", "--to", "png", "--picture", "sensitivity"},
+                   {"surface.h5", "--picture sensitivity", "has the pictures surface, slice", "a sensitivity study"});
 }
 
 } // namespace

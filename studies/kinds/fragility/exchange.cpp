@@ -1,28 +1,28 @@
 #include "studies/kinds/fragility/exchange.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/atomic_file.hpp"
 #include "io/tables/fragility_exchange.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace stylobate {
 
 namespace {
 
-using Kind = DamageState::Kind;
+using DamageKind = DamageState::Kind;
 
 struct Group {
     const char* id;
     const char* describe;
-    Kind first;
+    DamageKind first;
 };
-constexpr Group groups[] = {{"peak", "peak displacement of the top over the width at the base", Kind::peak},
-                            {"residual", "residual dislocation of a joint over its width", Kind::residual},
-                            {"seat", "seats of epistyles", Kind::unseated}};
+constexpr Group groups[] = {{"peak", "peak displacement of the top over the width at the base", DamageKind::peak},
+                            {"residual", "residual dislocation of a joint over its width", DamageKind::residual},
+                            {"seat", "seats of epistyles", DamageKind::unseated}};
 
 /// OpenQuake's name.
 std::string measure_of(const std::string& name)
@@ -80,7 +80,8 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
     for (const Group& group : groups) {
         std::vector<const StateFragility*> states;
         for (const StateFragility& s : f.states)
-            if (s.state.kind == group.first || s.state.kind == Kind::collapse || s.state.kind == Kind::total)
+            if (s.state.kind == group.first || s.state.kind == DamageKind::collapse ||
+                s.state.kind == DamageKind::total)
                 states.push_back(&s);
         if (states.empty() || states.front()->state.kind != group.first)
             continue;
@@ -116,10 +117,10 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
     return models;
 }
 
-void write_models(const std::vector<FragilityModel>& models, const std::string& format,
-                  const std::filesystem::path& folder)
+std::vector<std::pair<std::string, std::string>> model_files(const std::vector<FragilityModel>& models,
+                                                             const std::string& format)
 {
-    std::vector<std::pair<std::string, std::string>> files; // all texts first: nothing is written if one is refused
+    std::vector<std::pair<std::string, std::string>> files;
     for (const FragilityModel& model : models) {
         if (format == "nrml")
             files.emplace_back(model.id + ".xml", fragility_nrml(model));
@@ -128,29 +129,24 @@ void write_models(const std::vector<FragilityModel>& models, const std::string& 
         else
             files.emplace_back("fragility_" + model.id + ".csv", fragility_csv(model));
     }
-    std::error_code error;
-    std::filesystem::create_directory(folder, error);
-    if (!std::filesystem::is_directory(folder))
-        throw InputError(folder.string(), 0, "cannot be made a folder: " + error.message());
-    for (const auto& [name, text] : files)
-        write_whole(folder / name, text);
+    return files;
 }
 
-std::string motions_csv(const MotionTable& motions)
+Table motions_list(const MotionTable& motions)
 {
-    std::string text = "motion,name";
-    for (const std::string& measure : motions.measures)
-        text += "," + measure;
-    text += "\n";
-    for (std::size_t i = 0; i < motions.names.size(); ++i) {
-        std::string name = motions.names[i];
-        std::replace(name.begin(), name.end(), ',', ';');
-        text += fmt::format("{},{}", i, name);
-        for (std::size_t m = 0; m < motions.measures.size(); ++m)
-            text += fmt::format(",{}", motions.value[i * motions.measures.size() + m]);
-        text += "\n";
+    const std::size_t n = motions.names.size(), measures = motions.measures.size();
+    std::vector<std::uint64_t> number(n);
+    std::iota(number.begin(), number.end(), std::uint64_t{0});
+    Table table("motions");
+    table.add("motion", std::move(number));
+    table.add("name", motions.names);
+    for (std::size_t m = 0; m < measures; ++m) {
+        std::vector<double> values;
+        for (std::size_t i = 0; i < n; ++i)
+            values.push_back(motions.value[i * measures + m]);
+        table.add(motions.measures[m], std::move(values));
     }
-    return text;
+    return table;
 }
 
 } // namespace stylobate

@@ -4,8 +4,8 @@
 #include "ensemble/model/fragility_model.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -17,12 +17,12 @@ namespace stylobate {
 /// @throws InputError if there is no curve and no stripe to pass on
 std::vector<FragilityModel> fragility_models(const Fragility& fragility, const std::string& study);
 
-/// Writes each model as ID.xml (NRML 0.5), ID.json or ID.csv into a folder, which is made; each file appears whole.
-/// @param format "nrml", "json" or "csv"
-void write_models(const std::vector<FragilityModel>& models, const std::string& format,
-                  const std::filesystem::path& folder);
+/// Each model as ID.xml (NRML 0.5), ID.json or fragility_ID.csv: names of files and their texts.
+/// @param format "nrml", "json" or "csv"   @throws InputError if a model cannot be written so
+std::vector<std::pair<std::string, std::string>> model_files(const std::vector<FragilityModel>& models,
+                                                             const std::string& format);
 
 /// The motions and what they measure, a line for each.
-std::string motions_csv(const MotionTable& motions);
+Table motions_list(const MotionTable& motions);
 
 } // namespace stylobate

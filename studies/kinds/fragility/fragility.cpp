@@ -4,7 +4,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/numerics/quantiles.hpp"
-#include "io/study/study_file.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -42,15 +41,16 @@ struct Place {
 
 class Analysis {
 public:
-    Analysis(const ResultReader& results, const std::string& file)
-        : header_(results.header()), study_(parse_study(header_.study_toml, file + " (its study)"))
+    /// @param rows by index
+    Analysis(const Study& study, const ResultHeader& header, std::vector<FragilityOutcome> rows)
+        : header_(header), study_(study)
     {
         const FragilitySpec& spec = *study_.fragility;
         out_.method = spec.method;
         out_.measure = spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
         out_.motions = header_.motions.names.size();
         out_.structures = study_.realizations;
-        for (ResultRow& row : results.rows()) {
+        for (FragilityOutcome& row : rows) {
             const Place at = place(row);
             out_.motion.push_back(static_cast<std::int32_t>(at.motion));
             out_.intensity.push_back(intensity(at, out_.measure));
@@ -153,7 +153,7 @@ private:
         }
     }
 
-    Place place(const ResultRow& row) const
+    Place place(const FragilityOutcome& row) const
     {
         const auto stripes = static_cast<std::uint64_t>(study_.fragility->stripes());
         Place p;
@@ -325,7 +325,7 @@ private:
     }
 
     const ResultHeader& header_;
-    Study study_;
+    const Study& study_;
     std::vector<Place> places_;
     std::vector<Outcome> outcomes_;
     Fragility out_;
@@ -333,14 +333,13 @@ private:
 
 } // namespace
 
-Fragility fragility_of(const ResultReader& results, const std::string& file)
+Fragility fragility_of(const Study& study, const ResultHeader& header, std::vector<FragilityOutcome> rows)
 {
-    if (results.header().kind != "fragility")
-        throw InputError(fmt::format("{}: a result of kind '{}' is no fragility study", file, results.header().kind));
-    return Analysis(results, file).run();
+    std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    return Analysis(study, header, std::move(rows)).run();
 }
 
-FragilityTable fragility_table(const Fragility& f)
+FragilityTable stored(const Fragility& f)
 {
     FragilityTable table;
     table.measure = f.measure;

@@ -1,6 +1,6 @@
 #pragma once
 /// What a fragility study says: curves of all its limit states with their intervals, whether their form holds, and
-/// where the scatter comes from. Computed from the rows of its results whenever it is asked for.
+/// where the scatter comes from.
 
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
@@ -9,6 +9,7 @@
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/fragility_table.hpp"
 #include "studies/kinds/fragility/damage.hpp"
 
 #include <cstdint>
@@ -51,11 +52,18 @@ struct Fragility {
     std::vector<std::string> says;       ///< what a reader must know of the whole
 };
 
-/// @throws InputError if the results are of another kind of study
-Fragility fragility_of(const ResultReader& results, const std::string& file);
+/// What is needed of a row.
+struct FragilityOutcome {
+    std::uint64_t index = 0, cell = 0;
+    double pga_m_s2 = 0;
+    Outcome outcome;
+};
+
+/// @param study, header of the results, for the motions and the design   @param rows of all realizations, in any order
+Fragility fragility_of(const Study& study, const ResultHeader& header, std::vector<FragilityOutcome> rows);
 
 /// What the file keeps of it.
-FragilityTable fragility_table(const Fragility& fragility);
+FragilityTable stored(const Fragility& fragility);
 
 /// "peak ground velocity [m/s]" of "pgv_m_s".
 std::string describe_measure(const std::string& name);

@@ -1,7 +1,5 @@
 #include "studies/kinds/replicas/twins.hpp"
 
-#include "ensemble/model/input_error.hpp"
-#include "io/study/study_file.hpp"
 #include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
@@ -17,14 +15,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void count_flips(const Study& study, const std::vector<ResultRow>& rows, Twins& out)
+/// @param rows by index
+void count_flips(const Study& study, const std::vector<ReplicaRow>& rows, Twins& out)
 {
     const std::uint64_t n = study.originals();
     const auto cells = static_cast<std::size_t>(study.cells());
     std::vector<std::vector<PairCounts>> counts(out.kinds.size(), std::vector<PairCounts>(cells));
     std::vector<std::uint64_t> valid(cells), collapsed(cells);
-    for (const ResultRow& row : rows) {
-        const State twin = row.outcome.state, original = rows[row.index % n].outcome.state;
+    for (const ReplicaRow& row : rows) {
+        const State twin = row.state, original = rows[row.index % n].state;
         if (row.index < n) {
             valid[row.cell] += twin != State::invalid;
             collapsed[row.cell] += twin == State::collapsed;
@@ -137,16 +136,12 @@ std::string describe(const Twin& kind)
     return {};
 }
 
-Twins twins_of(const ResultReader& results, const std::string& file)
+Twins twins_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
+               const std::vector<FollowedTwin>& pairs)
 {
-    const Study study = parse_study(results.header().study_toml, file + " (its study)");
-    if (!study.twins || results.header().frequency_hz.empty())
-        throw InputError(fmt::format("{}: its study has no twins. Run it with a table [twins].", file));
-    if (!results.complete())
-        throw InputError(fmt::format("{}: the run is not complete; run the same study again to continue it", file));
     Twins out;
-    out.frequency_hz = results.header().frequency_hz;
-    out.pga_m_s2 = results.header().pga_m_s2;
+    out.frequency_hz = header.frequency_hz;
+    out.pga_m_s2 = header.pga_m_s2;
     out.realizations = study.realizations;
     out.followed = study.twins->followed;
     out.tolerance = study.twins->tolerance;
@@ -154,8 +149,8 @@ Twins twins_of(const ResultReader& results, const std::string& file)
         out.kinds.push_back({kind, describe(kind), {}, {}, {}, {}});
         out.moves += kind.by == TwinBy::move;
     }
-    count_flips(study, results.rows(), out);
-    const std::vector<FollowedTwin> pairs = results.twins();
+    std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    count_flips(study, rows, out);
     for (std::size_t k = 0; k < out.moves; ++k) {
         const bool begins_beyond = std::all_of(pairs.begin(), pairs.end(), [&](const FollowedTwin& pair) {
             return pair.kind != k || pair.start >= out.tolerance;

@@ -1,8 +1,9 @@
 #pragma once
 /// What a surface with twins says: how sure the verdict of each cell is, what decides it, and how long it can be
-/// foretold. Flips are computed from the rows of the results whenever they are asked for.
+/// foretold.
 
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
+#include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/kinds/replicas/flips.hpp"
@@ -55,8 +56,15 @@ struct Twins {
     std::size_t moves = 0; ///< the first so many kinds
 };
 
-/// @throws InputError if the study of the results has no twins, or if the run is not complete
-Twins twins_of(const ResultReader& results, const std::string& file);
+/// What is needed of a row.
+struct ReplicaRow {
+    std::uint64_t index = 0, cell = 0;
+    State state = State::invalid;
+};
+
+/// @param rows of all realizations of a surface with replicas, in any order   @param followed pairs
+Twins twins_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
+               const std::vector<FollowedTwin>& followed);
 
 /// "moved by 1e-09 m", "step x 0.8", "single precision", "form two_corner"
 std::string describe(const Twin& kind);

@@ -1,6 +1,6 @@
 #include "studies/kinds/replicas/twins_text.hpp"
 
-#include "io/files/atomic_file.hpp"
+#include "io/tables/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -89,18 +89,10 @@ Json estimated_json(const Estimated& e)
         .member("upper", e.upper);
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text)
-{
-    AtomicFile file(path);
-    file.write(text);
-    file.commit();
-}
-
-std::string cell_columns(const Twins& twins, std::size_t cell)
+void add_cell(CsvRow& row, const Twins& twins, std::size_t cell)
 {
     const std::size_t np = twins.pga_m_s2.size();
-    return fmt::format("{},{},{},{}", cell, twins.frequency_hz[cell / np], twins.pga_m_s2[cell % np],
-                       twins.probability[cell]);
+    row << cell << twins.frequency_hz[cell / np] << twins.pga_m_s2[cell % np] << twins.probability[cell];
 }
 
 } // namespace
@@ -222,33 +214,37 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
         twins.followed, 100 * twins.tolerance));
 }
 
-void write_twins_csv(const std::filesystem::path& folder, const Twins& twins)
+std::string twins_csv(const Twins& twins)
 {
-    std::string flips = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,pairs,flips,probability,lower,upper,"
-                        "independent,class\n";
+    std::string text = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,pairs,flips,probability,lower,upper,"
+                       "independent,class\n";
     for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
         for (const TwinFlips& kind : twins.kinds) {
             const FlipShare& s = kind.cells[cell];
-            flips += fmt::format("{},{},{},{},{},{},{},{},{}\n", cell_columns(twins, cell), kind.name, s.trials,
-                                 s.flips, s.probability, s.lower, s.upper, s.independent,
-                                 s.verdict()    ? sureness_names[static_cast<std::size_t>(*s.verdict())]
-                                 : s.trials > 0 ? too_few_pairs
-                                                : "");
+            CsvRow row(text);
+            add_cell(row, twins, cell);
+            row << kind.name << s.trials << s.flips << s.probability << s.lower << s.upper << s.independent
+                << (s.verdict()    ? sureness_names[static_cast<std::size_t>(*s.verdict())]
+                    : s.trials > 0 ? too_few_pairs
+                                   : "");
         }
-    write_file(folder / "twins.csv", flips);
-    if (twins.growth.empty())
-        return;
-    std::string growth = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,lost,exponents,exponent_per_s,"
-                         "exponent_lower,exponent_upper,horizons,horizon_s,horizon_lower_s,horizon_upper_s\n";
+    return text;
+}
+
+std::string predictability_csv(const Twins& twins)
+{
+    std::string text = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,lost,exponents,exponent_per_s,"
+                       "exponent_lower,exponent_upper,horizons,horizon_s,horizon_lower_s,horizon_upper_s\n";
     for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
         for (const TwinGrowth& each : twins.growth) {
             const Estimated& e = each.exponent_per_s[cell];
             const Estimated& h = each.horizon_s[cell];
-            growth += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", cell_columns(twins, cell),
-                                  twins.kinds[each.kind].name, each.lost[cell], e.count, e.value, e.lower, e.upper,
-                                  h.count, h.value, h.lower, h.upper);
+            CsvRow row(text);
+            add_cell(row, twins, cell);
+            row << twins.kinds[each.kind].name << each.lost[cell] << e.count << e.value << e.lower << e.upper << h.count
+                << h.value << h.lower << h.upper;
         }
-    write_file(folder / "predictability.csv", growth);
+    return text;
 }
 
 } // namespace stylobate

@@ -19,9 +19,10 @@ Json twins_json(const Twins& twins);
 void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& flips,
                    const std::function<void()>& growth);
 
-/// `twins.csv`: each cell and kind; `predictability.csv`: each cell and followed move.
-/// @throws InputError if they cannot be written
-void write_twins_csv(const std::filesystem::path& folder, const Twins& twins);
+/// `twins.csv`: each cell and kind.
+std::string twins_csv(const Twins& twins);
+/// `predictability.csv`: each cell and followed move.
+std::string predictability_csv(const Twins& twins);
 
 /// How sure the verdict is, a map for each kind of twin.
 void plot_flips(const Twins& twins, const std::string& title, const std::filesystem::path& png);

@@ -12,10 +12,10 @@ namespace stylobate {
 namespace {
 
 /// When a realization ends at the latest.
-double longest_s(const LoadedStudy& loaded, const Realization& r)
+double longest_s(const Experiment& experiment, const Realization& r)
 {
-    const ExcitationSpec& excitation = loaded.study().excitation;
-    double end = BaseMotion(excitation, r, loaded.record()).duration_s();
+    const ExcitationSpec& excitation = experiment.study().excitation;
+    double end = BaseMotion(excitation, r, experiment.record()).duration_s();
     if (r.vertical != nullptr)
         end = std::max(end, BaseMotion::along(r.vertical, r.step_s, r.change.offset_s).duration_s());
     if (excitation.kind != ExcitationKind::none)
@@ -30,17 +30,17 @@ std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks)
     return samples * (2 + 3 * blocks) * sizeof(double);
 }
 
-KeptTrajectories plan_trajectories(const LoadedStudy& loaded, const std::string& file)
+KeptTrajectories plan_trajectories(const Experiment& experiment, const std::string& file)
 {
-    const Study& study = loaded.study();
+    const Study& study = experiment.study();
     const OutputSpec& output = study.output;
     const std::uint64_t total = study.total();
     constexpr std::uint64_t looked_at = 32;
     double end_s = 0;
     std::uint64_t blocks = 0;
     for (std::uint64_t index = 0; index < std::min(total, looked_at); ++index) {
-        const Realization r = loaded.sampler().realization(index);
-        end_s = std::max(end_s, longest_s(loaded, r));
+        const Realization r = experiment.sampler().realization(index);
+        end_s = std::max(end_s, longest_s(experiment, r));
         blocks = static_cast<std::uint64_t>(r.drums);
     }
     KeptTrajectories kept;

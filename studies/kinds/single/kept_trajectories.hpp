@@ -1,7 +1,7 @@
 #pragma once
 /// Which trajectories a single study keeps, and how large they will be, before anything runs.
 
-#include "studies/experiment/loaded_study.hpp"
+#include "ensemble/experiment.hpp"
 
 #include <cstdint>
 #include <string>
@@ -22,6 +22,6 @@ std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks);
 /// all, and those that fall earlier take less.
 /// @param file of the study, for the message
 /// @throws InputError if what the study asks for is larger than `output.most_mb`, with the estimate and what to set
-KeptTrajectories plan_trajectories(const LoadedStudy& loaded, const std::string& file);
+KeptTrajectories plan_trajectories(const Experiment& experiment, const std::string& file);
 
 } // namespace stylobate

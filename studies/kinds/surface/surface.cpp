@@ -29,6 +29,14 @@ SurfaceCounts::SurfaceCounts(std::vector<double> frequency_hz, std::vector<doubl
     table_.collapses.resize(cells);
 }
 
+SurfaceCounts::SurfaceCounts(const SurfaceTable& counted)
+{
+    table_.frequency_hz = counted.frequency_hz;
+    table_.pga_m_s2 = counted.pga_m_s2;
+    table_.trials = counted.trials;
+    table_.collapses = counted.collapses;
+}
+
 void SurfaceCounts::add(const ResultRow& row)
 {
     if (row.outcome.state == State::invalid || row.cell >= table_.trials.size())

@@ -13,13 +13,15 @@ class SurfaceCounts {
 public:
     SurfaceCounts(std::vector<double> frequency_hz, std::vector<double> pga_m_s2,
                   LimitState limit = LimitState::collapse);
+    /// Of what has been counted; its probabilities are computed anew.
+    explicit SurfaceCounts(const SurfaceTable& counted);
     void add(const ResultRow& row);
     /// Probability and Jeffreys interval of every cell.
     SurfaceTable table() const;
 
 private:
     SurfaceTable table_;
-    LimitState limit_;
+    LimitState limit_ = LimitState::collapse;
 };
 
 /// The same from the counts of a study that keeps no rows.

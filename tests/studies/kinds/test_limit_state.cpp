@@ -3,7 +3,7 @@
 #include "studies/app/console.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/surface/surface.hpp"
-#include "studies/pages/fall_order.hpp"
+#include "studies/results/fall_order.hpp"
 #include "tests/program/program.hpp"
 
 #include <cmath>
@@ -323,7 +323,7 @@ TEST_F(Falls, NeedAFinishedRunAndCells)
     ASSERT_EQ(run({"replay", "real.h5", "--realization", "2", "-o", "one.h5"}).status, 0);
     expect_refused({"export", "one.h5", "--to", "png", "--cell", "0"}, {"--cell 0", "replay", "no cells"});
     expect_refused({"export", "one.h5", "--to", "png", "--picture", "surface", "--limit", "slid"},
-                   {"one.h5", "no surface"});
+                   {"one.h5", "--picture surface", "replay", "strip, order"});
 }
 
 TEST_F(Falls, ReplayNamesItsBlocks)

@@ -4,10 +4,11 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration_file.hpp"
-#include "studies/pages/report.hpp"
-#include "studies/pages/report_study.hpp"
+#include "studies/calibration/calibration_page.hpp"
+#include "studies/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/results/study_facts.hpp"
 #include "tests/studies/calibration/calibration_sample.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 

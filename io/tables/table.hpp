@@ -1,0 +1,83 @@
+#pragma once
+/// A table as plain data: columns with a name and a unit, and what holds of the whole. `table_hdf5.hpp` writes it into
+/// a results file and reads it back, `csv.hpp` writes it as comma-separated values.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace stylobate {
+
+/// Values with their intervals, row by row; NaN, all three, where the data do not determine one.
+struct IntervalArray {
+    std::vector<double> value, lower, upper;
+
+    void add(double v, double low, double high)
+    {
+        value.push_back(v);
+        lower.push_back(low);
+        upper.push_back(high);
+    }
+};
+
+class Table {
+public:
+    using Shape = std::vector<std::size_t>;
+    using Values = std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>,
+                                std::vector<std::string>>;
+    struct Column {
+        std::string name;
+        Values values;
+        Shape shape;      ///< of the array, which lies row by row
+        std::string unit; ///< empty: none
+    };
+    using Attribute = std::variant<std::string, double, std::uint64_t>;
+
+    /// @param name  of its group in HDF5, and of its file without the ending
+    /// @param file  that it was read from, for messages; else empty
+    explicit Table(std::string name, std::string file = {}) : name_(std::move(name)), file_(std::move(file)) {}
+
+    const std::string& name() const { return name_; }
+    const std::vector<Column>& columns() const { return columns_; }
+    const std::vector<std::pair<std::string, Attribute>>& attributes() const { return attributes_; }
+    bool empty() const { return columns_.empty() && attributes_.empty(); }
+
+    void set(std::string name, Attribute value) { attributes_.emplace_back(std::move(name), std::move(value)); }
+    /// @throws std::invalid_argument if the values do not fit the shape
+    void add(std::string name, Values values, Shape shape, std::string unit = {});
+    /// A list.
+    void add(std::string name, Values values);
+    /// NAME, NAME_lower, NAME_upper. @throws std::invalid_argument if the values do not fit the shape
+    void add(const std::string& name, const IntervalArray& array, const Shape& shape);
+
+    /// @name What a table that was read must have.
+    /// @throws InputError "FILE: is damaged" if it is missing, or has another type or shape
+    /// @{
+    bool has(const std::string& column) const { return find(column) != nullptr; }
+    const Shape& shape(const std::string& column) const;
+    const std::vector<double>& numbers(const std::string& column, const Shape& shape) const;
+    const std::vector<std::uint64_t>& counts(const std::string& column, const Shape& shape) const;
+    const std::vector<std::int32_t>& integers(const std::string& column, const Shape& shape) const;
+    const std::vector<std::string>& texts(const std::string& column) const;
+    IntervalArray intervals(const std::string& column, const Shape& shape) const;
+    const std::string& text(const std::string& attribute) const;
+    double number(const std::string& attribute) const;
+    std::uint64_t count(const std::string& attribute) const;
+    [[noreturn]] void refuse(const std::string& what) const;
+    /// @}
+
+private:
+    const Column* find(const std::string& column) const;
+    template <class T>
+    const std::vector<T>& values(const std::string& column, const Shape* shape) const;
+    template <class T>
+    const T& value(const std::string& attribute) const;
+
+    std::string name_, file_;
+    std::vector<std::pair<std::string, Attribute>> attributes_;
+    std::vector<Column> columns_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,83 @@
+#include "studies/app/run_report.hpp"
+
+#include "io/study/study_names.hpp"
+#include "studies/report/json.hpp"
+#include "studies/report/words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+void print_json(const CommonOptions& options, const RunReport& r)
+{
+    const Progress& p = r.progress;
+    Json json = Json::object();
+    json.member("kind", word_for(study_kind_names, r.study.kind))
+        .member("results", r.results)
+        .member("complete", r.complete)
+        .member("realizations", p.done)
+        .member("total", p.total)
+        .member("collapsed", p.collapsed)
+        .member("invalid", p.invalid)
+        .member("collapse_probability", p.share) // of the whole study, from a fair sample of it
+        .member("collapse_lower", p.share_lower)
+        .member("collapse_upper", p.share_upper)
+        .member("seconds", p.seconds)
+        .member("realizations_per_second", p.rate)
+        .member("block_steps_per_second", p.seconds == 0 ? 0.0 : static_cast<double>(p.block_steps) / p.seconds)
+        .member("occupancy", p.occupancy)
+        .member("backend", options.backend)
+        .member("simd", to_string(r.run.isa))
+        .member("threads", r.run.threads);
+    if (r.kind.draws_plainly())
+        json.member("limit_states", r.kind.limits_json());
+    if (r.complete)
+        r.kind.add_to(json);
+    fmt::print("{}\n", json.text());
+}
+
+void print_text(const RunReport& r)
+{
+    const Progress& p = r.progress;
+    fmt::print("{}: {}{} realizations, {} collapsed, {} invalid", r.results, p.done,
+               p.open_end ? "" : fmt::format(" of {}", p.total), p.collapsed, p.invalid);
+    if (p.seconds > 0)
+        fmt::print("; {} with {} threads of {}, {} realizations/s", duration_text(p.seconds), r.run.threads,
+                   r.run.devices.empty() ? to_string(r.run.isa) : "the host and " + r.run.devices.front()->name(),
+                   rate_text(p.rate));
+    fmt::print("\n");
+    if (r.complete) {
+        fmt::print("{}", r.kind.text());
+        return;
+    }
+    if (!std::isnan(p.share)) // without those that have not ended because they take long
+        fmt::print("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
+                   100 * p.share_lower, 100 * p.share_upper);
+    fmt::print("Interrupted; {} realizations are kept. The same command continues where this one stopped.\n", p.done);
+}
+
+} // namespace
+
+int report_run(const CommonOptions& options, const RunReport& r)
+{
+    if (options.json)
+        print_json(options, r);
+    else if (!options.quiet)
+        print_text(r);
+    if (!r.complete)
+        return exit_interrupted;
+    const Progress& p = r.progress;
+    if (static_cast<double>(p.invalid) / static_cast<double>(p.total) <= r.study.run.max_invalid_fraction)
+        return exit_done;
+    fmt::print(stderr,
+               "stylobate: {} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
+               "`stylobate replay {} --realization I` runs one again; a smaller run.step_fraction may help.\n",
+               p.invalid, p.total, r.study.run.max_invalid_fraction, r.results);
+    return exit_invalid;
+}
+
+} // namespace stylobate

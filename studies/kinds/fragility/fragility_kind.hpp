@@ -1,0 +1,38 @@
+#pragma once
+/// A fragility study: motions x intensities x structures.
+
+#include "studies/kinds/fragility/fragility.hpp"
+#include "studies/kinds/kind.hpp"
+
+namespace stylobate {
+
+class FragilityKind : public Kind {
+public:
+    using Kind::Kind;
+
+    void conclude() override { fragility_ = fragility_of(study_, header_, std::move(rows_)); }
+    std::vector<Table> tables() const override { return {to_table(stored(fragility_))}; }
+    std::string text() const override;
+    void add_to(Json& json) const override;
+
+    ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
+    std::string chosen_by() const override { return "--motion and --intensity"; }
+
+    static constexpr PictureKind own_pictures[] = {{"fragility", "a fragility study", true}};
+    std::span<const PictureKind> pictures() const override { return own_pictures; }
+    Picture picture(const ResultReader& reader, const std::string& results,
+                    const PictureRequest& request) const override;
+    Table columns(const std::vector<ResultRow>& rows) const override;
+    std::vector<std::pair<std::string, std::string>> files(const std::string& format,
+                                                           const std::string& name) const override;
+    void sections(PageWriter& writer) const override;
+
+protected:
+    void take(const ResultRow& row) override { rows_.push_back({row.index, row.cell, row.pga_m_s2, row.outcome}); }
+
+private:
+    std::vector<FragilityOutcome> rows_;
+    Fragility fragility_; ///< once it is complete
+};
+
+} // namespace stylobate

@@ -1,0 +1,93 @@
+#include "studies/kinds/kind.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "studies/kinds/limit_text.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace stylobate {
+
+void check_complete(const ResultReader& reader, const std::string& results)
+{
+    if (!reader.complete())
+        throw InputError(fmt::format("{}: the run is not complete; run the same study again to continue it", results));
+}
+
+Kind::Kind(const Study& study, const ResultHeader& header)
+    : study_(study), header_(header), counts_(header.block_names.size(), cells_of_motion(study))
+{
+}
+
+void Kind::add(const ResultRow& row)
+{
+    if (is_trial(row.index))
+        counts_.add(row);
+    take(row);
+}
+
+void Kind::add(const Tally& tally)
+{
+    counts_ = LimitCounts(tally);
+    take(tally);
+}
+
+std::string Kind::needs_processor() const
+{
+    return study_.run.precision == Precision::single ? "asks for run.precision = \"single\", which is the processor's"
+                                                     : "";
+}
+
+std::string Kind::prepare(const Experiment&, const std::string&)
+{
+    return {};
+}
+
+void Kind::share(Progress& progress) const
+{
+    estimate_share(progress, counts_.trials(), counts_.share(LimitState::collapse).count);
+}
+
+std::string Kind::text() const
+{
+    return counts_.trials() == 0 ? ""
+                                 : limits_text(counts_, header_.block_names, study_.outcome.follow == Follow::rest);
+}
+
+Json Kind::limits_json() const
+{
+    return stylobate::limits_json(counts_, header_.block_names, study_.outcome.follow == Follow::rest,
+                                  !header_.selected);
+}
+
+ChosenCells Kind::choose(const CellChoice& choice, const std::string& results) const
+{
+    const auto refuse = [&](const char* option, const char* why) {
+        const std::string by = chosen_by();
+        throw InputError(fmt::format("{}: {} is a result of kind '{}', {}.{}", option, results, kind_name(), why,
+                                     by.empty() ? "" : " Choose by " + by + "."));
+    };
+    if (choice.frequency_hz || choice.pga_m_s2)
+        refuse(choice.frequency_hz ? "--frequency" : "--pga", "which has no axes of frequency and PGA");
+    if (!choice.motion.empty() || choice.intensity)
+        refuse(!choice.motion.empty() ? "--motion" : "--intensity", "not of a fragility study");
+    return {};
+}
+
+Picture Kind::picture(const ResultReader&, const std::string&, const PictureRequest&) const
+{
+    throw std::logic_error("a kind without pictures is not asked for one");
+}
+
+std::vector<std::pair<std::string, std::string>> Kind::files(const std::string& format, const std::string& name) const
+{
+    if (format != "csv")
+        throw InputError(
+            fmt::format("--to {}: {} is a result of kind '{}', which has no fragility functions; a study of "
+                        "study.kind = \"fragility\" has",
+                        format, name, kind_name()));
+    return {};
+}
+
+} // namespace stylobate

@@ -1,0 +1,154 @@
+#pragma once
+/// The contract of a kind of study: which realizations it asks for, what it makes of their rows, and how that is told
+/// as text, JSON, tables, pictures and sections of a page. A kind is a folder here and a line in
+/// `studies/results/kinds.cpp`; `run`, `replay`, `export` and `report` know no kind by name.
+///
+///   run:       add(rows of an earlier part) -> plan(rounds), which adds the rest -> conclude() -> surface(), tables()
+///   afterwards: add(all rows of the file) -> restore(file)
+///   then both: text(), add_to(json), sections(page), picture(...), files(...)
+
+#include "io/store/result_store.hpp"
+#include "studies/experiment/limit_state.hpp"
+#include "studies/kinds/page_writer.hpp"
+#include "studies/kinds/rounds.hpp"
+#include "studies/report/json.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// A picture that a kind has, and what the command line may ask of it.
+struct PictureKind {
+    std::string_view name; ///< "surface": the word of the command line
+    std::string_view of;   ///< results that have it: "a fragility study"; empty: all
+    bool limit = false;    ///< of one limit state
+    bool slices = false;   ///< of some frequencies
+};
+struct PictureRequest {
+    std::string_view name;              ///< of a picture of the kind
+    std::string limit;                  ///< empty: the usual one
+    std::vector<double> frequencies_hz; ///< empty: some
+};
+struct Picture {
+    std::string name;    ///< of its file, without an ending: "slice_2Hz_slid"
+    std::string title;   ///< "Probability of collapse"
+    std::string partial; ///< what the title adds of a run that is not complete
+    std::function<void(const std::string& title, const std::filesystem::path& file)> draw;
+};
+
+/// Which cells are asked for, by where they lie.
+struct CellChoice {
+    std::optional<double> frequency_hz, pga_m_s2;
+    std::string motion;
+    std::optional<double> intensity;
+};
+struct ChosenCells {
+    std::function<bool(std::uint64_t cell)> has = [](std::uint64_t) { return true; };
+    std::string words; ///< "at 3.02 Hz, 9.8 m/s2"; empty: all of them
+};
+
+/// @throws InputError if the run is not complete
+void check_complete(const ResultReader& reader, const std::string& results);
+
+class Kind {
+public:
+    /// @param study, header must outlive it
+    Kind(const Study& study, const ResultHeader& header);
+    virtual ~Kind() = default;
+    Kind(const Kind&) = delete;
+    Kind& operator=(const Kind&) = delete;
+
+    // ---- before a run ----------------------------------------------------------------------------------------------
+
+    /// Realizations 0 .. n - 1 are drawn once before anything is written, so that a study that cannot be run is
+    /// refused.
+    virtual std::uint64_t drawn_first() const { return study_.total(); }
+    /// What keeps the study from being stepped on a device: "has [twins], ..."; empty: nothing does.
+    virtual std::string needs_processor() const;
+    /// Looks at the study before its run. @param file of the study, for messages
+    /// @returns what the user should know, or nothing   @throws InputError if it cannot be run so
+    virtual std::string prepare(const Experiment&, const std::string& file);
+
+    // ---- the run ---------------------------------------------------------------------------------------------------
+
+    /// Takes a row, in any order.
+    void add(const ResultRow& row);
+    /// Takes the counts of a study that keeps no rows.
+    void add(const Tally& tally);
+    /// Asks for realizations until nothing is left to run.
+    /// @returns false if the user has asked to stop
+    virtual bool plan(Rounds& rounds) { return rounds.run({.fair = true}); }
+    /// All has been run: what it comes to is computed.
+    virtual void conclude() {}
+    /// The same, of a file that is complete and whose rows have been added.
+    virtual void restore(const ResultReader&) { conclude(); }
+    /// Of the finished study: the share of collapses in the whole of it.
+    virtual void share(Progress& progress) const;
+
+    // ---- what it comes to, once conclude() or restore() was called -------------------------------------------------
+
+    /// Of a study with cells of frequency and PGA.
+    virtual std::optional<SurfaceTable> surface() const { return std::nullopt; }
+    /// What the results file keeps beside the rows.
+    virtual std::vector<Table> tables() const { return {}; }
+    /// Lines for a terminal.
+    virtual std::string text() const;
+    virtual void add_to(Json&) const {}
+
+    // ---- what can be said of results, complete or not --------------------------------------------------------------
+
+    /// Whether a realization is a trial, and not a copy of one.
+    virtual bool is_trial(std::uint64_t index) const { return index < study_.originals(); }
+    /// Whether shares of all its realizations mean something: they are drawn as the study says.
+    virtual bool draws_plainly() const { return true; }
+    /// Why none of its realizations can be run again by itself; empty: each can.
+    virtual std::string why_no_replay() const { return {}; }
+    /// Counts over all trials. @param complete whether these are all of the study
+    Json limits_json() const;
+    const LimitCounts& counts() const { return counts_; }
+    /// @throws InputError if there are no such cells. @param results for messages
+    virtual ChosenCells choose(const CellChoice& choice, const std::string& results) const;
+    /// How cells are chosen on the command line: "--frequency and --pga"; empty: there are none.
+    virtual std::string chosen_by() const { return {}; }
+
+    // ---- tables, pictures and pages of results ---------------------------------------------------------------------
+
+    /// The first one is the usual one; none: its realizations over time are.
+    virtual std::span<const PictureKind> pictures() const { return {}; }
+    /// @param results for messages
+    /// @throws InputError if it cannot be drawn of these results. @pre it is one of `pictures`
+    virtual Picture picture(const ResultReader&, const std::string& results, const PictureRequest&) const;
+    /// Whether the picture shows what `conclude` computes, and so wants a complete run.
+    virtual bool pictures_want_all(std::string_view) const { return true; }
+    /// Columns of the table of realizations, a value for each of these rows.
+    virtual Table columns(const std::vector<ResultRow>&) const { return Table("realizations"); }
+    /// Files of an export besides the tables of all results, and their texts.
+    /// @param format "csv", "nrml", "json"   @param name of the study, for descriptions
+    /// @throws InputError if there are none of this format
+    virtual std::vector<std::pair<std::string, std::string>> files(const std::string& format,
+                                                                   const std::string& name) const;
+    /// Opens the page with its own summary. @returns whether it does
+    virtual bool summary(PageWriter&) const { return false; }
+    virtual void sections(PageWriter&) const {}
+    /// Whether the page shows the first realizations over time.
+    virtual bool shows_motion() const { return true; }
+
+protected:
+    /// Takes a row that is a trial or a copy of one.
+    virtual void take(const ResultRow&) {}
+    virtual void take(const Tally&) {}
+    const std::string& kind_name() const { return header_.kind; }
+
+    const Study& study_;
+    const ResultHeader& header_;
+    LimitCounts counts_;
+};
+
+} // namespace stylobate

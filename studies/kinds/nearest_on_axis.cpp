@@ -1,0 +1,29 @@
+#include "studies/kinds/nearest_on_axis.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/plots/plot_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+std::size_t nearest_on_axis(const std::vector<double>& axis, double wanted, const char* option, const std::string& unit,
+                            const std::string& results)
+{
+    constexpr double typed = 5e-3; // a value is within an axis if it is so to the digits that people type
+    if (!(wanted >= axis.front() * (1 - typed) && wanted <= axis.back() * (1 + typed)))
+        throw InputError(axis.size() == 1 ? fmt::format("{} {:g}: {} has {:.4g} {} alone", option, wanted, results,
+                                                        axis.front(), unit)
+                                          : fmt::format("{} {:g}: the axis of {} goes from {:.4g} to {:.4g} {}", option,
+                                                        wanted, results, axis.front(), axis.back(), unit));
+    const PlotAxis scale = make_plot_axis(axis, option);
+    const auto distance = [&](double value) { return std::abs(scale.scaled(value) - scale.scaled(wanted)); };
+    return static_cast<std::size_t>(
+        std::min_element(axis.begin(), axis.end(), [&](double a, double b) { return distance(a) < distance(b); }) -
+        axis.begin());
+}
+
+} // namespace stylobate

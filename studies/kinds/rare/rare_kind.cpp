@@ -1,0 +1,242 @@
+#include "studies/kinds/rare/rare_kind.hpp"
+
+#include "ensemble/estimators/rare/subset_simulation.hpp"
+#include "io/plots/plot_rare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double level = 0.95;
+/// More than this share of the chains at a standstill is said.
+constexpr double many_stuck = 0.25;
+
+/// Thrown through the chains when the user has asked to stop.
+struct Stopped {};
+
+/// The distribution function of the standard normal, within (0, 1). In long double, as distribution.hpp has it.
+double probability_of(double z)
+{
+    const auto below = static_cast<double>(std::erfc(-static_cast<long double>(z) / std::sqrt(2.0L)) / 2);
+    return std::clamp(below, 0x1p-53, 1 - 0x1p-53);
+}
+
+double response_of(const Outcome& outcome)
+{
+    switch (outcome.state) {
+    case State::invalid:
+        return std::nan("");
+    case State::collapsed:
+        return std::numeric_limits<double>::infinity();
+    default:
+        return outcome.peak_top_displacement_m;
+    }
+}
+
+RareTable table_of(const std::vector<SubsetRun>& runs)
+{
+    RareTable table;
+    for (const SubsetRun& run : runs) {
+        table.repeats.push_back(run.probability);
+        table.realizations += run.evaluations;
+        table.levels = std::max(table.levels, run.levels.size());
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (const SubsetRun& run : runs)
+        for (std::size_t l = 0; l < table.levels; ++l) {
+            const bool there = l < run.levels.size(), chains = there && l > 0;
+            table.threshold_m.push_back(chains ? run.levels[l].threshold : none);
+            table.share.push_back(there ? run.levels[l].probability : none);
+            table.acceptance.push_back(chains ? run.levels[l].acceptance : none);
+            table.stuck.push_back(chains ? run.levels[l].stuck : none);
+        }
+    const Estimate estimate = mean_of_repeats(table.repeats, level);
+    table.probability = estimate.value;
+    table.lower = estimate.lower;
+    table.upper = estimate.upper;
+    table.interval = fmt::format("repeats {}", level);
+    table.plain_realizations = plain_sampling_cost(table.repeats);
+    return table;
+}
+
+/// Mean of what there is of a level; NaN of nothing.
+double mean_of_level(const RareTable& table, const std::vector<double>& of, std::size_t l)
+{
+    double sum = 0, n = 0;
+    for (std::size_t r = 0; r < table.repeats.size(); ++r)
+        if (const double x = of[r * table.levels + l]; !std::isnan(x)) {
+            sum += x;
+            ++n;
+        }
+    return n > 0 ? sum / n : std::nan("");
+}
+
+std::string text_of(double x)
+{
+    return std::isnan(x) ? "–" : fmt::format("{:.3g}", x);
+}
+
+/// For the end of a run and the page of a result.
+std::vector<std::string> rare_sentences(const RareTable& table)
+{
+    std::vector<std::string> sentences;
+    if (std::isnan(table.probability)) {
+        sentences.push_back(fmt::format("None of the {} repeats came to a collapse: its probability is too small for "
+                                        "{} levels, or the peak displacement does not lead to it.",
+                                        table.repeats.size(), table.levels));
+    } else {
+        const std::string interval = std::isnan(table.lower)
+                                         ? std::string("without an interval")
+                                         : fmt::format("{:.3g} to {:.3g}, {:.0f} % interval of {} repeats", table.lower,
+                                                       table.upper, 100 * level, table.repeats.size());
+        sentences.push_back(fmt::format("Probability of collapse {:.3g} ({}), with {} realizations.", table.probability,
+                                        interval, table.realizations));
+        sentences.push_back(fmt::format("Plain sampling would take about {:.3g} for the same error, {:.3g} times as "
+                                        "many.",
+                                        table.plain_realizations,
+                                        table.plain_realizations / static_cast<double>(table.realizations)));
+        if (const auto none = std::count(table.repeats.begin(), table.repeats.end(), 0.0); none > 0)
+            sentences.push_back(
+                fmt::format("{} of {} repeats came to no collapse and count as 0: so few levels bear no interval. Give "
+                            "more rare.samples.",
+                            none, table.repeats.size()));
+    }
+    for (std::size_t l = 1; l < table.levels; ++l)
+        if (const double stuck = mean_of_level(table, table.stuck, l); stuck > many_stuck)
+            sentences.push_back(
+                fmt::format("On level {} {:.0f} % of the chains never moved: give more rare.samples.", l, 100 * stuck));
+    return sentences;
+}
+
+} // namespace
+
+std::uint64_t RareKind::drawn_first() const
+{
+    return 10 * study_.rare->samples;
+}
+
+bool RareKind::plan(Rounds& rounds)
+{
+    const RareSpec& spec = *study_.rare;
+    const Sampler& sampler = rounds.experiment.sampler();
+    const std::size_t dimension = sampler.size();
+    Progress& progress = rounds.progress;
+    progress.open_end = true;
+    progress.total = spec.repeats * RareSpec::indices_of_repeat;
+    std::vector<SubsetRun> runs;
+    std::uint64_t repeat = 0;
+
+    const Response response = [&](const std::vector<double>& points, std::uint64_t first) {
+        const std::size_t n = points.size() / dimension;
+        const std::uint64_t begin = repeat * RareSpec::indices_of_repeat + first;
+        std::vector<double> numbers(points.size());
+        std::transform(points.begin(), points.end(), numbers.begin(), probability_of);
+        std::vector<std::uint64_t> batch(n);
+        std::iota(batch.begin(), batch.end(), begin);
+
+        // as many more as the repeats so far say; nothing before the first one is over
+        const std::uint64_t finished =
+            std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
+                            [](auto sum, const SubsetRun& r) { return sum + r.evaluations; });
+        progress.expected = runs.empty() ? 0 : finished * spec.repeats / runs.size();
+        const auto realize = [&](std::uint64_t index) {
+            const auto at = static_cast<std::size_t>(index - begin) * dimension;
+            return sampler.realization(index, std::span(numbers).subspan(at, dimension));
+        };
+        if (!rounds.run({.indices = batch, .realize = realize}))
+            throw Stopped{};
+        std::vector<double> responses;
+        for (const std::uint64_t index : batch)
+            responses.push_back(response_of(outcome_.at(index)));
+        return responses;
+    };
+
+    SubsetOptions subset;
+    subset.samples = spec.samples;
+    subset.level_probability = RareSpec::level_probability;
+    subset.most_levels = RareSpec::most_levels;
+    subset.limit = std::numeric_limits<double>::infinity();
+    subset.seed = study_.seed;
+    try {
+        for (; repeat < spec.repeats; ++repeat)
+            runs.push_back(subset_simulation(dimension, response, subset, repeat));
+    } catch (const Stopped&) {
+        return false;
+    }
+    progress.open_end = false;
+    progress.total = progress.done;
+    table_ = table_of(runs);
+    return true;
+}
+
+std::string RareKind::text() const
+{
+    std::string text;
+    for (const std::string& sentence : rare_sentences(table_))
+        text += "  " + sentence + "\n";
+    return text;
+}
+
+void RareKind::add_to(Json& json) const
+{
+    const RareTable& table = table_;
+    Json repeats = Json::list(), levels = Json::list();
+    for (const double p : table.repeats)
+        repeats.item(Json::object().member("probability", p));
+    for (std::size_t l = 0; l < table.levels; ++l)
+        levels.item(Json::object()
+                        .member("threshold_m", mean_of_level(table, table.threshold_m, l))
+                        .member("share", mean_of_level(table, table.share, l))
+                        .member("acceptance", mean_of_level(table, table.acceptance, l))
+                        .member("stuck", mean_of_level(table, table.stuck, l)));
+    json.member("rare", Json::object()
+                            .member("probability", table.probability)
+                            .member("lower", table.lower)
+                            .member("upper", table.upper)
+                            .member("interval", table.interval)
+                            .member("realizations", table.realizations)
+                            .member("plain_realizations", table.plain_realizations)
+                            .member("repeats", repeats)
+                            .member("levels", levels));
+}
+
+Picture RareKind::picture(const ResultReader& reader, const std::string& results, const PictureRequest&) const
+{
+    check_complete(reader, results);
+    return {"rare", "Probability of collapse", "",
+            [this](const std::string& title, const std::filesystem::path& file) { plot_rare(table_, title, file); }};
+}
+
+bool RareKind::summary(PageWriter& writer) const
+{
+    const RareTable& table = table_;
+    HtmlPage& page = writer.page;
+    for (const std::string& sentence : rare_sentences(table))
+        page.paragraph(sentence);
+    HtmlTable levels{"rrrrr",
+                     {"level", "above [m]", "share that goes on", "candidates taken", "chains that never moved"},
+                     {},
+                     "Subset simulation on the peak displacement of the top; means over the repeats"};
+    for (std::size_t l = 0; l < table.levels; ++l)
+        levels.rows.push_back({fmt::format("{}", l), text_of(mean_of_level(table, table.threshold_m, l)),
+                               text_of(mean_of_level(table, table.share, l)),
+                               text_of(mean_of_level(table, table.acceptance, l)),
+                               text_of(mean_of_level(table, table.stuck, l))});
+    page.table(levels);
+    std::string repeats;
+    for (const double p : table.repeats)
+        repeats += (repeats.empty() ? "" : ", ") + text_of(p);
+    page.note("The repeats: " + repeats + ".");
+    writer.picture("The probability to exceed a displacement, level by level for each repeat, and of collapse.",
+                   [&](const std::filesystem::path& png) { plot_rare(table, "Probability of collapse", png); });
+    return true;
+}
+
+} // namespace stylobate

@@ -1,0 +1,96 @@
+#include "studies/kinds/replicas/replicas_kind.hpp"
+
+#include "ensemble/replicas/twins.hpp"
+#include "studies/kinds/replicas/followed_table.hpp"
+#include "studies/kinds/replicas/twins_text.hpp"
+
+#include <numeric>
+
+namespace stylobate {
+
+bool ReplicasKind::plan(Rounds& rounds)
+{
+    rounds.progress.total = study_.total();
+    for (const TwinRange& range : twin_ranges(study_)) {
+        std::vector<std::uint64_t> indices(range.end - range.begin);
+        std::iota(indices.begin(), indices.end(), range.begin);
+        // replicas are no further trials
+        if (!rounds.run({.indices = indices, .as = &range.study, .fair = range.begin == 0}))
+            return false;
+    }
+    followed_ = follow_twins(rounds.experiment, rounds.options, rounds.observer);
+    return !rounds.observer.stop_requested();
+}
+
+void ReplicasKind::take(const ResultRow& row)
+{
+    SurfaceKind::take(row);
+    rows_.push_back({row.index, row.cell, row.outcome.state});
+}
+
+void ReplicasKind::restore(const ResultReader& reader)
+{
+    followed_ = followed_twins(reader.table("twins"));
+    conclude();
+}
+
+std::vector<Table> ReplicasKind::tables() const
+{
+    if (followed_.empty())
+        return {};
+    return {to_table(followed_)};
+}
+
+std::string ReplicasKind::text() const
+{
+    return SurfaceKind::text() + twins_text(twins_);
+}
+
+void ReplicasKind::add_to(Json& json) const
+{
+    json.member("twins", twins_json(twins_));
+}
+
+Picture ReplicasKind::picture(const ResultReader& reader, const std::string& results,
+                              const PictureRequest& request) const
+{
+    if (request.name != "twins" && request.name != "predictability")
+        return SurfaceKind::picture(reader, results, request);
+    check_complete(reader, results);
+    if (request.name == "twins")
+        return {
+            "twins", "How sure the verdict is", "",
+            [this](const std::string& title, const std::filesystem::path& file) { plot_flips(twins_, title, file); }};
+    return {"predictability", "How long the motion can be foretold", "",
+            [this](const std::string& title, const std::filesystem::path& file) { plot_growth(twins_, title, file); }};
+}
+
+std::vector<std::pair<std::string, std::string>> ReplicasKind::files(const std::string& format,
+                                                                     const std::string& name) const
+{
+    auto files = SurfaceKind::files(format, name);
+    files.emplace_back("twins.csv", twins_csv(twins_));
+    if (!twins_.growth.empty())
+        files.emplace_back("predictability.csv", predictability_csv(twins_));
+    return files;
+}
+
+void ReplicasKind::sections(PageWriter& writer) const
+{
+    SurfaceKind::sections(writer);
+    twins_section(
+        twins_, writer.page,
+        [&] {
+            writer.picture(
+                "How sure the verdict is: a map for each kind of twin, over it the probability of collapse.",
+                [&](const std::filesystem::path& png) { plot_flips(twins_, "How sure the verdict is", png); });
+        },
+        [&] {
+            writer.picture("Growth of the separation, and how long the motion can be foretold.",
+                           [&](const std::filesystem::path& png) {
+                               plot_growth(twins_, "How long the motion can be foretold", png);
+                           });
+        });
+}
+
+} // namespace stylobate

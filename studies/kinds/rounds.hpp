@@ -1,0 +1,44 @@
+#pragma once
+/// What a kind of study asks of a run: realizations, round by round.
+
+#include "ensemble/engine/executor.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace stylobate {
+
+/// Realizations that are stepped together.
+struct Round {
+    std::span<const std::uint64_t> indices = {}; ///< empty: all realizations of the study
+    /// Makes a realization from its index; called from several threads at once. Empty: the sampler does.
+    std::function<Realization(std::uint64_t index)> realize = {};
+    const Study* as = nullptr; ///< the study that they are stepped as; null: the study itself
+    bool fair = false;         ///< whether their share of collapses is that of the whole study
+};
+
+class Rounds {
+public:
+    Rounds(const Experiment& experiment, const RunOptions& options, Observer& observer)
+        : experiment(experiment), options(options), observer(observer)
+    {
+    }
+    virtual ~Rounds() = default;
+    Rounds(const Rounds&) = delete;
+    Rounds& operator=(const Rounds&) = delete;
+
+    /// Runs those of the round that have not been run before; the kind is given their rows, in any order, before this
+    /// returns. (Rows of an earlier part of the run were given to it before the first round.)
+    /// @returns false if the user has asked to stop
+    virtual bool run(const Round& round) = 0;
+    /// Runs all realizations of the study one by one, and keeps the trajectories of the first so many.
+    virtual bool follow(std::uint64_t kept_trajectories) = 0;
+
+    const Experiment& experiment;
+    const RunOptions& options;
+    Observer& observer;
+    Progress progress; ///< of the run so far; a kind that is open-ended states what it expects
+};
+
+} // namespace stylobate

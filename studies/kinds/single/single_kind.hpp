@@ -1,0 +1,31 @@
+#pragma once
+/// One structure under one shaking, or a few of them, followed one by one with their trajectories; and a realization of
+/// any study that was run again.
+
+#include "studies/kinds/kind.hpp"
+#include "studies/kinds/single/kept_trajectories.hpp"
+
+namespace stylobate {
+
+class SingleKind : public Kind {
+public:
+    using Kind::Kind;
+
+    std::string needs_processor() const override
+    {
+        return "is of kind \"single\", whose realizations are followed step by step on the processor";
+    }
+    std::string prepare(const Experiment& experiment, const std::string& file) override
+    {
+        kept_ = plan_trajectories(experiment, file);
+        return kept_.words;
+    }
+    bool plan(Rounds& rounds) override { return rounds.follow(kept_.count); }
+    /// A copy of a trial, run again, stands alone.
+    bool is_trial(std::uint64_t index) const override { return header_.total == 1 || Kind::is_trial(index); }
+
+private:
+    KeptTrajectories kept_;
+};
+
+} // namespace stylobate

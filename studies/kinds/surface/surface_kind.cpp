@@ -1,0 +1,188 @@
+#include "studies/kinds/surface/surface_kind.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/run_order.hpp"
+#include "io/plots/plot_slice.hpp"
+#include "io/plots/plot_surface.hpp"
+#include "studies/kinds/nearest_on_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+/// 12345 as "12,345".
+std::string grouped(std::uint64_t number)
+{
+    std::string text = std::to_string(number);
+    for (std::size_t at = text.size(); at > 3;)
+        text.insert(at -= 3, ",");
+    return text;
+}
+
+/// How many cells have intervals below their probabilities in the table of a page.
+constexpr std::size_t most_with_intervals = 10;
+
+HtmlTable cell_table(const SurfaceTable& surface)
+{
+    const std::size_t nf = surface.frequency_hz.size(), np = surface.pga_m_s2.size();
+    const bool intervals = nf <= most_with_intervals;
+    HtmlTable table;
+    table.caption = fmt::format("Probability of collapse [%]{}; columns: frequency [Hz], rows: PGA [m/s²]",
+                                intervals ? ", below it its interval" : "");
+    table.align = "r" + std::string(nf, 'c');
+    table.head = {"PGA"};
+    for (const double frequency : surface.frequency_hz)
+        table.head.emplace_back(fmt::format("{:.3g}", frequency));
+    for (std::size_t p = np; p-- > 0;) {
+        std::vector<Html> row = {fmt::format("{:.3g}", surface.pga_m_s2[p])};
+        for (std::size_t f = 0; f < nf; ++f) {
+            const std::size_t cell = f * np + p;
+            if (surface.trials[cell] == 0) {
+                row.emplace_back("–");
+                continue;
+            }
+            std::string text = fmt::format("{:.0f}", 100 * surface.probability[cell]);
+            if (intervals)
+                text += fmt::format("<br><small>{:.0f}–{:.0f}</small>", 100 * surface.lower[cell],
+                                    100 * surface.upper[cell]);
+            row.push_back(Html::ready(std::move(text)));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+} // namespace
+
+SurfaceKind::SurfaceKind(const Study& study, const ResultHeader& header)
+    : Kind(study, header), counts_by_cell_(header.frequency_hz, header.pga_m_s2)
+{
+}
+
+void SurfaceKind::take(const ResultRow& row)
+{
+    if (is_trial(row.index))
+        counts_by_cell_.add(row);
+}
+
+void SurfaceKind::take(const Tally& tally)
+{
+    counts_by_cell_ = SurfaceCounts(surface_of(header_, tally, LimitState::collapse));
+}
+
+ChosenCells SurfaceKind::choose(const CellChoice& choice, const std::string& results) const
+{
+    if (!choice.motion.empty() || choice.intensity)
+        return Kind::choose(choice, results);
+    std::optional<std::uint64_t> f, p;
+    ChosenCells cells;
+    if (choice.frequency_hz) {
+        f = nearest_on_axis(header_.frequency_hz, *choice.frequency_hz, "--frequency", "Hz", results);
+        cells.words = fmt::format("at {:.4g} Hz", header_.frequency_hz[*f]);
+    }
+    if (choice.pga_m_s2) {
+        p = nearest_on_axis(header_.pga_m_s2, *choice.pga_m_s2, "--pga", "m/s2", results);
+        cells.words += fmt::format("{}{:.4g} m/s2", f ? ", " : "at ", header_.pga_m_s2[*p]);
+    }
+    cells.has = [f, p, np = header_.pga_m_s2.size()](std::uint64_t cell) {
+        return (!f || cell / np == *f) && (!p || cell % np == *p);
+    };
+    return cells;
+}
+
+Picture SurfaceKind::picture(const ResultReader& reader, const std::string& results,
+                             const PictureRequest& request) const
+{
+    const std::vector<std::string>& known = limit_state_names();
+    if (!request.limit.empty() && std::find(known.begin(), known.end(), request.limit) == known.end())
+        throw InputError(fmt::format("--limit {}: a surface knows {}", request.limit, fmt::join(known, ", ")));
+    const LimitState limit = request.limit.empty() ? LimitState::collapse : limit_state_of(request.limit);
+    const SurfaceTable surface = surface_so_far(reader, study_, results, limit);
+    Picture picture;
+    picture.name = request.name;
+    if (!request.frequencies_hz.empty())
+        for (const std::size_t row : slice_rows(surface, request.frequencies_hz))
+            picture.name += fmt::format("_{:.4g}Hz", surface.frequency_hz[row]);
+    if (!request.limit.empty())
+        picture.name += "_" + request.limit;
+    picture.title = "Probability of " + std::string(describe(limit));
+    picture.partial = partial_words(reader, study_, surface);
+    if (request.name == "slice")
+        picture.draw = [surface, limit, frequencies = request.frequencies_hz](const std::string& title,
+                                                                              const std::filesystem::path& file) {
+            plot_slice(surface, frequencies, describe(limit), title, file);
+        };
+    else
+        picture.draw = [surface, limit](const std::string& title, const std::filesystem::path& file) {
+            plot_surface(surface, describe(limit), title, file);
+        };
+    return picture;
+}
+
+void SurfaceKind::sections(PageWriter& writer) const
+{
+    const SurfaceTable table = *surface();
+    const std::string what = describe(LimitState::collapse);
+    writer.page.section("Probability of collapse");
+    writer.picture(
+        "The probability of collapse over frequency and PGA, with its contours.",
+        [&](const std::filesystem::path& png) { plot_surface(table, what, "Probability of collapse", png); });
+    if (table.pga_m_s2.size() > 1)
+        writer.picture("The same at some frequencies, with the intervals.", [&](const std::filesystem::path& png) {
+            plot_slice(table, {}, what, "Probability of collapse", png);
+        });
+    writer.page.table(cell_table(table));
+    if (const std::string more = remark(table); !more.empty())
+        writer.page.note(more);
+    writer.page.note(describe_realizations(table) + "; " + describe_interval(table.interval) +
+                     (table.frequency_hz.size() <= most_with_intervals
+                          ? "."
+                          : ". The intervals of all cells are in the file, and in the tables of stylobate export "
+                            "--to csv."));
+}
+
+std::string partial_words(const ResultReader& reader, const Study& study, const SurfaceTable& surface)
+{
+    if (reader.complete())
+        return "";
+    const auto n = std::accumulate(surface.trials.begin(), surface.trials.end(), std::uint64_t{0});
+    const std::string of = reader.header().selected ? "" : " of " + grouped(study.originals());
+    return fmt::format(" – partial: {}{} realizations", grouped(n), of);
+}
+
+SurfaceTable surface_so_far(const ResultReader& reader, const Study& study, const std::string& results,
+                            LimitState limit)
+{
+    const ResultHeader& header = reader.header();
+    if (limit == LimitState::collapse && reader.complete())
+        return reader.surface();
+    if (limit == LimitState::total && study.outcome.follow != Follow::rest)
+        throw InputError(fmt::format("--limit total: {} followed each realization until its first fall only. Run the "
+                                     "study again with outcome.follow = \"rest\".",
+                                     results));
+    if (const Tally* tally = reader.tally())
+        return surface_of(header, *tally, limit);
+    SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
+    const std::uint64_t originals = study.originals();
+    const RunOrder order(originals);
+    std::uint64_t places = header.selected ? 0 : originals; // those of an adaptive surface are begun round by round
+    if (!reader.complete() && !header.selected)
+        for (places = 0; places < originals && reader.has(order.index(places));)
+            ++places;
+    places = header.selected ? 0 : order.fair(places);
+    reader.for_each_row([&](const ResultRow& row) {
+        if (row.index < originals && (header.selected || order.place(row.index) < places))
+            counts.add(row);
+    });
+    SurfaceTable table = counts.table();
+    if (std::ranges::all_of(table.trials, [](std::uint64_t n) { return n == 0; })) // there is nothing to draw yet
+        check_complete(reader, results);
+    return table;
+}
+
+} // namespace stylobate

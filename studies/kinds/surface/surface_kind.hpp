@@ -1,0 +1,49 @@
+#pragma once
+/// A surface: realizations in every cell of frequency by PGA, as rows or as counts.
+
+#include "studies/kinds/kind.hpp"
+#include "studies/kinds/surface/surface.hpp"
+
+namespace stylobate {
+
+class SurfaceKind : public Kind {
+public:
+    SurfaceKind(const Study& study, const ResultHeader& header);
+
+    std::optional<SurfaceTable> surface() const override { return counts_by_cell_.table(); }
+
+    ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
+    std::string chosen_by() const override { return "--frequency and --pga"; }
+
+    static constexpr PictureKind own_pictures[] = {{"surface", "a surface", true}, {"slice", "a surface", true, true}};
+    std::span<const PictureKind> pictures() const override { return own_pictures; }
+    Picture picture(const ResultReader& reader, const std::string& results,
+                    const PictureRequest& request) const override;
+    bool pictures_want_all(std::string_view picture) const override
+    {
+        return picture != "surface" && picture != "slice";
+    }
+    void sections(PageWriter& writer) const override;
+    bool shows_motion() const override { return false; }
+
+protected:
+    void take(const ResultRow& row) override;
+    void take(const Tally& tally) override;
+    /// Below the table of the cells.
+    virtual std::string remark(const SurfaceTable&) const { return {}; }
+
+private:
+    SurfaceCounts counts_by_cell_;
+};
+
+/// The surface of the store, or that of another limit state from the rows. Of a run that is not complete, that of the
+/// realizations that were begun first and have all ended: none of them is missing because it takes long.
+/// @param results for messages
+/// @throws InputError if the limit state was not followed, or if there is nothing to draw yet
+SurfaceTable surface_so_far(const ResultReader& reader, const Study& study, const std::string& results,
+                            LimitState limit);
+
+/// What the title of a surface adds where the run is not complete: of how many realizations it is; else empty.
+std::string partial_words(const ResultReader& reader, const Study& study, const SurfaceTable& surface);
+
+} // namespace stylobate

@@ -1,0 +1,390 @@
+#include "studies/results/result_page.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/files/temporary_folder.hpp"
+#include "io/plots/plot_order.hpp"
+#include "io/plots/plot_surface.hpp"
+#include "studies/results/fall_order.hpp"
+#include "studies/results/result_picture.hpp"
+#include "studies/results/study_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of sorted values, linear between them; NaN of none.
+double quantile(const std::vector<double>& sorted, double share)
+{
+    if (sorted.empty())
+        return std::numeric_limits<double>::quiet_NaN();
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+std::string percent(double share)
+{
+    return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–";
+}
+
+std::string interval_text(const Share& share)
+{
+    return fmt::format("{:.1f} – {:.1f} %", 100 * share.lower, 100 * share.upper);
+}
+
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
+}
+
+/// A realization's value, and what it is.
+struct Measure {
+    const char* name;
+    const char* unit;
+    double Outcome::*value;
+};
+
+/// 5 %, median, 95 % and the greatest of each measure.
+HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector<Measure>& measures)
+{
+    HtmlTable table{"lrrrr", {"", "5 %", "median", "95 %", "greatest"}, {}, ""};
+    if (rows.size() == 1)
+        table = {"lr", {"", "value"}, {}, ""};
+    for (const Measure& measure : measures) {
+        std::vector<double> values;
+        for (const ResultRow* row : rows)
+            values.push_back(row->outcome.*measure.value);
+        std::sort(values.begin(), values.end());
+        std::vector<Html> line = {fmt::format("{} [{}]", measure.name, measure.unit)};
+        if (rows.size() == 1)
+            line.emplace_back(number(values[0]));
+        else
+            for (const double share : {0.05, 0.5, 0.95, 1.0})
+                line.emplace_back(number(quantile(values, share)));
+        table.rows.push_back(std::move(line));
+    }
+    return table;
+}
+
+class ResultPage {
+public:
+    ResultPage(const Results& results, Isa isa, const std::string& title, std::vector<std::string>& warnings)
+        : results_(results), isa_(isa), reader_(results.reader()), header_(results.header()), warnings_(warnings),
+          study_(results.study()), kind_(results.concluded()), rows_(results.trials()), counts_(kind_.counts()),
+          page_(title.empty() ? "Results: " + results.title() : title, subtitle(header_)),
+          writer_{page_, [this](const std::string& caption, const auto& draw) { picture(caption, draw); }},
+          surface_(!header_.frequency_hz.empty())
+    {
+        if (const Tally* tally = reader_.tally()) {
+            invalid_count_ = tally->all_invalid();
+            for (const auto& [index, reason] : tally->first_invalid)
+                invalid_.emplace_back(index, reason);
+        }
+        for (const ResultRow& row : rows_) {
+            if (row.outcome.state == State::invalid)
+                invalid_.emplace_back(row.index, row.outcome.invalid_reason);
+            else
+                valid_.push_back(&row);
+        }
+        if (!reader_.tally())
+            invalid_count_ = invalid_.size();
+    }
+
+    HtmlPage page()
+    {
+        page_.section("Summary");
+        if (!kind_.summary(writer_))
+            summary();
+        studied();
+        if (kind_.draws_plainly()) {
+            outcomes();
+            kind_.sections(writer_);
+            pictures();
+            order();
+            motions();
+            energy();
+        }
+        again();
+        return page_;
+    }
+
+private:
+    static std::string subtitle(const ResultHeader& header)
+    {
+        return fmt::format("Kind of study: {}. Realizations: {}. Seed {}. Made by stylobate {}.", header.kind,
+                           header.total, header.seed, header.code_version);
+    }
+
+    static const char* fate(State state)
+    {
+        switch (state) {
+        case State::stood:
+            return "stood and hardly moved";
+        case State::rocked:
+            return "did not collapse; it rocked more than it slid";
+        case State::slid:
+            return "did not collapse; it slid more than it rocked";
+        case State::collapsed:
+            return "collapsed";
+        default:
+            return "is invalid";
+        }
+    }
+
+    void summary()
+    {
+        const Share collapsed = counts_.share(LimitState::collapse);
+        std::string text;
+        if (rows_.size() == 1)
+            text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        else
+            text = fmt::format(
+                "{} of {} valid realizations{} collapsed: {} ({} {}).", collapsed.count, collapsed.trials,
+                surface_ ? fmt::format(" over {} × {} cells of frequency and PGA", header_.frequency_hz.size(),
+                                       header_.pga_m_s2.size())
+                         : "",
+                percent(collapsed.probability), describe_interval(counts_.interval()), interval_text(collapsed));
+        if (surface_)
+            text += " The cells differ in their shaking, so that this share describes the choice of cells too; the "
+                    "probability of each is below.";
+        if (header_.selected)
+            text += " So it does of how many realizations each cell was given: the more, the nearer its probability "
+                    "is to 1/2.";
+        if (collapsed.count > 0)
+            text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
+        page_.paragraph(text);
+        if (!invalid_.empty()) {
+            std::string list;
+            for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)
+                list += fmt::format("{}{} ({})", i > 0 ? ", " : "", invalid_[i].first, to_string(invalid_[i].second));
+            page_.box("warn", fmt::format("{} of {} realizations invalid", invalid_count_, header_.total),
+                      "They were set aside and are no trials. Realizations " + list +
+                          (invalid_count_ > 10 ? " and others." : "."));
+        }
+    }
+
+    void studied()
+    {
+        page_.section("What was run");
+        const bool replayed = header_.kind == "replay" && rows_.size() == 1;
+        const auto facts = study_facts(study_, replayed ? &rows_.front() : nullptr, header_.input_names);
+        page_.facts({facts.begin(), facts.end()});
+        for (const std::string& warning : header_.warnings)
+            page_.box("warn", "Doubtful", warning);
+        page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
+    }
+
+    void outcomes()
+    {
+        if (rows_.size() == 1)
+            return;
+        page_.section("Outcomes");
+        const bool to_rest = study_.outcome.follow == Follow::rest;
+        HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(counts_.interval())}, {}, ""};
+        for (std::size_t i = 0; i < limit_state_names().size(); ++i) {
+            const auto limit = static_cast<LimitState>(i);
+            if ((limit == LimitState::total && !to_rest) ||
+                (limit == LimitState::unseated && study_.structure.epistyles.empty()))
+                continue;
+            const Share share = counts_.share(limit);
+            table.rows.push_back({describe(limit), fmt::format("{} of {}", share.count, share.trials),
+                                  percent(share.probability), interval_text(share)});
+        }
+        page_.table(table);
+        if (to_rest && counts_.share(LimitState::total).count > 0)
+            page_.note(
+                fmt::format("Median time of the total collapse: {:.3g} s.", counts_.median_total_collapse_time_s()));
+        page_.note("Rocking or sliding without collapse: by whichever of the two moved it more.");
+    }
+
+    /// One realization over time.
+    void pictures()
+    {
+        if (!kind_.shows_motion())
+            return;
+        page_.section("Motion");
+        constexpr std::size_t most = 3;
+        const std::size_t shown = std::min(most, rows_.size());
+        for (std::size_t i = 0; i < shown; ++i)
+            picture(fmt::format("Realization {}: {}.", rows_[i].index, to_string(rows_[i].outcome.state)),
+                    [&](const fs::path& png) { strip_picture(results_, isa_, rows_[i].index, "", png); });
+        if (shown < rows_.size())
+            page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
+                                   "strip --realization I.",
+                                   shown, rows_.size(), results_.file()));
+    }
+
+    void order()
+    {
+        if (!header_.has_rows())
+            return first_falls();
+        const FallOrder falls = fall_order(header_.block_names, rows_, cells_of_motion(study_));
+        const std::vector<std::size_t> blocks = order_of_falls(falls);
+        if (blocks.empty())
+            return;
+        page_.section("Order of falls");
+        if (falls.trials > 1)
+            picture("The share of the realizations in which a block had fallen by then.",
+                    [&](const fs::path& png) { order_picture(results_, -1, "", png); });
+        HtmlTable table{"lrrrrr",
+                        {"block", "fell", "share", describe_interval(falls.interval), "median time [s]", "fell first"},
+                        {},
+                        ""};
+        for (const std::size_t i : blocks) {
+            const FallOrder::Block& block = falls.blocks[i];
+            Share share = share_of(falls.trials, block.fall_time_s.size());
+            share.lower = block.lower;
+            share.upper = block.upper;
+            table.rows.push_back({block.name, fmt::format("{} of {}", share.count, share.trials),
+                                  percent(share.probability), interval_text(share),
+                                  number(quantile(block.fall_time_s, 0.5)), fmt::format("{}", block.first)});
+        }
+        page_.table(table);
+        together();
+        if (study_.outcome.follow != Follow::rest)
+            page_.note("Each realization was followed until its first fall only.");
+    }
+
+    /// What the order of falls comes to without rows.
+    void first_falls()
+    {
+        HtmlTable table{"lrrr", {"block", "fell first", "share", describe_interval(counts_.interval())}, {}, ""};
+        for (std::size_t i = 0; i < counts_.first().size(); ++i)
+            if (const std::uint64_t first = counts_.first()[i]; first > 0) {
+                const Share share = counts_.share_first(i);
+                table.rows.push_back({header_.block_names[i], fmt::format("{} of {}", share.count, share.trials),
+                                      percent(share.probability), interval_text(share)});
+            }
+        if (table.rows.empty() && counts_.first_together() == 0)
+            return;
+        page_.section("First to fall");
+        page_.table(table);
+        together();
+    }
+
+    void together()
+    {
+        if (counts_.first_together() > 0)
+            page_.note(fmt::format("In {} realizations several blocks fell first, at the same time step: together. "
+                                   "There none of them counts as the first.",
+                                   counts_.first_together()));
+    }
+
+    void motions()
+    {
+        std::vector<const ResultRow*> upright;
+        for (const ResultRow* row : valid_)
+            if (row->outcome.state != State::collapsed)
+                upright.push_back(row);
+        if (upright.empty())
+            return;
+        page_.section("How far it moved");
+        page_.table(quantiles(upright, {{"largest displacement of the centre of the top block, from upright", "m",
+                                         &Outcome::peak_top_displacement_m},
+                                        {"residual displacement of the centre of the top block, with its sign", "m",
+                                         &Outcome::residual_top_displacement_m},
+                                        {"sliding of all joints", "m", &Outcome::total_sliding_m},
+                                        {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
+                                        {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
+                                        {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
+        if (rows_.size() > 1)
+            page_.note(fmt::format("Over the {} valid realization{} without a fall{}.", upright.size(),
+                                   upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : ""));
+    }
+
+    void energy()
+    {
+        if (const Tally* tally = reader_.tally(); tally && tally->all_trials() > 0) {
+            page_.section("Energy audit");
+            page_.paragraph(worst_balance(tally->energy_residual, tally->energy_realization));
+        }
+        if (valid_.empty())
+            return;
+        page_.section("Energy audit");
+        page_.table(quantiles(valid_, {{"work of the base", "J", &Outcome::energy_base_work_j},
+                                       {"kinetic, at the end", "J", &Outcome::energy_kinetic_j},
+                                       {"potential, against the start", "J", &Outcome::energy_potential_j},
+                                       {"contact springs, against the start", "J", &Outcome::energy_spring_j},
+                                       {"dissipated by friction", "J", &Outcome::energy_friction_j},
+                                       {"dissipated by damping", "J", &Outcome::energy_damping_j}}));
+        const auto worst = std::max_element(valid_.begin(), valid_.end(), [](const ResultRow* a, const ResultRow* b) {
+            return std::abs(a->outcome.energy_residual) < std::abs(b->outcome.energy_residual);
+        });
+        page_.paragraph(worst_balance((*worst)->outcome.energy_residual, (*worst)->index));
+    }
+
+    static std::string worst_balance(double residual, std::uint64_t index)
+    {
+        return fmt::format("What the balance lacks is at most {:.2g} of the energy of the run (realization {}).",
+                           std::abs(residual), index);
+    }
+
+    void again()
+    {
+        page_.section("How to do it again");
+        page_.paragraph(fmt::format("With stylobate {} and the study below as STUDY.toml:", header_.code_version));
+        const std::string name = fs::path(results_.file()).filename().string();
+        std::string commands;
+        if (!kind_.why_no_replay().empty())
+            commands = fmt::format("stylobate run STUDY.toml -o {}\n", name);
+        else if (header_.kind == "replay")
+            commands =
+                fmt::format("stylobate run STUDY.toml -o STUDY.h5\nstylobate replay STUDY.h5 --realization {} -o "
+                            "{}\n",
+                            header_.first, name);
+        else
+            commands =
+                fmt::format("stylobate run STUDY.toml -o {0}\nstylobate replay {0} --realization I    # any one of "
+                            "them, bit by bit\n",
+                            name);
+        page_.block(commands);
+        page_.heading("The study, every default filled in");
+        page_.block(header_.study_toml);
+    }
+
+    void picture(const std::string& caption, const std::function<void(const fs::path&)>& draw)
+    {
+        const fs::path png = folder_ / "picture.png";
+        try {
+            draw(png);
+            page_.figure(png_image(png, caption), caption);
+        } catch (const InputError& error) {
+            warnings_.push_back(fmt::format("a picture is missing: {}", error.what()));
+            page_.note(fmt::format("{} This picture could not be drawn: {}", caption, error.what()));
+        }
+    }
+
+    const Results& results_;
+    const Isa isa_;
+    const ResultReader& reader_;
+    const ResultHeader& header_;
+    std::vector<std::string>& warnings_;
+    const Study& study_;
+    const Kind& kind_;
+    const std::vector<ResultRow>& rows_;
+    const LimitCounts& counts_;
+    HtmlPage page_;
+    PageWriter writer_;
+    const bool surface_;
+    std::vector<const ResultRow*> valid_;
+    std::vector<std::pair<std::uint64_t, InvalidReason>> invalid_; ///< by index; where there are no rows the first ones
+    std::uint64_t invalid_count_ = 0;
+    const TemporaryFolder folder_;
+};
+
+} // namespace
+
+HtmlPage result_page(const Results& results, Isa isa, const std::string& title, std::vector<std::string>& warnings)
+{
+    return ResultPage(results, isa, title, warnings).page();
+}
+
+} // namespace stylobate

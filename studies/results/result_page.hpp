@@ -1,0 +1,21 @@
+#pragma once
+/// The page of a result.
+
+#include "kernels/isa.hpp"
+#include "studies/report/html.hpp"
+#include "studies/results/results.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What was run and what became of it: summary, probabilities, pictures, order of falls, motions, energy, and how to do
+/// it again. Where the pictures cannot be drawn the page says so.
+/// @param isa for realizations whose trajectories the file does not hold
+/// @param title of the page; empty: by the study or the file
+/// @param warnings receives a line for each picture that could not be drawn
+/// @throws InputError if the run is not complete
+HtmlPage result_page(const Results& results, Isa isa, const std::string& title, std::vector<std::string>& warnings);
+
+} // namespace stylobate

@@ -1,0 +1,98 @@
+#include "studies/results/result_picture.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/structure.hpp"
+#include "io/plots/plot_order.hpp"
+#include "io/plots/plot_strip.hpp"
+#include "studies/experiment/trajectory.hpp"
+#include "studies/results/fall_order.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stylobate {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Followed {
+    Trajectory trajectory;
+    std::vector<double> fall_time_s; ///< (blocks)
+};
+
+/// The trajectory that the file holds, or else the realization run again.
+Followed trajectory_of(const Results& results, Isa isa, std::uint64_t index)
+{
+    const ResultReader& reader = results.reader();
+    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
+    if (std::find(stored.begin(), stored.end(), index) != stored.end())
+        return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
+    const Experiment& experiment = results.experiment();
+    if (index < results.header().first || index >= results.end())
+        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
+                                     results.header().first, results.end() - 1));
+    FollowedRealization f = follow(experiment, index, isa);
+    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
+}
+
+std::string strip_title(const Results& results, std::uint64_t index)
+{
+    std::string title = fmt::format("{}, realization {}", results.title(), index);
+    if (results.reader().has(index)) {
+        const ResultRow row = results.reader().row(index);
+        if (row.frequency_hz > 0)
+            title += fmt::format(": {:.3g} Hz, {:.3g} m/s²", row.frequency_hz, row.pga_m_s2);
+        title += fmt::format(", {}", to_string(row.outcome.state));
+    }
+    return title;
+}
+
+} // namespace
+
+void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title, const fs::path& file)
+{
+    const Followed f = trajectory_of(results, isa, index);
+    plot_strip(f.trajectory, f.fall_time_s, title.empty() ? strip_title(results, index) : title, file);
+}
+
+void order_picture(const Results& results, long long cell, const std::string& given_title, const fs::path& file)
+{
+    const ResultHeader& header = results.header();
+    check_complete(results.reader(), results.file());
+    if (!header.has_rows())
+        throw InputError(
+            fmt::format("{}: keeps no rows of its realizations (output.realizations = \"none\"), and so not "
+                        "when each block fell; which fell first is in counts.csv of 'export --to csv'",
+                        results.file()));
+    std::vector<ResultRow> rows = results.trials();
+    std::string title = "Falls: " + results.title();
+    const std::size_t np = header.pga_m_s2.size();
+    const std::size_t cells = header.frequency_hz.size() * np;
+    if (cell >= 0) {
+        const auto wanted = static_cast<std::size_t>(cell);
+        if (cells == 0)
+            throw InputError(
+                fmt::format("--cell {}: a result of kind '{}' has no cells; leave --cell out", cell, header.kind));
+        if (wanted >= cells)
+            throw InputError(fmt::format("--cell {}: {} has the cells 0 to {} (frequency number x {} + PGA number)",
+                                         cell, results.file(), cells - 1, np));
+        std::erase_if(rows, [&](const ResultRow& row) { return row.cell != wanted; });
+        title +=
+            fmt::format(", {:.3g} Hz, {:.3g} m/s²", header.frequency_hz[wanted / np], header.pga_m_s2[wanted % np]);
+    } else if (cells > 1) {
+        title += ", all cells";
+    }
+    const Study& study = results.study();
+    FallOrder falls = fall_order(header.block_names, rows, cells_of_motion(study));
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
+    std::string note =
+        study.outcome.follow == Follow::rest ? "" : "each realization was followed until its first fall only";
+    if (falls.together > 0)
+        note += fmt::format("{}in {} several fell first, together", note.empty() ? "" : " · ", falls.together);
+    plot_order(falls, given_title.empty() ? title : given_title, note, file);
+}
+
+} // namespace stylobate

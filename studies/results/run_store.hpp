@@ -1,0 +1,36 @@
+#pragma once
+/// Where a run puts its realizations: the rows of a results file, or its counts where the study keeps no rows.
+
+#include "ensemble/numerics/run_order.hpp"
+#include "io/store/result_store.hpp"
+#include "studies/kinds/kind.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace stylobate {
+
+class RunStore {
+public:
+    virtual ~RunStore() = default;
+
+    /// How a realization ended that is there already.
+    virtual std::optional<State> state(std::uint64_t index) const = 0;
+    /// Where there are no rows: what is counted, by its place in the order of the run; else null.
+    virtual const DoneSet* counted() const { return nullptr; }
+    /// Gives the kind what is there: all rows, or the counts.
+    virtual void give_to(Kind& kind) const = 0;
+    virtual void add(const ResultRow& row) = 0;
+    virtual void add(const Trajectory& trajectory) = 0;
+    /// All is there: the file becomes complete, with what the kind makes of it.
+    virtual void finish(const Kind& kind) = 0;
+    /// Keeps what is there for another run.
+    virtual void flush() = 0;
+};
+
+/// @param found whether the file is there and is to be continued
+/// @throws InputError as `ResultWriter` and `TallyWriter` do
+std::unique_ptr<RunStore> open_store(const std::string& file, const ResultHeader& header, bool found);
+
+} // namespace stylobate

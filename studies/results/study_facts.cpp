@@ -1,0 +1,212 @@
+#include "studies/results/study_facts.hpp"
+
+#include "ensemble/model/collapse_criterion.hpp"
+#include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/model/motion_set.hpp"
+#include "ensemble/model/structure.hpp"
+#include "io/study/study_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+/// "0.048 m", or "0.044 m to 0.052 m".
+std::string span_text(const std::vector<double>& values, const char* unit)
+{
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *least == *most ? fmt::format("{:.4g} {}", *least, unit)
+                           : fmt::format("{:.4g} {} to {:.4g} {}", *least, unit, *most, unit);
+}
+
+std::string counted(std::size_t n, const char* noun)
+{
+    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+/// Number and sizes of the blocks of a kind; empty without any.
+std::string blocks_text(const std::vector<PlacedBlock>& blocks, const char* noun)
+{
+    std::vector<double> width, height, mass;
+    std::size_t fixed = 0;
+    for (const PlacedBlock& block : blocks)
+        if (block.name.starts_with(noun)) {
+            width.push_back(block.width_m);
+            height.push_back(block.height_m);
+            mass.push_back(block.mass_kg);
+            fixed += block.fixed;
+        }
+    if (width.empty())
+        return "";
+    return fmt::format("{}{}: width {}, height {}, mass {}", counted(width.size(), noun),
+                       fixed > 0 ? fmt::format(" ({} fixed)", fixed) : "", span_text(width, "m"),
+                       span_text(height, "m"), span_text(mass, "kg"));
+}
+
+std::string structure_text(const Study& study, const Layout& layout)
+{
+    std::string text = counted(study.structure.columns.size(), "column");
+    for (const std::string& part : {blocks_text(layout.blocks, "drum"), blocks_text(layout.blocks, "capital"),
+                                    blocks_text(layout.blocks, "epistyle")})
+        if (!part.empty())
+            text += "; " + part;
+    return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
+}
+
+std::string contact_text(const ContactSpec& contact)
+{
+    std::string text =
+        fmt::format("{} contacts, friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
+                    word_for(contact_form_names, contact.form), contact.friction, contact.normal_stiffness_n_m2,
+                    contact.tangential_stiffness_n_m);
+    text += contact.normal_damping_n_s_m ? fmt::format(", C_N {:.3g} N s/m", *contact.normal_damping_n_s_m)
+                                         : fmt::format(", normal damping ratio {:.3g}", contact.normal_damping_ratio);
+    return text + (contact.tangential_damping_n_s_m
+                       ? fmt::format(", C_T {:.3g} N s/m", *contact.tangential_damping_n_s_m)
+                       : fmt::format(", tangential damping ratio {:.3g}", contact.tangential_damping_ratio));
+}
+
+std::string axis_text(const Axis& axis, const char* unit)
+{
+    return axis.count == 1 ? fmt::format("{:.4g} {}", axis.from, unit)
+                           : fmt::format("{} from {:.4g} to {:.4g} {}", axis.count, axis.from, axis.to, unit);
+}
+
+const char* excitation_name(ExcitationKind kind)
+{
+    switch (kind) {
+    case ExcitationKind::none:
+        return "none: the base is at rest";
+    case ExcitationKind::harmonic:
+        return "harmonic";
+    case ExcitationKind::half_sine:
+        return "half sine of acceleration";
+    case ExcitationKind::full_sine:
+        return "full sine of acceleration";
+    case ExcitationKind::ricker:
+        return "Ricker's wavelet";
+    case ExcitationKind::pulse:
+        return "velocity pulse (Mavroeidis and Papageorgiou)";
+    case ExcitationKind::tapered:
+        return "harmonic of tapered acceleration";
+    case ExcitationKind::sweep:
+        return "sine sweep";
+    case ExcitationKind::noise:
+        return "synthetic earthquakes (filtered noise)";
+    case ExcitationKind::record:
+        return "record";
+    case ExcitationKind::table:
+        return "table of samples";
+    }
+    return "";
+}
+
+/// @param one of all realizations; null: all of them
+std::string excitation_text(const Study& study, const ResultRow* one)
+{
+    const ExcitationSpec& e = study.excitation;
+    std::string text = excitation_name(e.kind);
+    if (const std::optional<FragilitySpec>& f = study.fragility; f && one) {
+        const auto stripes = static_cast<std::uint64_t>(f->stripes());
+        text += fmt::format(": motion {} (counted from 0) of {}", one->cell / stripes, f->motions);
+        if (f->method == FragilityMethod::stripes)
+            text += fmt::format(", {} {:.4g}", measure_name(f->measure, f->period_s),
+                                f->intensity.value(static_cast<int>(one->cell % stripes)));
+        return text;
+    } else if (f) {
+        text += fmt::format(": {} motions", f->motions);
+        if (e.frequency_hz > 0)
+            text += fmt::format(" about {:.4g} Hz", e.frequency_hz);
+        return text + (f->method == FragilityMethod::cloud
+                           ? fmt::format(", each {:.4g} times as strong as it stands", f->scale)
+                           : "; " + measure_name(f->measure, f->period_s) + ": " + axis_text(f->intensity, ""));
+    }
+    if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)
+        text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
+    if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)
+        text += fmt::format(", {:.3g} cycles", e.cycles);
+    if (one) {
+        if (one->frequency_hz > 0)
+            text += fmt::format(", {:.4g} Hz", one->frequency_hz);
+        return e.kind == ExcitationKind::none ? text : text + fmt::format(", PGA {:.4g} m/s²", one->pga_m_s2);
+    }
+    if (study.surface)
+        text += "; frequency: " + axis_text(study.surface->frequency_hz, "Hz") +
+                "; PGA: " + axis_text(study.surface->pga_m_s2, "m/s²");
+    if (study.surface && study.surface->adaptive)
+        text += fmt::format("; adaptive, ± {} with at most {} realizations", study.surface->adaptive->half_width,
+                            study.surface->adaptive->budget);
+    if (study.surface || e.kind == ExcitationKind::none)
+        return text; // its axes have been named, or there is nothing to name
+    if (e.frequency_hz > 0)
+        text += fmt::format(", {:.4g} Hz", e.frequency_hz);
+    if (e.pga_m_s2 > 0)
+        text += fmt::format(", PGA {:.4g} m/s²", e.pga_m_s2);
+    else if (e.kind == ExcitationKind::record)
+        text += ", PGA as recorded";
+    else if (e.kind == ExcitationKind::table)
+        text += ", PGA as in the table";
+    return text;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> study_facts(const Study& study, const ResultRow* one,
+                                                             const std::vector<std::string>& inputs)
+{
+    const Layout layout = lay_out(study.structure);
+    std::string perturbed;
+    for (const Perturbation& p : study.perturbations)
+        perturbed += (perturbed.empty() ? "" : ", ") + std::string(to_string(p.quantity));
+    std::replace(perturbed.begin(), perturbed.end(), '_', ' ');
+    std::string drawn;
+    for (std::size_t i = 0; one && i < std::min(inputs.size(), one->inputs.size()); ++i)
+        drawn += fmt::format("{}{} {:.4g}", drawn.empty() ? "" : ", ", inputs[i], one->inputs[i]);
+    std::string mechanisms;
+    for (std::size_t i = 0; i < study.mechanisms.size(); ++i)
+        if (const Mechanism m = study.mechanisms[i].mechanism; i == 0 || study.mechanisms[i - 1].mechanism != m)
+            mechanisms += fmt::format("{}{} ({})", i == 0 ? "" : ", ", to_string(m), rule_of(m).says);
+    return {{"Structure", structure_text(study, layout)},
+            {"Contact", contact_text(study.contact)},
+            {"Excitation", excitation_text(study, one)},
+            {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
+            one ? std::pair<std::string, std::string>{"Drawn in this realization", drawn.empty() ? "nothing" : drawn}
+                : std::pair<std::string, std::string>{"Drawn anew in each realization",
+                                                      perturbed.empty() ? "nothing" : perturbed},
+            {"Collapse", collapse_criterion(study.outcome)},
+            {"Followed", followed_until(study.outcome)}};
+}
+
+Html structure_svg(const Study& study)
+{
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    double left = std::numeric_limits<double>::infinity(), right = -left, top = 0;
+    for (const PlacedBlock& block : blocks) {
+        left = std::min(left, block.left());
+        right = std::max(right, block.right());
+        top = std::max(top, block.top());
+    }
+    constexpr double most_width = 420, most_height = 220, margin = 24, floor = 12;
+    const double scale = std::min(most_width / (right - left), most_height / top);
+    const double width = (right - left) * scale + 2 * margin, height = top * scale + floor + 4;
+    std::string svg =
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+                    "width=\"{0:.0f}\" role=\"img\" aria-label=\"the structure at rest\">\n"
+                    "<rect x=\"0\" y=\"{2:.1f}\" width=\"{0:.0f}\" height=\"{3:.1f}\" fill=\"#b5bfc9\"/>\n",
+                    width, height, height - floor, floor);
+    for (const PlacedBlock& block : blocks)
+        svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+                           "stroke=\"#5a6672\"/>\n",
+                           margin + (block.left() - left) * scale, height - floor - block.top() * scale,
+                           block.width_m * scale, block.height_m * scale,
+                           block.fixed                         ? "#a9a08c"
+                           : block.role == BlockRole::epistyle ? "#c3d3e0"
+                                                               : "#e9e2d0");
+    return Html::ready(svg + "</svg>");
+}
+
+} // namespace stylobate
