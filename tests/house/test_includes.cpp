@@ -294,6 +294,19 @@ TEST(Includes, MakeNoCycleOfRooms)
         EXPECT_TRUE(rooms.contains(room)) << room << " is not in the graph of the rooms";
 }
 
+TEST(House, ThePictureOfTheRoomsHasThemAll)
+{
+    std::ifstream file(root / "docs/images/rooms.svg");
+    const std::string picture{std::istreambuf_iterator<char>(file), {}};
+    std::set<std::string> drawn, known;
+    static const std::regex room(R"re(data-room="([^"]+)")re");
+    for (std::sregex_iterator i(picture.begin(), picture.end(), room), end; i != end; ++i)
+        drawn.insert((*i)[1]);
+    for (const auto& [name, includes] : rooms)
+        known.insert(name);
+    EXPECT_EQ(drawn, known) << "scripts/draw_rooms.py draws it anew";
+}
+
 TEST(House, RoomsAreNotTooFull)
 {
     std::map<std::string, int> files;
