@@ -13,7 +13,7 @@
 namespace stylobate {
 namespace {
 
-/// What one point adds to the likelihood, its slope and its (negative) curvature in the linear predictor.
+/// The contribution of one point to the likelihood, its slope and its (negative) curvature in the linear predictor.
 struct PointTerm {
     double log_likelihood = 0, slope = 0, weight = 0;
 };
@@ -50,7 +50,7 @@ Eigen::VectorXd predictor(const Eigen::MatrixXd& predictors, const ParameterVect
     return eta;
 }
 
-/// Does the plane part the outcomes: nothing that reached lies below it and nothing that did not lies above?
+/// Whether the plane separates the outcomes: nothing that reached lies below it and nothing that did not lies above?
 bool parts(const Eigen::VectorXd& eta, const BinomialCounts& counts)
 {
     const double small = 1e-7 * eta.cwiseAbs().maxCoeff();
@@ -63,7 +63,7 @@ bool parts(const Eigen::VectorXd& eta, const BinomialCounts& counts)
     return any;
 }
 
-/// Points that still tell something of the coefficients: all others are as good as certain.
+/// Points that carry information on the coefficients: all others are certain to rounding.
 Eigen::Index telling_points(Link link, const Eigen::VectorXd& eta, const BinomialCounts& counts)
 {
     Eigen::VectorXd weight(eta.size());
@@ -121,7 +121,7 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
         return fit;
     }
     fit.log_likelihood = -std::numeric_limits<double>::infinity();
-    // where fewer points than coefficients say anything, the others are certain to rounding: it grows for ever
+    // where fewer points than coefficients carry information, the others are certain to rounding: it grows for ever
     const auto found = [&] {
         if (offset.size() == 0 &&
             telling_points(link, predictor(predictors, fit.coefficients, offset), counts) < parameters)

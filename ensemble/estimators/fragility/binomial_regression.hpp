@@ -1,5 +1,7 @@
 #pragma once
-/// Regression of counts on predictors through a link, by maximum likelihood.
+/// Regression of counts on predictors through a link, by maximum likelihood (McCullagh & Nelder, "Generalized Linear
+/// Models", 2nd edition (1989), chapter 4; separated data: Albert & Anderson, "On the existence of maximum likelihood
+/// estimates in logistic regression models", Biometrika 71 (1984) 1).
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/fragility/limits.hpp"
@@ -32,11 +34,12 @@ struct BinomialFit {
     double log_likelihood = 0;    ///< without the binomial coefficients; its supremum where there is no maximum
 };
 
-/// Newton's method with halved steps; both likelihoods are concave.
+/// Newton's method with step halving; both likelihoods are concave (Pratt, "Concavity of the log likelihood", Journal
+/// of the American Statistical Association 76 (1981) 103).
 ///
 /// @param predictors (points x parameters) of full column rank over the points that have trials
 /// @param offset     (points) added to the linear predictor; none where empty
-/// @param start      (parameters) where to begin; zero where empty
+/// @param start      (parameters) initial value; zero where empty
 /// @throws InputError if the predictors are not independent
 BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
                          const Eigen::VectorXd& offset = {}, const ParameterVector& start = {});
@@ -45,16 +48,18 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
 double binomial_log_likelihood(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
                                const ParameterVector& coefficients, const Eigen::VectorXd& offset = {});
 
-/// Covariance of the coefficients when runs of one record depend on each other in any way: the jackknife over records
-/// with one Newton step each (CR3), (G - 1)/G sum_g d_g d_g', d_g = (I - I_g)^-1 s_g. Too wide rather than too narrow
-/// with few records, which the Student quantile that goes with it assumes.
+/// Covariance of the coefficients for any dependence between the runs of one record: the jackknife over records with
+/// one Newton step each, (G - 1)/G sum_g d_g d_g', d_g = (I - I_g)^-1 s_g, with I the information, s the score. This is
+/// the estimator CR3 (Bell & McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage
+/// samples", Survey Methodology 28 (2002) 169). It is conservative with few records, as the Student quantile used with
+/// it assumes.
 ///
 /// @param weight as in `counts_of`
-/// @return (parameters x parameters); not finite where the maximum hangs on one record alone
+/// @return (parameters x parameters); not finite where the maximum depends on one record alone
 ParameterMatrix record_covariance(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,
                                   const BinomialFit& fit, const Eigen::VectorXd& weight = {});
 
-/// What each record pulls the coefficients by: minus the steps d_g above, (records x parameters).
+/// The influence of each record on the coefficients: minus the steps d_g above, (records x parameters).
 Eigen::MatrixXd record_influence(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,
                                  const BinomialFit& fit, const Eigen::VectorXd& weight = {});
 

@@ -18,8 +18,8 @@ struct Normal {
     bool found = false;
 };
 
-/// The normal distribution of ln capacity from intervals, by expectation and maximization: each record counts with the
-/// mean and the square that its interval leaves to it.
+/// The normal distribution of ln capacity from intervals, by expectation and maximization: each record contributes the
+/// conditional mean and mean square within its interval.
 Normal normal_from(std::span<const RecordCapacity> capacities, std::size_t without)
 {
     std::vector<std::pair<double, double>> intervals;

@@ -1,9 +1,11 @@
 #pragma once
-/// The lognormal curve from capacities: incremental dynamic analysis, each record with its own intensities.
+/// The lognormal curve from capacities: incremental dynamic analysis, each record with its own intensities (Vamvatsikos
+/// & Cornell, "Incremental dynamic analysis", Earthquake Engineering and Structural Dynamics 31 (2002) 491).
 ///
-/// A record's capacity is the lowest intensity at which the limit state is reached. It is known to lie above the
-/// intensity run before, so what is observed are intervals: (below, at], (0, at] where the first run reached it, and
-/// (below, infinity) where none did. Their likelihood needs no spacing and no capacity for every record.
+/// The capacity of a record is the lowest intensity at which the limit state is reached. It lies above the intensity
+/// run before, so the observations are intervals: (below, at], (0, at] where the first run reached it, and (below,
+/// infinity) where none did. Their likelihood (interval-censored data) needs neither a spacing nor a capacity for every
+/// record.
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 
@@ -34,7 +36,9 @@ struct CapacityCurve {
     std::vector<std::string> says;
 };
 
-/// By maximum likelihood, intervals by the jackknife over records with Student's quantile.
+/// By maximum likelihood (algorithm EM: Dempster, Laird & Rubin, "Maximum likelihood from incomplete data via the EM
+/// algorithm", Journal of the Royal Statistical Society B 39 (1977) 1), with intervals by the jackknife over records
+/// with Student's quantile.
 /// @throws InputError with fewer than two records
 CapacityCurve capacity_curve(std::span<const RecordCapacity> capacities, double level = 0.95);
 

@@ -51,7 +51,8 @@ public:
             outside = from + (outside - from) * 2;
             at_outside = above(outside);
         }
-        // regula falsi on the root of the deviance, which is nearly straight, with the Illinois weights
+        // regula falsi on the root of the deviance, which is nearly linear, with the Illinois weights (Dowell &
+        // Jarratt, "A modified regula falsi method for computing the root of an equation", BIT 11 (1971) 168)
         double weight_inside = std::sqrt(std::max(0.0, at_inside + threshold)) - std::sqrt(threshold);
         double weight_outside = std::sqrt(at_outside + threshold) - std::sqrt(threshold);
         int side = 0;

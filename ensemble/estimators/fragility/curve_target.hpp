@@ -1,5 +1,5 @@
 #pragma once
-/// What is asked of a fitted curve: a number that its coefficients determine, with its intervals.
+/// Functions of a fitted curve: a number that its coefficients determine, with its intervals.
 
 #include "ensemble/estimators/fragility/binomial_regression.hpp"
 #include "ensemble/estimators/fragility/limits.hpp"
@@ -45,24 +45,27 @@ struct FittedCurve {
 };
 FittedCurve fitted_curve(FragilityData data, Eigen::MatrixXd predictors, Link link);
 
-/// The variance of a target, from the records, and the degrees of freedom of that variance.
+/// The variance of a target, from the records, and the degrees of freedom of that variance (own choice, of the form of
+/// Satterthwaite, "An approximate distribution of estimates of variance components", Biometrics Bulletin 2 (1946) 110).
 struct RecordSpread {
     double variance = 0;
     double freedom = 0;   ///< (sum a_g)^2 / sum a_g^2 - 1 with each record's share a_g of the information on the target
-    double inflation = 1; ///< of the variance against that of independent runs
+    double inflation = 1; ///< of the variance relative to that of independent runs
 };
 RecordSpread record_spread(const FittedCurve& curve, const CurveTarget& target);
 
-/// Values whose profile likelihood lies less than half the chi-square quantile below the maximum: right where all runs
-/// are independent. Unbounded, as the others, where the likelihood has no maximum.
+/// Values whose profile likelihood lies less than half the chi-square quantile below the maximum (Venzon & Moolgavkar,
+/// "A method for computing profile-likelihood-based confidence intervals", Applied Statistics 37 (1988) 87): right
+/// where all runs are independent. Unbounded, as the others, where the likelihood has no maximum.
 Limits profile_limits(const FittedCurve& curve, const CurveTarget& target, double level);
 
 /// The same with the likelihood ratio divided by the inflation of the target's variance by the records and compared
-/// with the square of Student's quantile (Chandler & Bate 2007, "Inference for clustered data using the independence
-/// loglikelihood", vertical adjustment; CR3 variance): right where only the records are independent.
+/// with the square of Student's quantile (Chandler & Bate, "Inference for clustered data using the independence
+/// loglikelihood", Biometrika 94 (2007) 167, vertical adjustment; CR3 variance): right where only the records are
+/// independent.
 Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double level);
 
-/// Twice the log likelihood by which the best coefficients with that value of the target fall behind the maximum.
+/// Twice the difference of the maximum log likelihood and that of the best coefficients with that value of the target.
 double profile_deviance(const FittedCurve& curve, const CurveTarget& target, double value);
 
 /// The fits without each record in turn.
@@ -71,9 +74,10 @@ struct Jackknife {
 };
 Jackknife jackknife(const FittedCurve& curve);
 
-/// The jackknife over records: G value - (G - 1) mean of the values without each, which takes the bias away that a
-/// steep curve has with few records, -+ Student's quantile x the standard error of the values without each.
-/// @return unbounded where the curve hangs on one record
+/// The jackknife over records (Efron & Tibshirani, "An Introduction to the Bootstrap" (1993), chapter 11): G value - (G
+/// - 1) mean of the values without each, which removes the bias that a steep curve has with few records, -+ Student's
+/// quantile x the standard error of the values without each.
+/// @return unbounded where the curve depends on one record
 Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, const CurveTarget& target, double level);
 
 /// value -+ Student's quantile x standard error from the records, CR3.

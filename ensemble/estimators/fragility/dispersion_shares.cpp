@@ -16,12 +16,12 @@ namespace {
 
 using Differences = std::array<double, dispersion_levels>;
 
-/// Mean and mean square of a group, its children counting alike.
+/// Mean and mean square of a group, its children with equal weights.
 struct Moments {
     double mean = 0, square = 0;
 };
 
-/// Children that part at one level: the sums over their pairs.
+/// Children that differ at one level: the sums over their pairs.
 struct Siblings {
     double count = 0, mean = 0, square = 0, mean_squared = 0;
 
@@ -37,7 +37,7 @@ struct Siblings {
     double half_difference() const { return square / count - (mean * mean - mean_squared) / (count * (count - 1)); }
 };
 
-/// What one record says at one stripe: its moments, and the weighted differences within it.
+/// One record at one stripe: its moments, and the weighted differences within it.
 struct RecordPart {
     Moments moments;
     Differences sum{}, weight{}; ///< the record's own level is left 0
@@ -73,7 +73,7 @@ RecordPart part_of(std::span<const NestedRun> runs)
     return part;
 }
 
-/// The parts of all records, and what they say together, with or without one of them.
+/// The parts of all records, and their sums, with or without one of them.
 class Parts {
 public:
     explicit Parts(std::span<const NestedRun> given)

@@ -1,17 +1,18 @@
 #pragma once
-/// How much of the scatter is whose: the record's, the imperfections', the contact parameters', and pure chaos.
+/// Variance components of the response: record, imperfections, contact parameters, and chaos.
 ///
 /// A nested design: each record shakes several structures (the same columns with other imperfections), each structure
-/// has several sets of contact parameters, each of these several twins that differ by next to nothing. The response y
-/// is 0 or 1 (the limit state at one intensity), or a number (ln of a displacement, of a capacity). With y the sum of
-/// independent parts, half the mean squared difference of two runs that part at a level is the sum of the variances of
-/// that level and of all below it,
+/// has several sets of contact parameters, each of these several perturbed replicas that differ by a negligible amount.
+/// The response y is 0 or 1 (the limit state at one intensity), or a number (ln of a displacement, of a capacity). With
+/// y the sum of independent parts, half the mean squared difference of two runs that first differ at a level is the sum
+/// of the variances of that level and of all below it,
 ///
 ///   D_l = E (y - y')^2 / 2,   the runs being equal above l and different at l
 ///
-/// which is estimated without bias from all such pairs, with any number of runs anywhere. The level's own variance is
-/// D_l - D_(l+1), the total is D of the records, and the shares add up to 1 by construction. An estimate may be
-/// negative where the truth is near 0; it is not cut off, which would bias it.
+/// (own derivation; the model is that of Searle, Casella & McCulloch, "Variance Components" (1992)). D_l is estimated
+/// without bias from all such pairs, with any number of runs anywhere. The variance of the level is D_l - D_(l+1), the
+/// total is D of the records, and the shares add up to 1 by construction. An estimate may be negative where the true
+/// value is near 0; truncating it would bias it.
 
 #include "ensemble/estimators/fragility/limits.hpp"
 
@@ -29,8 +30,8 @@ const char* to_string(DispersionLevel level);
 /// One run of the nested design.
 struct NestedRun {
     std::uint32_t record = 0;
-    std::uint32_t imperfection = 0; ///< tells apart the structures of one record
-    std::uint32_t contact = 0;      ///< tells apart the contact parameters of one structure
+    std::uint32_t imperfection = 0; ///< identifies the structures of one record
+    std::uint32_t contact = 0;      ///< identifies the contact parameters of one structure
     std::uint32_t stripe = 0;       ///< only runs of the same stripe are compared
     double response = 0;
 };
@@ -51,8 +52,9 @@ struct DispersionShares {
     std::vector<std::string> says;
 };
 
-/// Intervals by the jackknife over records: of a variance, Student's; of a share, Fieller's set, the shares s at which
-/// the level's variance - s total is not significantly different from 0.
+/// Intervals by the jackknife over records: for a variance Student's; for a share the set of Fieller ("Some problems in
+/// interval estimation", Journal of the Royal Statistical Society B 16 (1954) 175), the shares s at which the level's
+/// variance - s total is not significantly different from 0.
 ///
 /// @throws InputError with fewer than two records, a response that is not finite, or a level outside (0.5, 1)
 DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level = 0.95);

@@ -43,8 +43,9 @@ CurveEstimate same_everywhere(double value, Limits limits)
     return {value, limits, limits, limits, limits};
 }
 
-/// The bounds that hold whatever form the curve has, as long as it does not fall: from intensities at which nothing or
-/// everything reached the limit state, each record counted once.
+/// Bounds for any non-decreasing curve, from intensities at which nothing or everything reached the limit state, each
+/// record counted once: the exact binomial limits of Clopper & Pearson, "The use of confidence or fiducial limits
+/// illustrated in the case of the binomial", Biometrika 26 (1934) 404, extended by monotonicity (own derivation).
 class BoundsWithoutCurve {
 public:
     BoundsWithoutCurve(const FragilityData& data, double level)

@@ -2,8 +2,10 @@
 /// Fragility curves: the probability that a limit state is reached, given the intensity, with its intervals.
 ///
 /// With one measure and the probit this is the lognormal curve, P = Phi(ln(im / median) / dispersion), by maximum
-/// likelihood. Which interval covers how often is measured in `docs/fragility_statistics.md`: those by runs cover only
-/// where runs are independent, which runs of one record are not.
+/// likelihood (Shinozuka, Feng, Lee & Naganuma, "Statistical analysis of fragility curves", Journal of Engineering
+/// Mechanics 126 (2000) 1224; Baker, "Efficient analytical fragility function fitting using dynamic structural
+/// analysis", Earthquake Spectra 31 (2015) 579). `docs/fragility_statistics.md` has the measured coverage of each
+/// interval: those by runs hold only where runs are independent, which runs of one record are not.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/fragility/limits.hpp"
@@ -14,7 +16,7 @@
 
 namespace stylobate {
 
-/// Below it no interval is given: Student's quantile hangs on a variance that is itself unknown.
+/// Below it no interval is given: Student's quantile depends on a variance that is itself poorly known.
 inline constexpr std::size_t least_records = 8;
 /// Below it the intervals are marked: their coverage was measured from here on.
 inline constexpr std::size_t enough_records = 10;
@@ -33,7 +35,7 @@ struct CurveEstimate {
     Limits records;         ///< the one to use: the jackknife over records
     Limits profile_records; ///< profile likelihood, adjusted to the records
     Limits profile_runs;    ///< profile likelihood, right only where all runs are independent
-    Limits bootstrap;       ///< records drawn again, studentized
+    Limits bootstrap;       ///< resampled records, studentized
 };
 
 struct CurvePoint {
@@ -46,24 +48,24 @@ struct FragilityCurve {
     double level = 0.95;
     std::size_t records = 0;
     double trials = 0, reached = 0;
-    Maximum maximum = Maximum::inside; ///< otherwise there is no curve, but what bounds the probabilities
+    Maximum maximum = Maximum::inside; ///< otherwise there is no curve, only bounds of the probabilities
     double log_likelihood = 0;
     std::vector<CurveEstimate> coefficients; ///< (1 + measures) constant, then one per ln intensity
-    CurveEstimate median;     ///< of one measure, in its unit; where separated, its bounds without the form of a curve
-    CurveEstimate dispersion; ///< 1 / slope: the standard deviation of ln capacity for the probit
+    CurveEstimate median;                    ///< of one measure, in its unit; where separated, its form-free bounds
+    CurveEstimate dispersion;                ///< 1 / slope: the standard deviation of ln capacity for the probit
     std::vector<CurvePoint> at;
-    std::vector<std::string> says; ///< what a reader must know, in sentences
+    std::vector<std::string> says; ///< remarks for the reader, in sentences
 };
 
 /// @throws InputError for data that bear no estimate at all: options out of range, fewer different intensities than
 ///         coefficients
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options);
 
-/// What can be said before anything is run.
+/// Checks a design before anything is run.
 /// @throws InputError with too few records or intensities for a curve with intervals
 void check_fragility_design(std::size_t records, std::size_t intensities, std::size_t measures);
 
-/// Limit states are nested: what has reached one has reached all before it.
+/// Limit states are nested: a run that has reached one has reached all before it.
 /// @param reached (runs x states) by state, in the order given
 /// @return for each pair of neighbours with runs that reached the later one only, a sentence
 std::vector<std::string> order_of_limit_states(const std::vector<std::string>& names,

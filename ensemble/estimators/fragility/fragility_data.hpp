@@ -1,9 +1,9 @@
 #pragma once
-/// Outcomes at known intensities, summed by record: what every fragility estimate starts from.
+/// Outcomes at known intensities, summed by record: the input of every fragility estimate.
 ///
-/// Runs of one record are not independent, so the record is the unit of every interval; within a record only the number
-/// of runs and of those that reached the limit state at each intensity matter to a curve. Summed so, 60,000 runs of 40
-/// records at 10 intensities are 400 rows and 10 points, and a thousand resamples cost milliseconds.
+/// Runs of one record are not independent, so the record is the unit of every interval. Within a record only the number
+/// of runs and of those that reached the limit state at each intensity affect a curve. Summed in this way, 60,000 runs
+/// of 40 records at 10 intensities are 400 rows and 10 points, and a thousand resamples cost milliseconds.
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,7 @@ struct FragilityData {
 
 /// One run, or several of one record at one intensity.
 struct FragilityRun {
-    std::uint32_t record = 0;      ///< any number that tells the records apart
+    std::uint32_t record = 0;      ///< any number that identifies the record
     std::vector<double> intensity; ///< (measures)
     double reached = 0;            ///< 0 or 1, or how many of `trials`
     double trials = 1;

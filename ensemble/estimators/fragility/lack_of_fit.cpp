@@ -59,7 +59,7 @@ LackOfFit lack_of_fit(const FittedCurve& curve, double significance)
         found.says = fmt::format("Whether the {} fits cannot be tested with {} records.", form, records);
         return found;
     }
-    // efficient scores: what the bends say beyond the coefficients that were fitted
+    // efficient scores: the scores of the additional terms, orthogonal to the fitted coefficients
     const Eigen::VectorXd eta = curve.predictors * curve.fit.coefficients;
     Eigen::VectorXd rate(eta.size()), weight(eta.size());
     Eigen::VectorXd below(eta.size());
@@ -95,7 +95,7 @@ LackOfFit lack_of_fit(const FittedCurve& curve, double significance)
             fmt::format("No lack of fit of the {} was found (p = {:.3f}, {} records).", form, found.p_value, records);
         return found;
     }
-    // where the shares leave the curve most, in standard errors of independent runs
+    // where the shares deviate most from the curve, in standard errors of independent runs
     Eigen::Index worst = 0;
     double most = -1;
     for (Eigen::Index i = 0; i < eta.size(); ++i) {

@@ -1,10 +1,12 @@
 #pragma once
-/// Does the form of a fitted curve hold? A score test that allows for records, and the sentence that says it.
+/// Test of the form of a fitted curve: a score test that accounts for records, and the sentence that states its result.
 ///
-/// The usual deviance against the shares of the stripes counts runs of one record as independent, and so rejects true
-/// curves. Here terms that bend the curve (powers of the logarithm of the intensity up to the fourth; squares where
-/// there are several measures) are tested by the sums of their scores over each record, which are independent:
-/// Hotelling's T2 of the records' efficient scores, against F(terms, records - terms).
+/// The usual deviance from the shares of the stripes counts runs of one record as independent, and so rejects true
+/// curves. Here additional terms (powers of the logarithm of the intensity up to the fourth; squares where there are
+/// several measures) are tested by the sums of their scores over each record, which are independent: Hotelling's T2
+/// ("The generalization of Student's ratio", Annals of Mathematical Statistics 2 (1931) 360) of the records' efficient
+/// scores (Boos, "On generalized score tests", The American Statistician 46 (1992) 327), compared with F(terms, records
+/// - terms).
 
 #include <string>
 
@@ -13,7 +15,7 @@ namespace stylobate {
 struct FittedCurve;
 
 struct LackOfFit {
-    int terms = 0;        ///< that bend the curve; 0 where there is nothing to test with
+    int terms = 0;        ///< number of additional terms; 0 where the data allow no test
     double statistic = 0; ///< F
     double p_value = 1;
     std::string says; ///< the finding in a sentence

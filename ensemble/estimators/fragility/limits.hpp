@@ -1,5 +1,5 @@
 #pragma once
-/// The ends of an interval, and whether there is an estimate inside it.
+/// The limits of an interval, and the kinds of maximum of a likelihood.
 
 #include <cstdint>
 #include <limits>
@@ -11,10 +11,10 @@ struct Limits {
     double upper = std::numeric_limits<double>::infinity();
 };
 
-/// How a likelihood is shaped.
+/// Where the maximum of a likelihood is.
 enum class Maximum : std::uint8_t {
     inside,    ///< it has its maximum at finite coefficients
-    separated, ///< it grows for ever: a plane parts what reached the limit state from what did not
+    separated, ///< unbounded: a plane separates the runs that reached the limit state from the others
     none,      ///< nothing reached it
     all        ///< everything did
 };

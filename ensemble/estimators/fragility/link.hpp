@@ -1,12 +1,14 @@
 #pragma once
-/// From a linear predictor to a probability: the probit and the logit.
+/// From a linear predictor to a probability: the probit (the normal distribution; Bliss, "The calculation of the
+/// dosage-mortality curve", Annals of Applied Biology 22 (1935) 134) and the logit (the logistic distribution; Berkson,
+/// "Application of the logistic function to bio-assay", Journal of the American Statistical Association 39 (1944) 357).
 
 #include <cstdint>
 
 namespace stylobate {
 
-/// Which distribution function carries the linear predictor to a probability. The probit in the logarithm of an
-/// intensity is the lognormal fragility curve.
+/// Which distribution function maps the linear predictor to a probability. The probit in the logarithm of an intensity
+/// is the lognormal fragility curve.
 enum class Link : std::uint8_t { probit, logit };
 const char* to_string(Link link);
 

@@ -14,7 +14,7 @@
 namespace stylobate {
 namespace {
 
-/// What each record adds to the log likelihood of a fitted curve.
+/// The contribution of each record to the log likelihood of a fitted curve.
 std::vector<double> log_likelihood_by_record(const FittedCurve& curve)
 {
     const Eigen::VectorXd eta = curve.predictors * curve.fit.coefficients;
@@ -29,7 +29,7 @@ std::vector<double> log_likelihood_by_record(const FittedCurve& curve)
     return sums;
 }
 
-/// Points are split by record, so that a feature of the record can stand beside the measure.
+/// Points are split by record, so that a feature of the record can be a predictor beside the measure.
 FittedCurve with_feature(const FragilityData& data, const std::vector<double>& values)
 {
     FragilityData split = data;
@@ -70,7 +70,7 @@ Sufficiency sufficiency_of(const FragilityData& data, const std::string& feature
     return found;
 }
 
-/// Bonferroni: the smallest of m chances against level / m.
+/// Bonferroni: the smallest of m p-values, compared with level / m.
 bool nothing_adds(const std::vector<Sufficiency>& tests, double level)
 {
     double smallest = 1;
@@ -141,7 +141,8 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
             ranked.push_back(measure);
             continue;
         }
-        // Vuong's comparison, with the record as the unit
+        // the comparison of Vuong, "Likelihood ratio tests for model selection and non-nested hypotheses", Econometrica
+        // 57 (1989) 307, with the record as the unit
         const std::vector<double>& best = all.front().by_record;
         double sum = 0, square = 0;
         for (std::size_t g = 0; g < data.records; ++g)

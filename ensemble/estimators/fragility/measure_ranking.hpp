@@ -1,6 +1,8 @@
 #pragma once
-/// Which intensity measure tells most about a limit state, and whether it tells all that the records' other features
-/// could.
+/// Ranking of intensity measures by their information on a limit state (efficiency), and a test whether other features
+/// of the records add to it (sufficiency). The terms are those of Luco & Cornell, "Structure-specific scalar intensity
+/// measures for near-source and ordinary earthquake ground motions", Earthquake Spectra 23 (2007) 357; the gain in
+/// information per run is an own choice.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/fragility/limits.hpp"
@@ -10,7 +12,7 @@
 
 namespace stylobate {
 
-/// What the other features of a record add to one measure.
+/// The contribution of another feature of the records to one measure.
 struct Sufficiency {
     std::string feature;    ///< such as magnitude or distance
     double coefficient = 0; ///< of the standardised feature beside ln measure
@@ -26,13 +28,13 @@ struct RankedMeasure {
     double gain = 0; ///< information on the outcome: (log likelihood - that of the mean share) / runs [nat]
     Limits behind;   ///< by how much the best measure's gain exceeds it, by records [nat]; 0, 0 of the best itself
     std::vector<Sufficiency> sufficiency; ///< for each feature
-    bool sufficient = true; ///< no feature adds anything at the level, all looked at together (Bonferroni)
+    bool sufficient = true;               ///< no feature adds anything at the level, all tested together (Bonferroni)
     std::string says;
 };
 
 /// @param names    (measures)
-/// @param features (features) names of what else is known of the records, and its value for each record of `data`, in
-///                 the order of their numbers, (features x records)
+/// @param features (features) names of other known features of the records
+/// @param values   (features x records) their values, in the order of the records' numbers
 /// @return best gain first; measures without a curve last. The gain compares measures with different units and slopes,
 ///         which the dispersion does only after division by the scatter of the measure itself.
 /// @throws InputError for names or features of another count, or fewer than `least_records` records

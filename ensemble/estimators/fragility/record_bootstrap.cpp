@@ -10,7 +10,8 @@
 namespace stylobate {
 namespace {
 
-/// The quantile of sorted values, with the definition k = p (n + 1) that keeps tails at their nominal weight.
+/// The quantile of sorted values, with the definition k = p (n + 1), which keeps the nominal weight of the tails
+/// (Hyndman & Fan, "Sample quantiles in statistical packages", The American Statistician 50 (1996) 361, definition 6).
 double sorted_quantile(const std::vector<double>& sorted, double p)
 {
     const double n = static_cast<double>(sorted.size());
@@ -23,7 +24,7 @@ double sorted_quantile(const std::vector<double>& sorted, double p)
     return sorted[below] + part * (sorted[above] - sorted[below]);
 }
 
-/// What the resamples say of one target.
+/// The limits of one target from the resamples.
 struct Resampled {
     std::vector<double> value, studentized;
     std::size_t without_maximum = 0;
@@ -81,7 +82,7 @@ std::vector<BootstrapLimits> bootstrap_limits(const FittedCurve& curve, std::spa
             inside ? record_covariance(curve.link, curve.predictors, curve.data, fit, weight) : ParameterMatrix();
         for (std::size_t t = 0; t < targets.size(); ++t) {
             if (!inside) {
-                // whichever side it belongs to, it must not make the interval narrower: one on each
+                // its side is unknown, and it must not make the interval narrower: one on each side
                 const double far = resampled[t].without_maximum++ % 2 == 0 ? std::numeric_limits<double>::infinity()
                                                                            : -std::numeric_limits<double>::infinity();
                 resampled[t].value.push_back(far);

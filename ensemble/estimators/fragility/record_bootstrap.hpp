@@ -1,5 +1,6 @@
 #pragma once
-/// Curves fitted again to records drawn with replacement.
+/// Curves fitted to records resampled with replacement (Efron & Tibshirani, "An Introduction to the Bootstrap" (1993),
+/// chapters 12 to 14).
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 
@@ -9,9 +10,9 @@ namespace stylobate {
 
 struct BootstrapLimits {
     Limits percentile;
-    Limits accelerated;              ///< bias-corrected and accelerated (BCa, Efron 1987)
+    Limits accelerated;              ///< bias-corrected and accelerated (BCa; Efron, JASA 82 (1987) 171)
     Limits studentized;              ///< from the quantiles of (value - estimate) / standard error (bootstrap-t)
-    std::size_t without_maximum = 0; ///< resamples whose likelihood has none; they count as infinitely far out
+    std::size_t without_maximum = 0; ///< resamples without a maximum; they count as infinite
 };
 
 /// @param resamples number of them; resample i draws with stream `bootstrap`, index i, elements 0 to records - 1

@@ -23,9 +23,10 @@ public:
         greatest_ = std::max(greatest_, factor);
     }
 
-    /// P(sum > 0), the inverse Laplace integral of M(s) / s with M(s) = product of 1 / (1 - a s). The path goes through
-    /// the saddle point, where the integrand neither oscillates nor cancels; t = scale sinh(x) makes it fall
-    /// exponentially, so that the trapezoidal rule errs by less than 1e-7 with up to 400 records.
+    /// P(sum > 0), the inverse Laplace integral of M(s) / s with M(s) = product of 1 / (1 - a s). The path passes
+    /// through the saddle point, where the integrand neither oscillates nor cancels; with t = scale sinh(x) it decays
+    /// exponentially, so that the trapezoidal rule (Trefethen & Weideman, "The exponentially convergent trapezoidal
+    /// rule", SIAM Review 56 (2014) 385) errs by less than 1e-7 with up to 400 records. Own derivation.
     double above_zero() const
     {
         if (!(greatest_ > 0))
@@ -103,7 +104,7 @@ double upper_limit(const Counted& records, double level)
             sum.add(record.second - share * record.first, times);
         return sum.above_zero() - tail;
     };
-    // at the share itself the sum is above 0 with a probability that no level's tail comes near
+    // at the share itself the probability of a sum above 0 is far from the tail of any level
     std::uintmax_t most = 100;
     const auto [low, high] = boost::math::tools::toms748_solve(above, reached / trials * (1 - 1e-12) + 1e-12, 1 - 1e-12,
                                                                boost::math::tools::eps_tolerance<double>(32), most);

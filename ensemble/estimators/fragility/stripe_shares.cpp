@@ -13,7 +13,9 @@
 namespace stylobate {
 namespace {
 
-/// Pooled adjacent violators: neighbours that fall are given their common share.
+/// Pooled adjacent violators: neighbours that decrease are given their common share (Ayer, Brunk, Ewing, Reid &
+/// Silverman, "An empirical distribution function for sampling with incomplete information", Annals of Mathematical
+/// Statistics 26 (1955) 641).
 void make_monotone(std::vector<StripeShare>& stripes)
 {
     struct Pool {
@@ -56,7 +58,7 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
         stripe.trials += row.trials;
         stripe.reached += row.reached;
     }
-    // what each record pulls each share by
+    // the influence of each record on each share
     Eigen::MatrixXd pull =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(records), static_cast<Eigen::Index>(stripes));
     for (std::size_t j = 0; j < stripes; ++j) {
@@ -77,7 +79,7 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
         found.stripes[j - 1].band.upper = std::min(found.stripes[j - 1].band.upper, found.stripes[j].band.upper);
     make_monotone(found.stripes);
 
-    // the largest fall between two stripes, and how large it would be by chance
+    // the largest decrease between two stripes, and its null distribution
     struct Fall {
         std::size_t from, to;
         double size;

@@ -14,7 +14,8 @@ namespace stylobate {
 
 namespace {
 
-/// Fills in standard normal numbers, two at a time (Box and Muller 1958).
+/// Fills in standard normal numbers, two at a time (Box & Muller, "A note on the generation of random normal deviates",
+/// Annals of Mathematical Statistics 29 (1958) 610).
 void draw_normal(std::uint64_t seed, std::uint64_t index, double* numbers, std::size_t count)
 {
     for (std::size_t i = 0; i < count; i += 2) {

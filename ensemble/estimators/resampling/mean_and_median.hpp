@@ -12,12 +12,14 @@ struct Estimated {
     double lower = 0, upper = 0;
 };
 
-/// Student's interval, 95 %; what is NaN is left out. Below two values the interval is everything.
+/// Student's interval, 95 % (Student, "The probable error of a mean", Biometrika 6 (1908) 1); NaN are left out. Below
+/// two values the interval is unbounded.
 Estimated mean_of(const std::vector<double>& values);
 
-/// The interval between two order statistics that holds the median in at least 95 %, whatever the distribution; below
-/// six values it is everything. Infinite values (a time that did not come) are the greatest: nothing is assumed of
-/// them but that. So the median is infinite where more than half of the values are.
+/// The interval between two order statistics that contains the median with at least 95 %, whatever the distribution
+/// (David & Nagaraja, "Order Statistics" (2003), section 7.1); below six values it is unbounded. Infinite values (the
+/// time of an event that did not occur) are the greatest, and nothing else is assumed of them: the median is infinite
+/// where more than half of the values are.
 Estimated median_of(std::vector<double> values);
 
 } // namespace stylobate

@@ -1,9 +1,9 @@
 #pragma once
-/// Percentile intervals for whatever is a function of means over independent rows.
+/// Percentile intervals for functions of means over independent rows.
 ///
-/// The rows are drawn again, as many as there are, with replacement; the estimates of each such sample spread as the
-/// estimate does (Efron & Tibshirani, "An Introduction to the Bootstrap" (1993), chapter 13). An estimator says what it
-/// needs of a row as a list of numbers, and what it makes of their means: a resample then costs one pass.
+/// As many rows as there are are resampled with replacement; the scatter of the estimates of such samples is that of
+/// the estimate (Efron & Tibshirani, "An Introduction to the Bootstrap" (1993), chapter 13). An estimator consists of
+/// the list of numbers that it needs of a row, and a function of their means: a resample then costs one pass.
 
 #include <cstddef>
 #include <cstdint>
@@ -33,16 +33,16 @@ struct BootstrapOptions {
 using FromMeans = std::function<void(std::span<const double> means, std::span<double> estimates)>;
 
 /// @param rows      (n x width), row by row, of independent rows
-/// @param estimates how many `from_means` fills in
+/// @param estimates number of estimates that `from_means` computes
 /// @return each with its interval; undetermined where the estimate, or so many of the resamples' estimates that they
 ///         reach into the interval, are not finite
 std::vector<Estimate> bootstrap_rows(std::span<const double> rows, std::size_t width, std::size_t estimates,
                                      const FromMeans& from_means, const BootstrapOptions& options);
 
-/// The same with limits of the bootstrap or of the jackknife, whichever lie further out: value -+ Student's quantile x
-/// the standard error from the values without each row. Of ratios of few rows either interval alone holds in 84 to 95 %
-/// of the designs, where it is too narrow on the one side or on the other (docs/sensitivity.md has the coverage of both
-/// together).
+/// The same with limits of the bootstrap or of the jackknife, whichever are wider. Those of the jackknife are value -+
+/// Student's quantile x the standard error from the values without each row (Efron & Tibshirani 1993, chapter 11). For
+/// ratios of few rows either interval alone holds in 84 to 95 % of the designs and is too narrow on one side
+/// (docs/sensitivity.md has the coverage of both together); the combination is an own choice.
 std::vector<Estimate> resampled_rows(std::span<const double> rows, std::size_t width, std::size_t estimates,
                                      const FromMeans& from_means, const BootstrapOptions& options);
 

@@ -1,10 +1,13 @@
 #pragma once
-/// Sobol's indices: which factors the variance of an outcome comes from, alone and with all that they interact with.
+/// Sobol's indices: the share of each factor in the variance of an outcome, alone and with all its interactions (Sobol,
+/// "Global sensitivity indices for nonlinear mathematical models and their Monte Carlo estimates", Mathematics and
+/// Computers in Simulation 55 (2001) 271).
 ///
 /// A row of the design has two independent draws A and B of all factors x, and for each factor k a third point A_k: A
-/// with its k-th factor from B (Saltelli et al., Computer Physics Communications 181 (2010) 259). An outcome y depends
-/// on the factors and on a rest w, of which each row has M draws, the same ones at all points of the row. p(x) = E[y|x]
-/// is the mean over the rest: of 0 and 1 the probability. Two kinds of indices are told:
+/// with its k-th factor from B (Saltelli et al., "Variance based sensitivity analysis of model output. Design and
+/// estimator for the total sensitivity index", Computer Physics Communications 181 (2010) 259). An outcome y depends on
+/// the factors and on a rest w, of which each row has M draws, the same ones at all points of the row. p(x) = E[y|x] is
+/// the mean over the rest: for outcomes 0 and 1 the probability. Two kinds of indices are reported:
 ///
 ///   of the mean    S_k  = Var E[p|x_k] / Var p                 ST_k = E Var[p|x_~k] / Var p
 ///   of the value   S_k  = Var E[y|x_k] / Var y                 ST_k = E Var[y|x_~k, w] / Var y,   w one factor more
@@ -12,22 +15,26 @@
 /// In a chaotic system a factor that hardly moves the probability may still decide single outcomes: its total index of
 /// the value is then near that of the rest, its index of the mean near 0.
 ///
-/// Squares and products of p are estimated by products of outcomes with different draws of the rest,
+/// Squares and products of p are estimated by products of outcomes with different draws of the rest (own derivation; a
+/// U-statistic),
 ///
 ///   <y z> = sum_{i != j} y_i z_j / (M (M - 1)),   E <y_A y_Ak> = E p(A) p(A_k),
 ///
-/// so that the noise of the rest, p (1 - p) / M in the square of a mean of M, never gets in: no bias is left to
+/// so that the noise of the rest, p (1 - p) / M in the square of a mean of M, does not enter and no bias is left to
 /// subtract. From row means of these
 ///
 ///   ST_k = (<y_A y_A> + <y_Ak y_Ak> - 2 <y_A y_Ak>) / 2 / V                       (Jansen 1999)
 ///   S_k  = (<y_B y_Ak> - m_k^2 - beta c) / V_k,   c = <y_A y_B> - m_A m_B         (Janon et al. 2014, for beta = 0)
 ///
-/// with V from A and B, and m_k, V_k from B and A_k. E c = 0 since A and B are independent, so it may be taken out in
-/// any amount: beta is where the variance of S_k is least, from its regression on c over the jackknife. For beta = 1
-/// this is Saltelli's estimator, which is exact for a factor without effect but poor for a strong one, where Janon's is
-/// good; the regression is as good as the better of the two everywhere
-/// (tests/ensemble/estimators/test_sobol_indices.cpp). m^2 is freed of its bias Var(m); what remains is the bias of a
-/// ratio, of order 1 / rows.
+/// with V from A and B, and m_k, V_k from B and A_k. E c = 0 since A and B are independent, so c is a control variate:
+/// beta minimizes the variance of S_k, from its regression on c over the jackknife (own choice). For beta = 1 this is
+/// Saltelli's estimator, which is exact for a factor without effect but poor for a strong one, where Janon's is good;
+/// the regression is as good as the better of the two everywhere (tests/ensemble/estimators/test_sobol_indices.cpp).
+/// The bias Var(m) of m^2 is removed; what remains is the bias of a ratio, of order 1 / rows.
+///
+/// - Jansen, "Analysis of variance designs for model output", Computer Physics Communications 117 (1999) 35.
+/// - Janon, Klein, Lagnoux, Nodet & Prieur, "Asymptotic normality and efficiency of two Sobol index estimators", ESAIM:
+///   Probability and Statistics 18 (2014) 342.
 ///
 /// Intervals: `resampled_rows`. Their measured coverage is in docs/sensitivity.md.
 
@@ -58,8 +65,8 @@ struct FactorIndices {
 };
 
 struct SobolIndices {
-    Estimate mean;                       ///< of y
-    Estimate explained;                  ///< Var p / Var y: what all factors together leave to the rest is 1 - this
+    Estimate mean;      ///< of y
+    Estimate explained; ///< Var p / Var y: the share of all factors together; 1 - this is that of the rest
     std::vector<FactorIndices> of_mean;  ///< (factors)
     std::vector<FactorIndices> of_value; ///< (factors), and the rest where there is one
     /// Whether the point A_k ever differed from A in any outcome: a factor that never did has no effect at all.
