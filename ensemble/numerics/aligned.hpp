@@ -1,5 +1,5 @@
 #pragma once
-/// Memory as the kernels want it: aligned to a cache line, and zero.
+/// Memory for the kernels: aligned to a cache line, initialized with zero.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,6 @@
 #pragma once
-/// The fast Fourier transform, with the same bits on every machine.
+/// The fast Fourier transform, with the same bits on every machine (Cooley & Tukey, "An algorithm for the machine
+/// calculation of complex Fourier series", Mathematics of Computation 19 (1965) 297).
 
 #include <complex>
 #include <cstddef>

@@ -1,24 +1,26 @@
 #pragma once
 /// Intervals for a probability that is estimated from trials.
 ///
-/// Surfaces use Jeffreys' interval. Exact coverage at level 0.95, by summing the binomial probabilities:
+/// Surfaces use Jeffreys' interval. Exact coverage at level 0.95, by summing the binomial probabilities (J Jeffreys, W
+/// Wilson):
 ///
 ///                        n = 16              n = 64              n = 256
 ///   average over p       J 0.9516 W 0.9533  J 0.9500 W 0.9515  J 0.9499 W 0.9506
 ///   worst p              J 0.8962 W 0.8362  J 0.8822 W 0.8377  J 0.8777 W 0.8381
 ///   average width        J 0.3556 W 0.3587  J 0.1882 W 0.1892  J 0.0957 W 0.0958
 ///
-/// Both are right on average. Wilson's fails most at p = 0.18 / n, and most cells of a collapse surface have a
-/// probability near 0 or 1; Jeffreys' errs less there, and is not wider.
+/// Both are right on average. Wilson's coverage is lowest at p = 0.18 / n, and most cells of a collapse surface have a
+/// probability near 0 or 1; Jeffreys' is better there, and is not wider. Both intervals are reviewed in Brown, Cai &
+/// DasGupta, "Interval estimation for a binomial proportion", Statistical Science 16 (2001) 101.
 
 #include <cstdint>
 
 namespace stylobate {
 
-/// Where the interval of a cell of an adaptive surface comes from.
+/// The source of the interval of a cell of an adaptive surface.
 enum class IntervalMethod : std::uint8_t {
     own,    ///< its own trials
-    surface ///< these, and what its neighbours say (surface_model.hpp)
+    surface ///< pooled with its neighbours (surface_model.hpp)
 };
 const char* to_string(IntervalMethod method);
 
@@ -27,15 +29,17 @@ struct BinomialInterval {
     double upper = 1;
 };
 
-/// Wilson's score interval: all probabilities that a two-sided normal test with the true variance does not reject.
+/// Wilson's score interval: all probabilities that a two-sided normal test with the true variance does not reject
+/// (Wilson, "Probable inference, the law of succession, and statistical inference", Journal of the American Statistical
+/// Association 22 (1927) 209).
 ///
 /// @param level confidence, in (0, 1)
 /// @pre successes <= trials
 /// @return [0, 1] without trials; the lower limit is exactly 0 at no success, the upper one exactly 1 at no failure
 BinomialInterval wilson(std::uint64_t trials, std::uint64_t successes, double level);
 
-/// Jeffreys' interval: equal tails of the posterior Beta(successes + 1/2, failures + 1/2); the lower limit is 0 at no
-/// success and the upper one 1 at no failure. Arguments and result as above.
+/// Jeffreys' interval: equal tails of the posterior Beta(successes + 1/2, failures + 1/2) (Brown, Cai & DasGupta 2001,
+/// section 3.1.3); the lower limit is 0 at no success and the upper one 1 at no failure. Arguments and result as above.
 BinomialInterval jeffreys(std::uint64_t trials, std::uint64_t successes, double level);
 
 } // namespace stylobate

@@ -48,7 +48,7 @@ Matrix transposed(const Matrix& matrix)
     return t;
 }
 
-/// What the filter leaves for the smoother.
+/// Intermediate results of the filter for the smoother.
 struct Update {
     Vector gain; ///< P h / S
     double innovation;
@@ -72,7 +72,7 @@ Matrix transition(const Problem& problem, const Process& process)
     return f;
 }
 
-/// @param steps  receives what the smoother needs; null: only the likelihood is wanted
+/// @param steps  receives the input of the smoother; null: only the likelihood is computed
 /// @return logarithm of the likelihood, without its constants
 double filter(const Problem& problem, const Process& process, std::vector<Step>* steps)
 {
@@ -150,7 +150,7 @@ Process likeliest(const Problem& problem, bool smooth_jerk, double& likelihood)
     return {smooth_jerk, std::pow(10, (from + to) / 2)};
 }
 
-/// Backward: r and N collect what later values say; x = x_pred + P r, V = P - P N P.
+/// Backward: r and N accumulate the later values; x = x_pred + P r, V = P - P N P (de Jong 1989).
 Smoothed smoothed(const Problem& problem, const Process& process)
 {
     std::vector<Step> steps;

@@ -1,8 +1,10 @@
 #pragma once
-/// Kalman's filter and the smoother of Rauch, Tung and Striebel for the history of a point whose acceleration is linear
-/// between equally spaced times, from values of several sources; two of them may have a constant offset each. The
-/// smoother has the form of Bryson and Frazier, which inverts no matrix (de Jong, "Smoothing and interpolation with the
-/// state-space model", Journal of the American Statistical Association 84, 1989).
+/// Kalman's filter (Kalman, "A new approach to linear filtering and prediction problems", Journal of Basic Engineering
+/// 82 (1960) 35) and the smoother of Rauch, Tung and Striebel ("Maximum likelihood estimates of linear dynamic
+/// systems", AIAA Journal 3 (1965) 1445) for the history of a point whose acceleration is linear between equally spaced
+/// times, from values of several sources; two of them may have a constant offset each. The smoother has the form of
+/// Bryson and Frazier, which inverts no matrix (de Jong, "Smoothing and interpolation with the state-space model",
+/// Journal of the American Statistical Association 84 (1989) 1085).
 
 #include <array>
 #include <cstddef>
@@ -46,7 +48,7 @@ struct Smoothed {
     std::vector<Vector> variance; ///< (steps) of each part of the state
 };
 
-/// The likeliest intensity of a process: decades first, then the golden section.
+/// The maximum-likelihood intensity of a process: decades first, then the golden section.
 /// @param likelihood receives its logarithm, without its constants
 Process likeliest(const Problem& problem, bool smooth_jerk, double& likelihood);
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Quantiles of the distributions that intervals are made of.
+/// Quantiles of the distributions that intervals use (Boost.Math).
 
 namespace stylobate {
 
-/// The t below which Student's t with these degrees of freedom stays with this probability.
+/// The quantile of Student's t with these degrees of freedom.
 double student_quantile(double probability, double degrees);
 /// The same of the standard normal distribution.
 double normal_quantile(double probability);

@@ -1,17 +1,18 @@
 #pragma once
-/// Random numbers that are a pure function of where they are used: no state, no order, no thread matters.
+/// Random numbers that are a pure function of their use, without state: they depend neither on order nor on threads.
 ///
-/// Philox4x64-10 of Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as 1, 2, 3" (2011), from Random123:
-/// the key is (seed, realization index), the counter is (stream, element, 0, 0), and the first of the four words is
-/// the draw.
+/// Philox4x64-10 of Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as 1, 2, 3", Proceedings of the
+/// International Conference for High Performance Computing, Networking, Storage and Analysis (2011), from Random123:
+/// the key is (seed, realization index), the counter is (stream, element, 0, 0), and the first of the four words is the
+/// draw.
 
 #include <cstdint>
 
 namespace stylobate {
 
-/// What a draw is for. A number stands for ever: a new entry takes a new number and none is reused, or the
-/// realizations of every older study would change. 0 to 63 are for the perturbed quantities of a study, 128 to
-/// 1023 for the parameters of its mechanisms.
+/// The purpose of a draw. Numbers are permanent: a new entry takes a new number and none is reused, or the realizations
+/// of every older study would change. 0 to 63 are for the perturbed quantities of a study, 128 to 1023 for the
+/// parameters of its mechanisms.
 enum class Stream : std::uint64_t {
     friction = 0,             ///< coefficient of friction; element = joint, from the bottom
     normal_stiffness = 1,     ///< K_N; element = joint
@@ -21,7 +22,7 @@ enum class Stream : std::uint64_t {
     drum_height = 5,          ///< H; element = block
     drum_offset = 6,          ///< horizontal offset of a drum; element = block
     density = 7,              ///< mass at given sizes; element = block
-    tilt = 8,                 ///< base out of level; element = 0
+    tilt = 8,                 ///< tilt of the base; element = 0
     phase = 9,                ///< phase of the harmonic or pulse; element = 0
     pulse_frequency = 10,     ///< of a velocity pulse; element = 0
     pulse_gamma = 11,         ///< oscillatory character of a velocity pulse; element = 0
@@ -30,9 +31,9 @@ enum class Stream : std::uint64_t {
     virtual_specimen = 66,    ///< contacts and scatter of a campaign with nothing hidden; index = campaign
     virtual_placement = 67,   ///< where its blocks are put; index = campaign
     camera_noise = 68,        ///< of its cameras; index = campaign x runs + run
-    bootstrap = 69,           ///< which runs are drawn again for an interval; index = resample, element = draw
+    bootstrap = 69,           ///< which runs are resampled for an interval; index = resample, element = draw
     scramble = 70, ///< of Sobol points; index = cell, element = dimension x 2^32 + 2^digit + the digits before
-    twin = 71,     ///< what twins of a fragility study differ by; element = block
+    twin = 71,     ///< displacement of perturbed replicas of a fragility study; element = block
     subset = 72,   ///< of subset simulation; index = repeat x 2^32 + evaluation, element = number of the point
     sequence = 73, ///< which records follow a record; index = record, element = place in the sequence
     /// Parameter p of mechanism m (`ensemble/model/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element =
@@ -40,7 +41,7 @@ enum class Stream : std::uint64_t {
     mechanisms = 128
 };
 
-/// 64 random bits. What belongs to the structure as a whole uses element 0.
+/// 64 random bits. Draws for the structure as a whole use element 0.
 std::uint64_t random_bits(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element);
 
 /// The number in the open interval (0, 1) of 64 random bits: an odd multiple of 2^-53, each equally likely. Never 0 or

@@ -1,17 +1,18 @@
 #pragma once
-/// In which order realizations are run, and which places of that order are done.
+/// The order in which realizations are run, and which places of that order are done.
 ///
-/// Indices are systematic: cell by cell, frequency by frequency. Run in that order, a part of a study is a corner of
-/// it. So they are run in B blocks of nearly the same size. Block b has the indices
+/// Indices are systematic: cell by cell, frequency by frequency. In that order a part of a study is a corner of it.
+/// Realizations are therefore run in B blocks of nearly the same size. Block b has the indices
 ///
 ///   c, c + B, c + 2 B, ... below n,   c = a b mod B,   B prime and no divisor of n,   a / B near 1 / golden ratio
 ///
-/// one behind the other. Every block is spread evenly over all indices, and a row of blocks is so too: the first m
-/// residues c leave gaps that differ by a small factor only (the three-gap theorem; the factor is small because the
-/// continued fraction of a / B has small quotients, which is how a is chosen). B divides no period of the indices,
-/// because it does not divide n. So the first blocks of a run are a fair sample of the whole. Within a block
-/// neighbours stay neighbours: lanes that step alike realizations take the same branches, which makes a twentieth of
-/// the speed. Indices and outcomes do not depend on the order.
+/// one after the other. Every block is spread evenly over all indices, and so is a sequence of blocks: the first m
+/// residues c leave gaps that differ by a small factor only (three-gap theorem, multiplicative method with the golden
+/// ratio: Knuth, "The Art of Computer Programming", volume 3, section 6.4; the factor is small because the continued
+/// fraction of a / B has small quotients, which is how a is chosen). B divides no period of the indices, because it
+/// does not divide n. So the first blocks of a run are a fair sample of the whole. Within a block neighbours stay
+/// neighbours: lanes that step similar realizations take the same branches, which is worth a twentieth of the speed.
+/// Indices and outcomes do not depend on the order. The combination is an own derivation.
 
 #include <cstdint>
 #include <map>
@@ -29,7 +30,7 @@ public:
     /// First place of the block that a place is in, and the one behind it. @pre place < n
     std::uint64_t block_begin(std::uint64_t place) const;
     std::uint64_t block_end(std::uint64_t place) const;
-    /// So many of the first places are a fair sample: the whole blocks among them.
+    /// Number of the first places that form a fair sample: the whole blocks among them.
     std::uint64_t fair(std::uint64_t places) const;
 
 private:
@@ -40,8 +41,8 @@ private:
     std::shared_ptr<const std::vector<std::uint64_t>> begin_{}; ///< (B + 1) first place of each block, and n
 };
 
-/// Places that are done, and how many of their realizations collapsed or are invalid, as intervals. There are few of
-/// them: whole blocks without a gap between them are one interval, and what is done of others is by itself.
+/// Places that are done, with the number of collapsed and invalid realizations, as intervals. There are few intervals:
+/// whole blocks without a gap between them are one interval, and completed parts of others are intervals of their own.
 class DoneSet {
 public:
     struct Part {
@@ -65,8 +66,7 @@ public:
 
     /// Sum of all parts; `end` is the number of places.
     Part all() const;
-    /// The blocks from the first one on of which all has been done: a fair sample, of which no realization is missing
-    /// because it takes long.
+    /// The completed blocks from the first one on: a fair sample, not biased towards short realizations.
     Part sample() const;
 
 private:

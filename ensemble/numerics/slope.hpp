@@ -1,5 +1,6 @@
 #pragma once
-/// The least-squares slope of points that come one by one.
+/// The least-squares slope of points that are added one by one (updating sums of products of deviations: Welford, "Note
+/// on a method for calculating corrected sums of squares and products", Technometrics 4 (1962) 419).
 
 #include <limits>
 

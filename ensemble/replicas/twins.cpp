@@ -22,7 +22,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Where the free blocks were, look by look.
+/// Positions of the free blocks, sample by sample.
 class History {
 public:
     explicit History(const Realization& r) : width_m_(scales_of(r).width_m)
@@ -45,7 +45,7 @@ public:
         visit(look, twin, [&](double d) { sum += d * d; });
         return std::sqrt(sum);
     }
-    /// How far the last look is from the first one.
+    /// Distance of the last sample from the first one.
     double moved(const Snapshot& now) const
     {
         double most = 0;
@@ -71,7 +71,7 @@ private:
     std::vector<double> values_; ///< (looks x free blocks x 3)
 };
 
-/// One original and its moved twins, one after the other in the same lane.
+/// One original and its displaced replicas, one after the other in the same lane.
 class Group {
 public:
     Group(const Study& study, const Sampler& sampler, std::uint64_t original)
@@ -110,7 +110,7 @@ private:
         return lanes.outcome(lane)->state != State::invalid && next(lanes, lane);
     }
 
-    /// The next moved twin, if there is one. One that begins beyond the tolerance is done at once.
+    /// The next displaced replica, if there is one. One that begins beyond the tolerance is done at once.
     bool next(LaneSet& lanes, int lane)
     {
         const std::vector<Twin>& kinds = study_.twins->kinds;

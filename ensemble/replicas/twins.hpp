@@ -1,17 +1,19 @@
 #pragma once
-/// Twins: realizations that differ from another one, their original, in one thing alone. Whether both have the same
-/// verdict says how sure it is; how fast they part says how long it can be foretold.
+/// Perturbed replicas (`[twins]`; twins in the names below): realizations that differ from another one, their original,
+/// in one property only. The agreement of both verdicts measures how reliable the verdict is; the growth of their
+/// separation measures how long the motion is predictable.
 ///
-/// Of a pair that differs in the place of one drum, the separation is
+/// For a pair that differs in the place of one drum, the separation is
 ///
 ///   s = sqrt( sum over the free blocks of (dx / B)^2 + (dy / B)^2 + dtheta^2 ),   B the mean width of the drums,
 ///
-/// taken after each chunk of steps, which both have in common. It is followed until it reaches the tolerance, or until
-/// one of the two ends. The exponent is the slope of ln s over time, by least squares, from the first look at which the
-/// original has left its place (by `left_place` widths or radians; before, nothing grows) to the last one below the
-/// tolerance, as long as the ground shakes: the largest Lyapunov exponent over a finite time. What is small grows alike
-/// whatever its size, until it meets an edge (a contact that opens, a joint that slips) which only one of the two
-/// passes; so the exponent belongs to a size.
+/// (own choice of the norm) taken after each chunk of steps, which both have in common. The pair is followed until s
+/// reaches the tolerance, or until one of the two ends. The exponent is the slope of ln s over time, by least squares,
+/// from the first sample at which the original has left its place (by `left_place` widths or radians; before, nothing
+/// grows) to the last one below the tolerance, during the shaking: the largest Lyapunov exponent over a finite time
+/// (Benettin, Galgani & Strelcyn, "Kolmogorov entropy and numerical experiments", Physical Review A 14 (1976) 2338,
+/// without renormalization). Small separations grow at the same rate whatever their size, until an event (a contact
+/// that opens, a joint that slips) occurs in only one of the two; the exponent therefore belongs to a size.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
@@ -24,7 +26,7 @@
 
 namespace stylobate {
 
-/// Realizations that one `LaneSet` can step together, and the study that says how.
+/// Realizations that one `LaneSet` can step together, and the study that they follow.
 struct TwinRange {
     std::uint64_t begin = 0, end = 0; ///< indices
     Study study;
@@ -37,14 +39,14 @@ Study stepped_as(const Study& study, std::uint64_t index);
 
 /// How far a block of the original has moved when the growth begins to count, in widths or radians.
 inline constexpr double left_place = 1e-3;
-/// Fewest looks of a slope.
+/// Fewest samples of a slope.
 inline constexpr int least_looks = 8;
 
-/// Follows the moved twins of the first `TwinsSpec::followed` realizations of each cell, in the order of the originals
-/// and the kinds; pairs whose original is invalid are left out. The same bits for every instruction set and number of
-/// threads.
+/// Follows the displaced replicas of the first `TwinsSpec::followed` realizations of each cell, in the order of the
+/// originals and the kinds; pairs whose original is invalid are left out. The same bits for every instruction set and
+/// number of threads.
 ///
-/// @param observer is told of originals that are done
+/// @param observer is notified of originals that are done
 /// @return fewer originals' if the observer asked to stop
 std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOptions& options, Observer& observer);
 

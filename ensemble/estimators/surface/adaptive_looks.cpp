@@ -70,7 +70,7 @@ AdaptiveLooks::Rule AdaptiveLooks::rule_at(double interval_level) const
             counts[s] = {narrow(interval), interval};
             counts[n - s] = {narrow(interval), {1 - interval.upper, 1 - interval.lower}};
         }
-        // nobody comes further
+        // no path continues
         if (std::all_of(counts.begin(), counts.end(), [](const Count& count) { return count.stops; }))
             break;
     }

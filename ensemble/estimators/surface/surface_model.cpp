@@ -62,7 +62,7 @@ const std::vector<Setting>& settings()
     return all;
 }
 
-/// e: how often neighbours are just wrong.
+/// e: the probability that the neighbours carry no information.
 constexpr std::array<double, 2> wrong = {0.02, 0.2};
 
 /// Logits at which densities are held.
@@ -108,8 +108,8 @@ Density likelihood(std::uint64_t trials, std::uint64_t collapses)
     return density;
 }
 
-/// Calls f(point, density of the normal distribution) where it is not negligible. What lies beyond the grid is put on
-/// its ends by pulling the mean in: there p is 0 or 1 to 5e-5.
+/// Calls f(point, density of the normal distribution) where it is not negligible. A mean beyond the grid is moved to
+/// its end: there p is 0 or 1 to 5e-5.
 template <class F>
 void visit_normal(double mean, double variance, F&& f)
 {
@@ -164,11 +164,12 @@ struct Prediction {
 /// The latent process at the middle of a window, given the trials around it.
 ///
 /// Newton's steps for the mode f = K a of the posterior, halved where they overshoot; with W the curvature of the
-/// likelihood, B = 1 + W^1/2 K W^1/2, and k the covariances with the middle:
+/// likelihood, B = 1 + W^1/2 K W^1/2, and k the covariances with the middle (Rasmussen & Williams 2006, algorithms 3.1
+/// and 3.2):
 ///   mean = k a,   variance = k(0) + misfit2 - k W^1/2 B^-1 W^1/2 k
 ///
-/// @param a begins the search, where it is better than zeros, and is the mode's afterwards: one setting's mode is near
-///          the next one's
+/// @param a initial value of the search, where it is better than zeros, and the mode afterwards: the modes of
+///          successive settings are close to each other
 Prediction predict(const Setting& setting, const Window& window, const SurfaceTrials& data, Vector& a)
 {
     const Eigen::Index size = window.size;

@@ -1,8 +1,8 @@
 #pragma once
-/// What neighbouring cells say about a cell: a smooth surface of the collapse probability, for intervals that borrow.
+/// Information of neighbouring cells on a cell: a smooth surface of the collapse probability, for pooled intervals.
 ///
-/// Of a cell's own trials, s collapses in n, the likelihood is binomial. What its neighbours say comes first, as a
-/// distribution of u = logit p there:
+/// The likelihood of a cell's own trials, s collapses in n, is binomial. The prior is the information of its
+/// neighbours, a distribution of u = logit p at the cell:
 ///
 ///   p(u) = (1 - e) sum over t of w_t N(u; m_t, v_t) + e B(u)
 ///
@@ -11,26 +11,26 @@
 ///
 /// - m_t, v_t: a latent Gaussian process (Matern 5/2, lengths l_f and l_a in steps of the grid, standard deviation sd,
 ///   about a level of its own, with an independent departure `misfit` of each cell from it) given the trials of the
-///   other cells of the window, two cells to either side, by Laplace's approximation. The cell itself is left out, so
-///   that each prediction is one of data that it has not seen; its own departure is in v_t.
-/// - w_t: how well the setting t = (l_f, l_a, sd, misfit) has predicted what was held out in the windows of the
-///   cells around, the cell itself left out again: exp of the sum of log scores. So it is measured, place by place, how
-///   far one may borrow and in which direction: along a cliff, far; across it, not.
-/// - e: how often what neighbours say is just wrong. B is Jeffreys' prior of a probability: where a cell contradicts
-/// its
-///   neighbours, what is left is the interval of its own trials. (The robust mixture of Schmidli et al., Biometrics 70
-///   (2014) 1023.) e is one of two values, weighed as the settings are.
+///   other cells of the window, two cells to either side, by Laplace's approximation (Rasmussen & Williams, "Gaussian
+///   Processes for Machine Learning" (2006), algorithms 3.1 and 3.2). The cell itself is left out, so that each
+///   prediction is independent of its data; its own departure is in v_t.
+/// - w_t: how well the setting t = (l_f, l_a, sd, misfit) predicts the held-out trials in the windows of the
+///   surrounding cells, the cell itself left out again: exp of the sum of log scores (predictive scores: Vehtari et
+///   al., "Bayesian leave-one-out cross-validation approximations for Gaussian latent variable models", Journal of
+///   Machine Learning Research 17 (2016) 103; their use as local weights is an own choice). The range of pooling in
+///   each direction is thus estimated locally: large along a cliff, small across it.
+/// - e: the probability that the neighbours carry no information. B is Jeffreys' prior of a probability: a cell that
+///   contradicts its neighbours has the interval of its own trials (the robust mixture of Schmidli et al., "Robust
+///   meta-analytic-predictive priors in clinical trials with historical control information", Biometrics 70 (2014)
+///   1023). e is one of two values, weighted as the settings are.
 ///
-/// Where B has more than half of the weight, the neighbours are not believed at all (`believed` is false), and the
-/// interval of the cell's own trials is to be taken.
+/// Where B has more than half of the weight, the neighbours are disregarded (`believed` is false), and the interval of
+/// the cell's own trials is to be used.
 ///
-/// An interval that borrows is as good as the surface is smooth: its coverage is right on average over cells of
-/// surfaces like those that it was measured on (tests/ensemble/estimators/test_surface_model.cpp, docs/adaptive.md),
-/// not for every cell. A single cell that differs from all its neighbours is found by its own trials only: at the
-/// fewest of them, 8, a probability of 0.8 amid ones is missed once in six times.
-///
-/// Rasmussen & Williams, "Gaussian Processes for Machine Learning" (2006), algorithms 3.1 and 3.2; predictive scores:
-/// Vehtari et al., JMLR 17 (2016) 103.
+/// The coverage of a pooled interval depends on the smoothness of the surface: it is right on average over cells of
+/// surfaces like those on which it was measured (tests/ensemble/estimators/test_surface_model.cpp, docs/adaptive.md),
+/// not for every cell. A single cell that differs from all its neighbours is detected by its own trials only: with the
+/// fewest of them, 8, a probability of 0.8 whose neighbours all have 1 is missed once in six times.
 
 #include "ensemble/numerics/interval.hpp"
 
@@ -49,11 +49,11 @@ struct SurfaceTrials {
     std::size_t cells() const { return rows * columns; }
 };
 
-/// What the model says of a cell.
+/// The estimate of the model for a cell.
 struct SurfaceEstimate {
     double probability = 0.5; ///< mean
     BinomialInterval interval;
-    bool believed = false; ///< the cell's own trials agree with what its neighbours say
+    bool believed = false; ///< the cell's own trials agree with its neighbours
 };
 
 class SurfaceModel {
@@ -61,12 +61,12 @@ public:
     /// @param level confidence, in (0, 1)
     explicit SurfaceModel(double level) : level_(level) {}
 
-    /// Of every cell. The same data give the same bits, whatever the number of threads and whatever was asked before;
-    /// what has not changed since the last time is not computed again.
+    /// The estimates of every cell. The same data give the same bits, whatever the number of threads and the earlier
+    /// calls; unchanged parts are not computed again.
     std::vector<SurfaceEstimate> estimate(const SurfaceTrials& data);
 
 private:
-    /// What the neighbours of one cell say: for every setting, and how well it predicted the cell's own trials.
+    /// The predictions of one cell's neighbours, for every setting, and how well each predicted the cell's own trials.
     struct Neighbours {
         std::vector<double> mean;     ///< m_t (settings)
         std::vector<double> variance; ///< v_t (settings)
