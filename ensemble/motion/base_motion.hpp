@@ -1,16 +1,16 @@
 #pragma once
 /// The base motion of one realization: by the kernels' formulas (harmonic, half and full sine), by one in closed form
-/// on the host (the other pulses and sines), or along samples (a record, a table, noise, what is distorted).
+/// on the host (the other pulses and sines), or along samples (a record, a table, noise, a distorted motion).
+/// `kernels/THEORY.md`, section 4, derives the second differences.
 ///
 /// A realization may change it (`BaseChange`). A gain multiplies it. With an offset in time the base is at time t where
-/// it would be at t + offset: for an offset > 0 the structure has ridden along, at rest on the base, up to the start.
-/// Harmonic distortion of a harmonic motion is in its formula, with the same ramps:
+/// it would be at t + offset: for an offset > 0 the structure has moved with the base, at rest on it, up to the start.
+/// Harmonic distortion of a harmonic motion is in its formula, with the same ramps (own choice):
 ///
-///   U = A s(...) s(...) (w(c + phase) - w(phase)),   w(c) = sin 2 pi c + sum over m = 2, 3 of a_m sin 2 pi m c + b_m
-///   cos 2 pi m c                                         w(phase) with an abrupt start only, as in the kernels'
-///   formula
+///   U = A s(...) s(...) (w(c + phase) - w(phase)),
+///   w(c) = sin 2 pi c + sum over m = 2, 3 of a_m sin 2 pi m c + b_m cos 2 pi m c
 ///
-/// and of all others `distortion.hpp`.
+/// with w(phase) for an abrupt start only, as in the kernels' formula. For all other motions see `distortion.hpp`.
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/realization.hpp"
@@ -28,15 +28,15 @@ namespace stylobate {
 class BaseMotion {
 public:
     BaseMotion() = default;
-    /// @param record needed for a record or a table (but of a fragility study), and must outlive this object; a
-    ///        realization with a motion of its own (noise, what is distorted, one of a set) is driven by that
+    /// @param record needed for a record or a table (except in a fragility study), and must outlive this object; a
+    ///        realization with its own motion (noise, a distorted motion, one of a set) is driven by that
     BaseMotion(const ExcitationSpec& excitation, const Realization& realization, const Motion* record);
 
     /// Along samples, for steps of `step_s`, from the time `offset_s` of the samples on.
     static BaseMotion along(std::shared_ptr<const Motion> motion, double step_s, double offset_s = 0);
 
     static MotionFormula formula(ExcitationKind kind);
-    /// Whether `fill` makes the table, not the kernels: the same for all realizations of a study.
+    /// Whether `fill` computes the table, not the kernels: the same for all realizations of a study.
     static bool on_host(const Study& study);
 
     /// Writes this realization's parameters into its lane.
@@ -80,9 +80,10 @@ private:
     double scale_ = 0;     ///< of its acceleration
 };
 
-/// How long a structure is watched after the shaking unless the study says: 12 / p with p = sqrt(3 g / (4 R)) and R
-/// half the diagonal of the whole structure, which is about three times as long as it takes to topple from near its
-/// balance.
+/// Default of the simulated time after the shaking: 12 / p with p = sqrt(3 g / (4 R)) (Housner, "The behavior of
+/// inverted pendulum structures during earthquakes", Bulletin of the Seismological Society of America 53 (1963) 403)
+/// and R half the diagonal of the whole structure. This is about three times the time in which it overturns from near
+/// its unstable equilibrium (own choice).
 double tail_after_shaking(const Realization& realization);
 
 } // namespace stylobate

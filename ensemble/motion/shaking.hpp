@@ -1,5 +1,5 @@
 #pragma once
-/// How a realization is shaken: its frequency, its PGA, and what was drawn for its excitation.
+/// The shaking of a realization: its frequency, its PGA, and the drawn parameters of its excitation.
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/motion_set.hpp"
@@ -12,15 +12,15 @@
 
 namespace stylobate {
 
-/// What is drawn of the shaking, or its nominal value.
+/// The drawn parameters of the shaking, or their nominal values.
 struct DrawnShaking {
     double base_tilt_rad = 0;
     double phase_rad = 0;
-    double pulse_frequency_hz = 0; ///< of a study that is no surface
+    double pulse_frequency_hz = 0; ///< of a study other than a surface
     double pulse_gamma = 0;
 };
 
-/// The part of a realization that says how it is shaken: a pure function of (study, index) and what was drawn.
+/// The shaking as a part of a realization: a pure function of (study, index) and the drawn parameters.
 class Shaking {
 public:
     Shaking() = default;

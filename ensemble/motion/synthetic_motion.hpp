@@ -38,12 +38,13 @@ private:
     double end_m_ = 0; ///< displacement from then on
 };
 
-/// Along samples so dense that the spline through them is off by 2e-6 of its fastest part. Its predominant frequency is
-/// left to the caller.
+/// Along samples so dense that the error of the spline through them is 2e-6 of its fastest part. The caller sets its
+/// predominant frequency.
 Motion sampled(const SyntheticMotion& motion);
 
-/// Largest |acceleration| of a shape of unit amplitude, to 1e-12 of it: looked for at 32 times a cycle of its fastest
-/// component, and around every peak that comes near the largest one by bisection (golden section).
+/// Largest |acceleration| of a shape of unit amplitude, to 1e-12 of it: sampled 32 times a cycle of its fastest
+/// component, and refined around every peak close to the largest one by golden-section search (Kiefer, "Sequential
+/// minimax search for a maximum", Proceedings of the American Mathematical Society 4 (1953) 502).
 template <class Shape>
 double peak_acceleration(const Shape& shape);
 

@@ -17,7 +17,7 @@ constexpr double samples_per_second = 200, samples_per_cycle = 100;
 constexpr double decays = 5; ///< after so many the envelope is cut
 constexpr std::uint64_t motions_for_mean = 128;
 
-/// u'' + 2 z w u' + w2 u = f, exactly over steps in which f is linear.
+/// u'' + 2 z w u' + w2 u = f, exactly over steps in which f is linear (Nigam & Jennings 1969).
 class Filter {
 public:
     Filter(double frequency_hz, double damping_ratio, double step_s)
@@ -38,7 +38,7 @@ public:
         u_ = swing + f1 / w2 - lag;
         v_ = w_d_ * (cosine_ * B - sine_ * A) - z_ * w_ * swing + slope / w2;
     }
-    /// 2 z w u' + w2 u: what spring and dashpot hold against f.
+    /// 2 z w u' + w2 u: the force of spring and dashpot.
     double held() const { return 2 * z_ * w_ * v_ + w_ * w_ * u_; }
 
 private:
@@ -113,7 +113,7 @@ std::vector<double> SyntheticNoise::acceleration(std::uint64_t seed, std::uint64
         low_cut.advance(std::exchange(ground_acceleration, moved), moved);
         a[i] = moved - low_cut.held();
     }
-    // twice: the second time takes out what the first, which is no polynomial between samples, left over
+    // twice: the second time removes the remainder of the first, which is not a polynomial between samples
     for (int pass = 0; pass < 2; ++pass) {
         const auto [v, u] = integrate_along(a, dt_s_);
         const RestPolynomial rest(duration_s_, u, v, a.back());

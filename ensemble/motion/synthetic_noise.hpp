@@ -1,23 +1,31 @@
 #pragma once
-/// Synthetic earthquakes: noise with the spectrum of a ground, that swells and fades.
+/// Synthetic earthquakes: noise with the spectrum of a ground and an envelope.
 ///
-/// White noise is multiplied by an envelope, then filtered twice (Kanai 1957 and Tajimi 1960; Clough and Penzien):
+/// White noise is multiplied by an envelope, then filtered twice:
 ///
 ///   x'' + 2 z_g w_g x' + w_g2 x = -e(t) w(t)      the ground over the rock: a_g = -(2 z_g w_g x' + w_g2 x)
 ///   y'' + 2 z_f w_f y' + w_f2 y = a_g             no drift below w_f: the base's acceleration is y'', and y its place
 ///
 /// so that for e = 1 the power of y'' is S0 |H_g|2 |H_f|2 with
 ///
-///   |H_g|2 = (w_g4 + 4 z_g2 w_g2 w2) / ((w_g2 - w2)2 + 4 z_g2 w_g2 w2),   |H_f|2 = w4 / ((w_f2 - w2)2 + 4 z_f2 w_f2
-///   w2)
+///   |H_g|2 = (w_g4 + 4 z_g2 w_g2 w2) / ((w_g2 - w2)2 + 4 z_g2 w_g2 w2)
+///   |H_f|2 = w4 / ((w_f2 - w2)2 + 4 z_f2 w_f2 w2)
 ///
-/// The envelope is that of Jennings, Housner and Tsai (1968): (t / rise)2, then 1 for the strong phase, then
-/// exp(-(t - t2) / decay); it is cut after five times the decay, at 0.7 %. What is left of displacement, velocity and
-/// acceleration then is taken out with a polynomial (`RestPolynomial`): the motion ends at rest, and where it began.
+/// First filter: Kanai, "Semi-empirical formula for the seismic characteristics of the ground", Bulletin of the
+/// Earthquake Research Institute 35 (1957) 309, and Tajimi, "A statistical method of determining the maximum response
+/// of a building structure during an earthquake", Proceedings of the Second World Conference on Earthquake Engineering
+/// (1960). Second filter: Clough & Penzien, "Dynamics of Structures", 2nd edition (1993).
 ///
-/// The noise is normal, one number a sample, linear between samples; both filters are stepped exactly for that. With
-/// 100 samples or more in a cycle of the ground filter (and 200 a second at least) the spectrum is that of the formulas
-/// times sinc4(pi f d): 1.6 % less at five times the ground's frequency. Same bits on every machine.
+/// The envelope is that of Jennings, Housner & Tsai, "Simulated earthquake motions" (1968): (t / rise)2, then 1 for the
+/// strong phase, then exp(-(t - t2) / decay); it is cut after five times the decay, at 0.7 %. The remaining
+/// displacement, velocity and acceleration are removed with a polynomial (`RestPolynomial`): the motion ends at rest,
+/// and where it began.
+///
+/// The noise is normal, one number a sample, linear between samples; both filters are stepped exactly for that (Nigam &
+/// Jennings, "Calculation of response spectra from strong-motion earthquake records", Bulletin of the Seismological
+/// Society of America 59 (1969) 909). With 100 samples or more in a cycle of the ground filter (and 200 a second at
+/// least) the spectrum is that of the formulas times sinc4(pi f d): 1.6 % less at five times the ground's frequency.
+/// The bits are the same on every machine.
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
@@ -40,7 +48,7 @@ public:
     /// The acceleration for white noise of unit variance a sample, at rest at both ends.
     std::vector<double> acceleration(std::uint64_t seed, std::uint64_t index, Stream stream) const;
 
-    /// Mean of the largest |acceleration| of `acceleration`, over 128 motions that no realization has (a stream of
+    /// Mean of the largest |acceleration| of `acceleration`, over 128 motions that no realization uses (a stream of
     /// their own): known to about 1 %, and the same number in every run of a study.
     double mean_peak(std::uint64_t seed) const;
 

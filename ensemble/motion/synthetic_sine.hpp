@@ -1,8 +1,8 @@
 #pragma once
-/// Sines that come and go smoothly, in closed form: of one frequency, and swept from one to another.
+/// Sines with smooth start and end, in closed form: of one frequency, and swept from one to another.
 ///
-/// Each is for a unit amplitude and begins at t = 0; times outside [0, duration_s] are the caller's to hold back.
-/// The bits of the values are the same on every machine (`elementary.hpp`).
+/// Each has unit amplitude and begins at t = 0; the caller must not pass times outside [0, duration_s]. The bits of the
+/// values are the same on every machine (`elementary.hpp`).
 
 #include "ensemble/model/study.hpp"
 
@@ -10,9 +10,9 @@
 
 namespace stylobate {
 
-/// The displacement of degree 5 that starts at rest from zero and has the given displacement, velocity and
-/// acceleration at the end of a motion. Subtracted from the motion it brings it to rest at zero, with the least that a
-/// polynomial over its whole duration can change of its acceleration at both ends: nothing.
+/// The displacement of degree 5 that starts at rest from zero and has the given displacement, velocity and acceleration
+/// at the end of a motion (quintic Hermite interpolation; own derivation of the coefficients). Subtracted from the
+/// motion it brings it to rest at zero, without changing its acceleration at the start.
 struct RestPolynomial {
     double duration = 1;
     std::array<double, 3> coefficients{}; ///< of x3, x4, x5 in x = t / duration
@@ -23,15 +23,15 @@ struct RestPolynomial {
     double acceleration(double t) const;
 };
 
-/// A harmonic whose *acceleration* is tapered:
+/// A harmonic whose *acceleration* is tapered (cosine taper, Tukey window):
 ///
 ///   a = w(c) sin(2 pi c + phase) - rest,   c = f t,   w = (1 - cos(pi c / ramp)) / 2 where it rises, and so where it
 ///                                                      falls, 1 between
 ///
-/// The kind `harmonic` tapers the displacement: it is at rest for free, but its acceleration overshoots in the ramp
-/// (1.7 % for two cycles, 59 % for half a one) and is no longer the plain amplitude. Here no peak of the ramp is above
-/// the plateau. The price is a drift, which `rest`, a polynomial of degree 5 in the displacement, takes out over the
-/// whole duration; the tests measure how small it is.
+/// The kind `harmonic` tapers the displacement: it ends at rest without a correction, but its acceleration overshoots
+/// in the ramp (1.7 % for two cycles, 59 % for half a one) and is no longer the plain amplitude. Here no peak of the
+/// ramp is above the plateau. The taper causes a drift, which `rest`, a polynomial of degree 5 in the displacement,
+/// removes over the whole duration; the tests measure how small it is.
 struct TaperedSine {
     /// @pre ramp_cycles >= 1 (a shorter ramp has a component of no or negative frequency), 2 ramps fit into cycles
     TaperedSine(double frequency_hz, double cycles, double ramp_cycles, double phase_cycles);
@@ -63,15 +63,15 @@ private:
     RestPolynomial rest_;             ///< in cycles
 };
 
-/// A sine sweep of nearly constant acceleration:
+/// A sine sweep of nearly constant acceleration (own derivation):
 ///
-///   U = s(phi / ramp) s((phi_end - phi) / ramp) sin(2 pi phi) / (2 pi f)2,   phi = integral of f dt,  s = 10x3 - 15x4
-///   + 6x5
+///   U = s(phi / ramp) s((phi_end - phi) / ramp) sin(2 pi phi) / (2 pi f)2,   phi = integral of f dt
+///   s = 10x3 - 15x4 + 6x5
 ///
-/// with f going from `from_hz` to `to_hz` linearly or as an exponential (equal times for equal ratios). It is the
-/// displacement that is given, so that the motion is at rest at both ends exactly. Its acceleration overshoots in the
-/// ramps as that of `harmonic` does (1.7 % for two cycles); on the plateau its amplitude differs from 1 in the second
-/// order of f' / f2 (less than 1 % in a sweep over four octaves in a minute, which the tests look at).
+/// with f going from `from_hz` to `to_hz` linearly or as an exponential (equal times for equal ratios). The
+/// displacement is given, so the motion is at rest at both ends exactly. Its acceleration overshoots in the ramps as
+/// that of `harmonic` does (1.7 % for two cycles); on the plateau its amplitude differs from 1 in the second order of
+/// f' / f2 (less than 1 % in a sweep over four octaves in a minute, which the tests check).
 struct SineSweep {
     SineSweep(double from_hz, double to_hz, Spacing spacing, double duration_s, double ramp_cycles);
 

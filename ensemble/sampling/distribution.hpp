@@ -8,12 +8,13 @@
 namespace stylobate {
 
 /// The distribution of one perturbed quantity about its nominal value, truncated to [min, max] where these are given
-/// (see `Spread`). Sampled by inversion: one uniform number in, one value out, non-decreasing.
+/// (see `Spread`). Sampled by inversion (Devroye, "Non-Uniform Random Variate Generation" (1986), chapter II.2): one
+/// uniform number in, one value out, non-decreasing.
 ///
-/// The truncated normal is inverted through the tail that is nearer, so that it keeps its relative accuracy when
-/// both limits lie far out on one side. Logarithms and exponentials are those of the C library in long double, rounded
-/// to double once: on machines with a long double of 64 bits or more in the significand the value does not depend on
-/// which version of `exp` the library picks for the processor, except in rare ties.
+/// The truncated normal is inverted through the nearer tail, so that it keeps its relative accuracy when both limits
+/// lie far out on one side (own derivation). Logarithms and exponentials are those of the C library in long double,
+/// rounded to double once: on machines with a long double of 64 bits or more in the significand the value does not
+/// depend on which version of `exp` the library selects for the processor, except in rare ties.
 class Distribution {
 public:
     /// @param nominal value of the quantity without perturbation, in its unit

@@ -1,5 +1,5 @@
 #pragma once
-/// What the mechanisms of a study make of a realization.
+/// The mechanisms of a study, applied to a realization.
 
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/realization.hpp"
@@ -28,20 +28,20 @@ public:
     /// @throws InputError if a perturbation leaves no probability between its limits
     MechanismSampler(const Study& study, const Layout& layout);
 
-    /// Names of what `draw` appends to the inputs: "stribeck_velocity[0]" and so on for each joint or block if it is
-    /// drawn for more than one, where the mechanism does not act with the neutral value; else the name alone.
+    /// Names of the inputs that `draw` appends: "stribeck_velocity[0]" and so on for each joint or block if it is drawn
+    /// for more than one, with the neutral value where the mechanism does not act; else the name alone.
     const std::vector<std::string>& input_names() const { return input_names_; }
     /// The numbers that are drawn, with the factors of a sensitivity study.
     std::vector<PointSet::Place> places(const Study& study) const;
     /// The values of a realization: those of the study, or drawn.
     Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
 
-    /// How far a block is out of its place [m].
+    /// Offset of a block from its place [m].
     double offset_m(const Values& values, std::size_t block) const;
 
-    /// Writes all else into a realization whose blocks and joints are there.
-    /// @throws InputError if what was drawn cannot be built: a face that is lost as a whole, a centre of mass outside
-    ///         its block
+    /// Writes everything else into a realization whose blocks and joints exist.
+    /// @throws InputError if the drawn structure cannot be built: a face that is lost as a whole, a centre of mass
+    ///                    outside its block
     void apply(const Values& values, Realization& realization) const;
 
 private:

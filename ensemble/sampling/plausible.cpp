@@ -21,7 +21,8 @@ namespace {
 constexpr double strongest_record_m_s2 = 30, strongest_table_m_s2 = 50, no_record_m_s2 = 100;
 /// Largest horizontal velocities near faults are 3 to 4 m/s (Chi-Chi 1999, TCU068); the fastest shaking tables reach 2.
 constexpr double fastest_ground_m_s = 5, no_ground_m_s = 50;
-/// Spectral accelerations are about 2.5 times the peak of the ground (the plateau of the spectra of building codes).
+/// Spectral accelerations are about 2.5 times the peak of the ground (plateau of the elastic spectrum of EN
+/// 1998-1:2004).
 constexpr double spectral_amplification = 2.5;
 
 using Finding = std::optional<Doubt>;
@@ -123,7 +124,7 @@ Finding check_pga(const Subject& s)
                     pga, hz, pga / omega, pga / omega / omega, pga / 100));
 }
 
-/// Beds that are pressed in by a good part of a block have nothing of stone: a column on cushions.
+/// Beds into which blocks sink by a considerable part of their size are too soft for stone.
 Finding check_sinkage(const Subject& s)
 {
     constexpr double much = 2e-3, absurd = 2e-2;
@@ -295,7 +296,7 @@ Finding check_size(const Subject& s)
                              top));
 }
 
-/// How far a perturbation spreads, as a part of what it varies about; 0 where it says no such thing.
+/// Relative spread of a perturbation; 0 where it has none.
 double spread_of(const Perturbation& p, double least_width, double least_height)
 {
     const auto furthest = [&p] {

@@ -17,7 +17,7 @@ constexpr std::size_t most_dimensions = 3667;
 /// Of the numbers of a row's point B, beyond those of its point A.
 constexpr std::uint64_t element_of_b = std::uint64_t{1} << 31;
 
-/// What a number is for: what the structure was built like, how its faces touch, or what only tells twins apart.
+/// The object of a number: the structure, its contacts, or the displacement of a perturbed replica.
 enum class Cause { imperfection, contact, twin };
 
 Cause cause_of(Stream stream)
@@ -76,7 +76,9 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& all)
     for (std::size_t d = 0; d < dimensions; ++d)
         dimension_.emplace(key(places[d].stream, places[d].element), d);
 
-    // Boost tells points, in the order of Gray's code: the n-th differs from the one before by direction ctz(n)
+    // Boost gives points in the order of Gray's code: the n-th differs from the one before by direction ctz(n)
+    // (Antonov & Saleev, "An economic method of computing LP tau-sequences", USSR Computational Mathematics and
+    // Mathematical Physics 19 (1979) 252)
     const auto digits = static_cast<std::size_t>(digits_);
     direction_.resize(dimensions * digits);
     boost::random::sobol engine(dimensions);

@@ -1,25 +1,30 @@
 #pragma once
-/// The uniform numbers of which a study's realizations are made: independent ones, or scrambled Sobol points.
+/// The uniform numbers of a study's realizations: independent ones, or scrambled Sobol points.
 ///
-/// With `sampling = "sobol"` realization k of a cell takes point k of Sobol's sequence, a dimension for each number
-/// that is drawn, scrambled by Owen's nested random permutations: digit d of a coordinate is flipped by a random bit
-/// that belongs to the digits before it. Every number is then exactly uniform, so the share that collapses has no bias;
-/// among the first 2^m realizations of a cell each of 2^m equal parts of every number's range is taken once; and cells,
-/// whose scrambles are independent of each other, stay independent. What the outcome owes to single numbers then varies
-/// less from cell to cell; what is chaos stays. Binomial intervals are therefore too wide rather than too narrow: the
-/// variance of a scrambled net is at most e = 2.7 times the independent one, and for what is smooth far below it
-/// (Owen, Annals of Statistics 25 (1997) 1541); docs/adaptive.md has what was measured.
+/// With `sampling = "sobol"` realization k of a cell takes point k of Sobol's sequence (Sobol, "On the distribution of
+/// points in a cube and the approximate evaluation of integrals", USSR Computational Mathematics and Mathematical
+/// Physics 7 (1967) 86), with one dimension for each number that is drawn. The points are scrambled by nested random
+/// permutations (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", in "Monte Carlo and Quasi-Monte Carlo
+/// Methods in Scientific Computing" (1995) 299): digit d of a coordinate is flipped by a random bit that belongs to the
+/// digits before it. Every number is then exactly uniform, so the share that collapses is unbiased; among the first 2^m
+/// realizations of a cell each of 2^m equal parts of every number's range is sampled once; and cells, whose scrambles
+/// are independent of each other, stay independent. The variance due to single numbers decreases; that due to chaos
+/// does not. Binomial intervals are therefore usually conservative. For nets with t = 0 the variance of a scrambled net
+/// is at most e = 2.7 times the independent one, and far below it for smooth functions (Owen, "Scrambled net variance
+/// for integrals of smooth functions", Annals of Statistics 25 (1997) 1541). For Sobol points in many dimensions, whose
+/// t is larger, the bound is larger too; docs/adaptive.md has the measured variance.
 ///
-/// Beyond as many digits as tell the points of a cell apart, the digits of scrambled points are independent and
-/// uniform, and are taken so. Direction numbers are those of Boost (Joe & Kuo 2008). The numbers stay a pure function
-/// of study, index, stream and element.
+/// Beyond as many digits as distinguish the points of a cell, the digits of scrambled points are independent and
+/// uniform, and are drawn as such. Direction numbers are those of Boost (Joe & Kuo, "Constructing Sobol sequences with
+/// better two-dimensional projections", SIAM Journal on Scientific Computing 30 (2008) 2635). The numbers stay a pure
+/// function of study, index, stream and element.
 ///
-/// In a sensitivity study the numbers of a factor are those of its row's point A or B, as the realization's point says;
-/// of Morris' points A_k the factor's own are half a range away from A's. All else is drawn once for all points of a
-/// row (`Study::rest_index`). Sobol points are then the rows, with twice the dimensions: A's, then B's.
+/// In a sensitivity study the numbers of a factor are those of its row's point A or B, depending on the realization's
+/// point; for Morris' points A_k the factor's own numbers are half a range away from A's. All others are drawn once for
+/// all points of a row (`Study::rest_index`). Sobol points are then the rows, with twice the dimensions: A's, then B's.
 ///
-/// Not offered: the same numbers in every cell (common random numbers). They make the difference of two cells better
-/// known, not the probability of any; and neighbours whose errors go together have less to tell each other.
+/// Not offered: the same numbers in every cell (common random numbers). They reduce the variance of the difference of
+/// two cells, not that of the probability of any; and correlated errors make pooling with neighbours less informative.
 
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"
@@ -42,12 +47,12 @@ public:
     };
 
     PointSet() = default;
-    /// @param places the numbers of a realization, those first that matter most: the first dimensions are the best ones
+    /// @param places the numbers of a realization, the most important ones first: the first dimensions are the best
     PointSet(const Study& study, const std::vector<Place>& places);
 
-    /// In the open interval (0, 1), as `uniform01`: the index is that of a realization, and in a fragility study those
-    /// that share what the number is for (`FragilitySpec`) have the same one. A place that was not named is independent
-    /// in any case.
+    /// In the open interval (0, 1), as `uniform01`. The index is that of a realization; in a fragility study the
+    /// realizations that share the object of the number (`FragilitySpec`) have the same one. A place that was not named
+    /// is independent in any case.
     double uniform(std::uint64_t index, Stream stream, std::uint64_t element) const;
 
     /// How many numbers a realization of a study of rare events has.

@@ -68,7 +68,7 @@ bool replaces(const Perturbation& perturbation)
            perturbation.distribution == DistributionKind::log_uniform;
 }
 
-/// The originals of a study with twins, in another contact form.
+/// The originals of a study with perturbed replicas, in another contact form.
 Study in_form(Study study, ContactForm form)
 {
     study.twins.reset();
@@ -188,7 +188,7 @@ void Sampler::move(const Twin& twin, Realization& realization) const
     }
 }
 
-/// One that is no twin.
+/// An original.
 Realization Sampler::build(std::uint64_t index, const PointSet& points) const
 {
     Realization realization;
@@ -332,7 +332,7 @@ Block Sampler::ground() const
         drums = std::max(drums, column.drums.size());
     const std::size_t courses = drums + (study_->structure.epistyles.empty() ? 0 : 1);
 
-    // so wide that what has fallen and slid still lies on it
+    // so wide that fallen and sliding blocks stay on it
     Block ground;
     ground.half_width_m = 50 * std::max(right - left, static_cast<double>(courses) * tallest);
     ground.half_height_m = tallest;
@@ -418,7 +418,7 @@ void Sampler::join(const Values& values, Realization& realization) const
     }
 }
 
-/// Every other pair that can meet: what falls hits whatever is there.
+/// Every other pair that can meet: a falling block may hit any other.
 void Sampler::watch(const Values& values, Realization& realization) const
 {
     const std::vector<Block>& blocks = realization.blocks;
@@ -436,7 +436,7 @@ void Sampler::watch(const Values& values, Realization& realization) const
                                          "the spread of drum_width, drum_height and drum_offset, or give them room.",
                                          realization.index, name(lower), name(upper), std::min(wide, high)));
         Joint met = joint(values, blocks, lower, upper, layout_.beds.size(), chord);
-        met.damping_chord_m = chord; // a corner must not meet with the dashpot of a face
+        met.damping_chord_m = chord; // the contact of a corner must not have the dashpot of a face
         realization.joints.push_back(met);
     }
     realization.watched = static_cast<int>(watched_.size());

@@ -23,7 +23,7 @@
 
 namespace stylobate {
 
-/// Draws the realizations of a study. Each is a pure function of (study, index): asking for them in another order,
+/// Draws the realizations of a study. Each is a pure function of (study, index): requesting them in another order,
 /// twice, or from several threads at once changes nothing.
 ///
 /// It refers to its study, which must outlive it, stay where it is and not change (`Experiment` keeps both).
@@ -38,10 +38,11 @@ public:
             std::shared_ptr<const MotionSet> motions = nullptr);
     Sampler(const Study&&, const Motion*, const Motion* = nullptr, std::shared_ptr<const MotionSet> = nullptr) = delete;
 
-    /// @param index from 0 to study.total() - 1; in a surface it says the cell too. A twin has all that its original
-    ///        has but what its kind says: moved, its step stays; in another form, it has that form's own step
-    /// @throws InputError if the study's own step is above the realization's safe bound and the study does not say
-    ///         that this is meant, or if what was drawn cannot be built: blocks that miss each other or overlap
+    /// @param index from 0 to study.total() - 1; in a surface it identifies the cell too. A perturbed replica has all
+    ///              properties of its original except the one of its kind: if displaced, its step stays; in another
+    ///              form, it has that form's own step
+    /// @throws InputError if the study's own step is above the realization's safe bound and the study does not allow it
+    ///                    explicitly, or if the drawn structure cannot be built: blocks that miss each other or overlap
     Realization realization(std::uint64_t index) const;
 
     /// Of a study of rare events: one whose uniform numbers are given, in any order that is always the same.
