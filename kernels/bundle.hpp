@@ -1,9 +1,9 @@
 #pragma once
 /// Bundle: the realizations that share one register, one in each lane.
 ///
-/// Its memory is rows of registers: a block (or joint) has one row, a row has one register for each field. So a field
-/// of a block is a constant distance from the block's row, and what a step needs of a block lies together. The kernels
-/// allocate nothing: the caller gives the memory, and writes and reads single lanes with `at`.
+/// Its memory is rows of registers: a block (or joint) has one row, a row has one register for each field. A field of a
+/// block is therefore at a constant distance from the block's row, and the fields that a step needs of a block are
+/// adjacent. The kernels allocate nothing: the caller provides the memory, and writes and reads single lanes with `at`.
 
 #include "kernels/topology.hpp"
 
@@ -11,10 +11,11 @@
 
 namespace stylobate {
 
-/// Steps between two looks at a realization (collapsed? at rest? finite?), and the length of the table of base motion.
+/// Steps between two termination checks of a realization, and the length of the table of base motion.
 inline constexpr int chunk_steps = 64;
 
-/// Fields of a block. Displacements are against the reference stack, in the frame of the base. "step": written by it.
+/// Fields of a block. Displacements are relative to the reference stack, in the frame of the base. "step": written by
+/// it.
 struct OfBlock {
     enum Field : int {
         x,               ///< [m] step
@@ -68,29 +69,30 @@ struct OfJoint {
     };
 };
 
-/// Fields of a realization as a whole. Energies are summed up as written, to save what the look can do once.
+/// Fields of a realization as a whole. Energies are summed with the factors given, which the termination check divides
+/// out once.
 struct OfRealization {
     enum Field : int {
-        gravity_dx,      ///< dt2 x horizontal gravity (base out of level) [m]
+        gravity_dx,      ///< dt2 x horizontal gravity (tilted base) [m]
         gravity_dy,      ///< dt2 x vertical gravity, negative [m]
         base_step,       ///< second difference of the base displacement in the last step [m]; step
-        slip,            ///< sum over beds and time of the slip while slipping [m]; step
+        slip,            ///< sum over beds and time of the slip [m]; step
         path,            ///< sum over beds and time of the relative path in contact [m]; step
         rocking_path,    ///< sum over beds and time of the path of the relative rotation [rad]; step
         friction_energy, ///< dissipated by slipping [J]; step
-        dashpot_energy,  ///< 2 x what the normal dashpots dissipated [J]; step
+        dashpot_energy,  ///< 2 x the dissipation of the normal dashpots [J]; step
         shear_energy,    ///< 2 x the work against F_T: slip, dashpot and tangential spring [J]; step
         base_energy,     ///< 2 dt2 x the work of the base [J s2]; step
         peak_top,        ///< largest |x| of the top block's centre [m]; step
         top_path,        ///< sum over time of |dx| of the top block's centre [m]; step
-        skin,            ///< how far a block may stray before the close pairs are looked for again [m]
+        skin,            ///< how far a block may stray before the close pairs are listed again [m]
         kinetic,         ///< 2 dt2 x the kinetic energy at the last step of a chunk [J s2]; step
         potential,       ///< dt2 x the potential energy at the last step of a chunk [J s2]; step
         count
     };
 };
 
-/// Where a block was when the close pairs were last looked for; only there is with watched pairs.
+/// Where a block was when the close pairs were last listed; present only with watched pairs.
 struct OfNeighbourhood {
     enum Field : int {
         x,     ///< [m] step
@@ -100,7 +102,7 @@ struct OfNeighbourhood {
     };
 };
 
-/// Fields of a block's extensions (`mechanisms/`); only there with an extended model. In it the displacements of
+/// Fields of a block's extensions (`mechanisms/`); present only with an extended model. In it the displacements of
 /// `OfBlock` are those of the centre of mass. All zero is neutral.
 struct OfBlockExtension {
     enum Field : int {
@@ -108,7 +110,7 @@ struct OfBlockExtension {
         reference_y,   ///< [m]
         eccentricity,  ///< centre of mass from the geometric centre, along the width [m]
         drag_per_mass, ///< c / m [1/m]
-        pull_x,        ///< dt2 x an acceleration from outside, which the host may write between two runs [m]
+        pull_x,        ///< nudging: dt2 x an external acceleration, which the host may write between two runs [m]
         pull_y,        ///< [m]
         pull_theta,    ///< [rad]
         count
@@ -154,8 +156,8 @@ struct OfRealizationExtension {
     enum Field : int {
         base_dx,      ///< increment of the base's displacement in the last step [m]; step
         base_dy,      ///< the same upwards [m]; step
-        joint_energy, ///< 2 x what went into dowels and worn corners [J]; step
-        drag_energy,  ///< 2 dt2 x what drag took [J s2]; step
+        joint_energy, ///< 2 x the energy taken by dowels and worn corners [J]; step
+        drag_energy,  ///< 2 dt2 x the dissipation of drag [J s2]; step
         count
     };
 };
@@ -170,7 +172,7 @@ struct OfPitch {
     };
 };
 
-/// What rounding has left of a block's displacements and increments: the true values are the sums of both.
+/// Remainders of a block's displacements and increments (compensated sums): the true values are the sums of both.
 struct OfRemainder {
     enum Field : int {
         x,      ///< [m] step

@@ -1,5 +1,7 @@
 #pragma once
-/// The contact law: Eqs. 1 to 3 of Papaloizou and Komodromos, with the choices of `THEORY.md` section 3.
+/// The contact law: Eqs. 1 to 3 of Papaloizou and Komodromos, with the choices of `THEORY.md` section 3. Friction is
+/// the return mapping of elastic, perfectly plastic friction (Simo & Laursen, "An augmented Lagrangian treatment of
+/// contact problems involving friction", Computers & Structures 42 (1992) 97).
 
 #include "kernels/real.hpp"
 
@@ -22,10 +24,10 @@ struct ContactForce {
     Real normal;     ///< F_N >= 0: pushes the blocks apart [N]
     Real tangential; ///< F_T, against the sliding of the upper block [N]
     Real spring;     ///< elastic part of F_T [N]
-    Real excess;     ///< what slipping took from the spring's trial force, >= 0 [N]
+    Real excess;     ///< part of the spring's trial force beyond the limit, >= 0 [N]
 };
 
-/// What friction makes of the sliding of this step, within |F_T| <= limit.
+/// The friction force for the sliding of this step, within |F_T| <= limit.
 /// @param sliding of this step [m];  @param spring elastic part of F_T, carried from step to step [N]
 /// @return `normal` is left at 0
 template <class Real>

@@ -1,7 +1,7 @@
 #pragma once
 /// Exponential and natural logarithm: one polynomial for every width, as in `trig.hpp`.
 ///
-/// exp: x = k ln 2 + r with |r| <= ln 2 / 2 (reduced in two parts, Cody and Waite), Taylor's polynomial of degree 13
+/// exp: x = k ln 2 + r with |r| <= ln 2 / 2 (reduced in two parts, Cody & Waite 1980), Taylor's polynomial of degree 13
 /// in r (remainder below 5e-18), times 2^k. ln: x = 2^k m with m from sqrt(1/2) to sqrt(2), f = (m - 1) / (m + 1),
 /// ln m = 2 artanh f by its series to f^21 (remainder below 3e-17 of it). exp(0) is 1 and ln(1) is 0 to the bit. Errors
 /// below 1 ULP (exp) and 2 ULP (ln), which the tests measure.

@@ -24,7 +24,7 @@ struct KernelTable {
     void (*fill)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
     /// The same of a bundle in single precision.
     void (*fill_single)(MotionFormula, const FormulaParameters&, const double* first_step, float* table) = nullptr;
-    /// Multiply-adds on registers, `count` of them: what the machine can do at the most. Returns a number to keep.
+    /// Multiply-adds on registers, `count` of them: the peak of the machine. Returns a number, so that none is removed.
     double (*peak_fma)(long count) = nullptr;
 };
 

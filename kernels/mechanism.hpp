@@ -12,7 +12,7 @@ constexpr int points_of(ContactForm form)
     return form == ContactForm::two_corner ? 2 : form == ContactForm::points ? 5 : 0;
 }
 
-/// The paper's model with faces that carry in one way, and nothing else.
+/// The paper's model with one contact form, without extensions.
 template <ContactForm form_>
 struct Plain {
     static constexpr bool extended = false;

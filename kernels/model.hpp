@@ -1,11 +1,11 @@
 #pragma once
-/// Which model a bundle's step follows: the paper's, or that with extensions (`mechanisms/`), and how faces carry.
+/// Which model a bundle's step uses: the paper's, or that with extensions (`mechanisms/`), and the contact form.
 
 #include <cstdint>
 
 namespace stylobate {
 
-/// How the faces of a bed carry (`kernels/mechanisms/README.md`). Pairs that are no bed meet by their area.
+/// How the faces of a bed carry (`kernels/mechanisms/README.md`). Pairs other than beds use the area form.
 enum class ContactForm : std::uint8_t {
     area,       ///< the paper's: overlap area, at its centroid
     two_corner, ///< springs at the two ends of the face

@@ -1,5 +1,6 @@
 #pragma once
-/// Which watched pairs are so close that they are worked on: a list that is good until a block has strayed by the skin.
+/// The watched pairs that are close enough to be evaluated: a list that is valid until a block has strayed by the skin
+/// (neighbour list: Verlet, Physical Review 159 (1967) 98; `THEORY.md`, section 2).
 
 #include "kernels/mechanisms/eccentricity.hpp"
 #include "kernels/rows.hpp"
@@ -37,7 +38,7 @@ protected:
             return get(OfBlock::y, i);
     }
 
-    /// Whether a block of any realization has moved so far since `look_around` that a pair may have come close unseen.
+    /// Whether a block of any realization has moved so far since `look_around` that an unlisted pair may be close.
     STYLOBATE_INLINE bool strayed() const
     {
         const Real skin = get(OfRealization::skin);
@@ -73,7 +74,7 @@ protected:
     }
 
     /// Lists the pairs that can meet before a block has strayed by the skin: those less than two skins apart.
-    /// @return how many
+    /// @return their number
     STYLOBATE_INLINE int look_around() const
     {
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {

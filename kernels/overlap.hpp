@@ -1,5 +1,6 @@
 #pragma once
-/// Overlap of two rectangles: area, first moments and contact direction. `THEORY.md` section 2 derives the forms.
+/// Overlap of two rectangles: area, first moments and contact direction. `THEORY.md` section 2 derives the forms and
+/// names their sources.
 ///
 /// Everything is in the frame of the lower block with the origin at the middle of its top face; y up. The contact
 /// direction is the sum of outward normal x length over those parts of the lower block's faces that lie inside the
@@ -26,7 +27,7 @@ struct Overlap {
     Real moment_depth; ///< integral of -y over the area [m3]
     Real normal_x;     ///< contact direction x its length [m]
     Real normal_y;
-    Real elastic; ///< elastic energy over K_N [m3]: of the Winkler bed that the area law stands for
+    Real elastic; ///< elastic energy over K_N [m3]: of the Winkler bed that the area law represents
 };
 
 /// Half sizes of the two blocks [m].
@@ -40,9 +41,10 @@ struct PairSizes {
 
 /// Overlap of any two rectangles (also of blocks that lie beside or across each other).
 ///
-/// Green's theorem over the upper block's four edges, cut by the lower block's box: the area is the integral of
-/// -clamp(y) dx over the part of the outline with x inside the box. It is continuous in the input and has no
-/// degenerate case; nothing is searched for.
+/// Green's theorem over the upper block's four edges, cut by the lower block's box (Steger, "On the calculation of
+/// arbitrary moments of polygons", Technical Report FGBV-96-05, Technische Universitaet Muenchen (1996); clamping
+/// instead of clipping: own derivation): the area is the integral of -clamp(y) dx over the part of the outline with x
+/// inside the box. It is continuous in the input, has no degenerate case, and needs no search.
 template <class Real>
 STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const PairSizes<Real>& s)
 {
@@ -74,8 +76,8 @@ STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const P
         for (int piece = 0; piece < 3; ++piece) {
             const Real u0 = cut[piece], u1 = cut[piece + 1];
             const Real xa = fma(u0, dx, x0), xb = fma(u1, dx, x0);
-            // the outer pieces lie on the box to the bit: what rounding leaves of y there, times a long run, would
-            // drown a corner that only grazes
+            // the outer pieces lie on the box to the bit: the rounding error of y there, times a long run, would exceed
+            // the overlap of a grazing corner
             const Real flat = select(fma(half * (u0 + u1), dy, y0) > half * low, zero, low);
             const Real ya = piece == 1 ? clamp(fma(u0, dy, y0), low, zero) : flat;
             const Real yb = piece == 1 ? clamp(fma(u1, dy, y0), low, zero) : flat;
@@ -95,7 +97,7 @@ STYLOBATE_INLINE Overlap<Real> general_overlap(const Placement<Real>& p, const P
     }
     const Real chord2 = o.normal_x * o.normal_x + o.normal_y * o.normal_y;
     // The bed's energy is the area's first moment about the face that presses. Two thirds of A^2 / L are that of a
-    // triangle, which is what meets at a corner; where a face lies in the other block, the moment about it is less.
+    // triangle, the overlap of a corner; where a face lies in the other block, the moment about it is less.
     const Real corner = Real(2.0 / 3.0) * o.area * o.area / sqrt_of(max_of(chord2, tiny));
     const Real top = min_of(o.moment_depth, fnma(low, o.area, zero - o.moment_depth));
     const Real side = fms(width, o.area, abs_of(o.moment_x));
@@ -113,7 +115,7 @@ struct PentagonFrame {
     Real cot;                     ///< 1 / |slope|
 };
 
-/// (Apart from `pentagon` so that the division need not be waited for: many frames first, then many pentagons.)
+/// (Separate from `pentagon` to hide the latency of the division: many frames first, then many pentagons.)
 template <class Real>
 STYLOBATE_INLINE void pentagon_frame(const Placement<Real>& p, Real upper_half_width, PentagonFrame<Real>& frame)
 {
@@ -136,8 +138,8 @@ STYLOBATE_INLINE void pentagon_frame(const Placement<Real>& p, Real upper_half_w
 ///
 /// The overlap is the trapezoid under the top face, plus the sliver where the upper block's left side leans outwards,
 /// less the sliver where its right side leans inwards, all cut by the lower block's sides: a pentagon at the most.
-/// `fits` says in which realizations this holds; the others need `general_overlap`, which gives the same numbers where
-/// both hold. `o.elastic` is left to the caller: it is `o.moment_depth`.
+/// `fits` marks the realizations in which this holds; the others need `general_overlap`, which gives the same numbers
+/// where both hold. `o.elastic` is left to the caller: it is `o.moment_depth`.
 ///
 /// @param depth_limit a tenth of the smaller half height: how deep a corner may be for the closed form to hold
 template <class Real, class Mask>

@@ -1,9 +1,9 @@
 #pragma once
-/// The general overlap in double precision, in any case.
+/// The general overlap in double precision, whatever the precision of the step.
 ///
-/// It is a sum of areas as large as the blocks in which all but the contact cancels: in single precision a corner that
-/// grazes would drown in its rounding, and a centroid, a moment over an area, would lie anywhere. It is rare (of beds),
-/// so its numbers are widened, worked on one half of the register after the other, and rounded.
+/// It is a sum of areas as large as the blocks in which everything but the contact cancels: in single precision a
+/// grazing corner would be lost in rounding, and a centroid, a moment divided by an area, would be arbitrary. It is
+/// rare (for beds), so its numbers are widened, processed one half of the register after the other, and rounded.
 
 #include "kernels/overlap.hpp"
 

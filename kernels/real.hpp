@@ -20,7 +20,7 @@
 #define STYLOBATE_INLINE inline
 #endif
 
-// For what is rare: kept out of the way of the rest. (Not on a device: a call needs the stepper in memory, and with it
+// For rare paths: not inlined into the rest. (Except on a device: a call needs the stepper in memory, and with it
 // every pointer to its rows. Inlined, no kernel has a stack frame; docs/gpu.md has the registers.)
 #if defined(__CUDACC__)
 #define STYLOBATE_APART STYLOBATE_INLINE
@@ -56,7 +56,7 @@ struct Lanes<float> {
 template <class Real>
 using NumberOf = typename Lanes<Real>::Number;
 
-/// Next to nothing, and more than anything that is met: a quotient by the one and a product with the other stay finite.
+/// The smallest and the largest substitute: a quotient by the one and a product with the other stay finite.
 template <class Number>
 struct Extreme {
     static constexpr double tiny = 1e-300, huge = 1e300;

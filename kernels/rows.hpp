@@ -21,8 +21,8 @@ struct Packed {
     static constexpr int joint_group = 8;
 };
 /// On a device, where a thread steps one realization: its numbers are `Bundle::lanes` apart, those of neighbouring
-/// threads side by side; joint after joint, so that what the phases hand on stays in registers (the other threads give
-/// the independent work).
+/// threads side by side; joint after joint, so that the intermediate values stay in registers (the other threads
+/// provide the independent work).
 struct Strided {
     static constexpr bool strided = true;
     static constexpr int joint_group = 1;

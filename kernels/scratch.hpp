@@ -1,5 +1,5 @@
 #pragma once
-/// What the phases of a step hand on to each other (`step.hpp`), and what they agree on.
+/// Intermediate values between the phases of a step (`step.hpp`), and their common constants.
 
 #include "kernels/mechanisms/points.hpp"
 #include "kernels/overlap.hpp"
@@ -13,7 +13,7 @@ inline constexpr int joint_group = 8;
 inline constexpr double least_area = 1e-18;  // m2
 inline constexpr double least_chord = 1e-12; // m
 
-/// The two kinds of joints, as the phases tell them apart.
+/// The two kinds of joints, as types for the phases.
 struct Bed {
     static constexpr bool at_rest = true;
 };
@@ -21,7 +21,7 @@ struct Pair {
     static constexpr bool at_rest = false;
 };
 
-/// What a contact form hands on besides: nothing where it has no points of its own.
+/// Additional intermediate values of a contact form: none where it has no points of its own.
 template <class Real, int count>
 struct PointScratch {
     FormPoints<Real, count> points; // overlap -> forces: shares of the force, and places along the contact
@@ -30,7 +30,7 @@ template <class Real>
 struct PointScratch<Real, 0> {
 };
 
-/// What the phases hand on, per joint.
+/// The intermediate values of one joint.
 template <class Real, int points>
 struct JointScratch : PointScratch<Real, points> {
     PentagonFrame<Real> frame; // geometry -> overlap: of a bed of the baseline

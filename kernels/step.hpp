@@ -1,21 +1,22 @@
 #pragma once
-/// One step of all realizations of a bundle: the heart of Stylobate. `THEORY.md` goes through it symbol by symbol.
+/// One step of all realizations of a bundle: the centre of Stylobate. `THEORY.md` derives every formula, with its
+/// source.
 ///
-///   geometry    where each joint's upper block lies, seen from its lower one
+///   geometry    where each joint's upper block lies, relative to its lower one
 ///   overlap     area, moments and direction of the contact (closed form; general where that does not hold)
-///   faces       centroid and unit normal, and how the faces moved against each other there in the last step
+///   faces       centroid and unit normal, and how the faces moved relative to each other there in the last step
 ///   forces      Eqs. 1 to 3 and the energy terms
 ///   update      sums over the blocks, Eqs. 4 to 6 as d += dt2 F / m, u += d, and sine and versine of the new rotation
 ///
-/// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory:
-/// neighbouring joints are independent within a phase, so that the processor works on several at once, where one pass
-/// from geometry to force would wait for each result in turn. How much it has in hand at a time is limited, so a phase
-/// is quick if its chain of operations is short: the divisions and the root stand in different phases, side by side
-/// and never one behind the other (`docs/performance.md`).
+/// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory.
+/// Neighbouring joints are independent within a phase, so the processor works on several at once, whereas one pass from
+/// geometry to force would wait for each result in turn. The number of operations in flight is limited, so a phase is
+/// fast if its chain of operations is short: the divisions and the root are in different phases, and independent of
+/// each other (`docs/performance.md`).
 ///
 /// Beds go through the phases in every step. Watched pairs (`topology.hpp`) do where their bounding boxes meet; which
-/// pairs come so close is looked for only when a block has strayed. Neither changes a bit of the result: a pair that
-/// does not touch adds nothing, so it makes no difference whether it was worked on for a neighbour's sake.
+/// pairs come so close is determined only when a block has strayed. Neither changes a bit of the result: a pair that
+/// does not touch adds nothing, whether or not it is evaluated because of another lane.
 
 #include "kernels/contact.hpp"
 #include "kernels/mechanism.hpp"
@@ -29,7 +30,7 @@
 namespace stylobate {
 
 /// @tparam watching whether there are watched pairs
-/// @tparam stack `Topology::stack`: then what meets where is known beforehand, and need not be looked up
+/// @tparam stack `Topology::stack`: the blocks of each joint are then known beforehand, without look-up
 /// @tparam Layout how the rows lie, and how many joints go through the phases together (`rows.hpp`)
 template <class Real, class Mechanism, bool watching, bool stack, class Layout = Packed>
 class Stepper : Neighbours<Real, Mechanism, Layout> {
@@ -75,7 +76,7 @@ private:
 
     /// Whether forces act on the blocks besides those of the beds: these are summed up in the blocks' rows.
     static constexpr bool others = watching || Mechanism::extended;
-    /// Whether beds meet as in the paper: by the closed form of their overlap.
+    /// Whether beds use the paper's contact: the closed form of their overlap.
     static constexpr bool paper = !Mechanism::extended && Mechanism::form == ContactForm::area;
 
     using Rows<Real, Layout>::add;
@@ -124,7 +125,7 @@ private:
         put(OfBlock::versine, i, a.versine);
     }
 
-    /// Relative placement. Of a bed from relative displacements and versines: nothing large cancels.
+    /// Relative placement; for a bed from relative displacements and versines, without cancellation of large numbers.
     /// @param x, y upper centre - lower centre, frame of the base
     template <class Kind>
     STYLOBATE_INLINE Placement<Real> placement(int joint, const Pose& lower, const Pose& upper, Real& x, Real& y) const
@@ -152,7 +153,7 @@ private:
         return place;
     }
 
-    /// In a stack, a joint's upper block is the next one's lower one, and its pose is still at hand.
+    /// In a stack, a joint's upper block is the next one's lower one, and its pose is reused.
     template <class Kind, class JointOf>
     STYLOBATE_INLINE void geometry(int count, JointOf joint, Scratch* scratch) const
     {
@@ -270,7 +271,7 @@ private:
                                                     get(OfBlock::half_width, upper), get(OfBlock::half_height, upper)});
     }
 
-    /// The general overlap, for the realizations whose closed form does not hold. Rare, so kept out of the way.
+    /// The general overlap, for the realizations whose closed form does not hold. Rare, so it is not inlined.
     template <class Mask>
     STYLOBATE_APART void fall_back(int joint, Mask fits, Overlap<Real>& o) const
     {
@@ -291,7 +292,7 @@ private:
         const auto [lower, upper] = ends<Kind>(joint);
         const Overlap<Real>& o = s.met;
         const Real zero(0.0), one(1.0);
-        // the root and the two divisions do not wait for each other
+        // the root and the two divisions are independent of each other
         const Real square = fma(o.normal_x, o.normal_x, o.normal_y * o.normal_y);
         const auto pressed =
             (o.area > Real(detail::least_area)) & (square > Real(detail::least_chord * detail::least_chord));
@@ -338,8 +339,8 @@ private:
             put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
     }
 
-    /// A bed's force stays with it until its blocks sum theirs up. A pair adds to them at once, and only where it
-    /// touches: so they have the same bits whether or not it was worked on.
+    /// A bed's force is stored with it until its blocks sum theirs up. A pair adds to them at once, and only where it
+    /// touches: so they have the same bits whether or not it was evaluated.
     template <class Kind, class JointOf>
     STYLOBATE_INLINE void forces(int count, JointOf joint_of, const Scratch* scratch) const
     {
@@ -441,9 +442,9 @@ private:
             put(OfRealizationExtension::joint_energy, joint_energy);
     }
 
-    /// The watched pairs that meet, in the order of the list. Kept out of the way of the beds.
-    /// @param close how many pairs are listed as close; -1: none has been looked for
-    /// @return how many are now
+    /// The watched pairs that meet, in the order of the list. Separate from the beds, so as not to slow them down.
+    /// @param close number of pairs listed as close; -1: no list yet
+    /// @return their number now
     STYLOBATE_APART int pairs(int close, Scratch* scratch, bool audit) const
     {
         if (close < 0 || Near::strayed())
@@ -451,7 +452,7 @@ private:
         if (audit)
             for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
                 put(OfJoint::elastic, joint, Real(0.0));
-        // boxes that touch to rounding are let in
+        // boxes that touch to rounding are included
         const Real margin = get(OfRealization::skin) * Real(1e-3);
         for (int next = 0; next < close;) {
             int group[joint_group] = {}, count = 0;

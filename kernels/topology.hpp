@@ -1,8 +1,8 @@
 #pragma once
 /// Which blocks meet at which joints: a list, so that a column, a colonnade and a heap are the same to the kernel.
 ///
-/// The list begins with the beds, on which blocks lie at rest: they are worked on in every step. Behind them come the
-/// watched pairs, blocks that lie on no common bed but may meet: they are worked on only while they are close.
+/// The list begins with the beds, on which blocks lie at rest: they are evaluated in every step. They are followed by
+/// the watched pairs, blocks that share no bed but may meet: they are evaluated only while they are close.
 
 #include "kernels/model.hpp"
 
@@ -13,7 +13,7 @@ struct TopologyJoint {
     int upper = 0;
 };
 
-/// Blocks are numbered with the fixed ones first: they ride on the base, and are not stepped.
+/// Blocks are numbered with the fixed ones first: they move with the base, and are not stepped.
 /// A view: the joints belong to the caller. (No container here: what is compiled for one instruction set must not
 /// leak into functions that others share.)
 struct Topology {

@@ -4,10 +4,11 @@
 /// On |r| <= pi/4:  sin r = r + r^3 S(r^2),  1 - cos r = r^2/2 + r^4 V(r^2),  S and V of degree 5, interpolating at the
 /// Chebyshev nodes of [0, (pi/4)^2] (relative error of the polynomials 2.0e-17 and 2.6e-18, computed in exact
 /// arithmetic; rounding brings it to less than 1 ULP for the sine and 2 ULP for the versine, which the tests
-/// measure). Larger angles are reduced by multiples of pi/2 in three parts (Cody and Waite), good for |x| up to 1e5.
+/// measure). Larger angles are reduced by multiples of pi/2 in three parts (Cody & Waite, "Software Manual for the
+/// Elementary Functions" (1980)), valid for |x| up to 1e5.
 ///
 /// In single precision S and V are of degree 2 (1.3e-8 and 2.4e-9, with the coefficients rounded: less than a quarter
-/// of an ULP). Its parts of pi/2 have all 24 digits: the fused multiply-add takes the first from x without an error.
+/// of an ULP). Its parts of pi/2 have all 24 digits: the fused multiply-add subtracts the first from x exactly.
 
 #include "kernels/real.hpp"
 

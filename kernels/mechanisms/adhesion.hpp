@@ -3,8 +3,10 @@
 ///
 ///   |F_T| <= mu F_N + c L,  L: contact length
 ///
+/// Source: cohesion of the Mohr-Coulomb law; its loss at the first slip is an own choice.
+///
 /// Parameter: c [N/m].  Neutral: 0.  Acts in the friction of a bed; there is no tension across the faces.
-/// Signature: the first slip alone comes late, and with a jump (the friction spring lets go of c L).
+/// Signature: only the first slip comes late, and with a jump (the friction spring releases c L).
 /// Confounded with mu where a run has one slip only.
 
 #include "kernels/real.hpp"
@@ -19,7 +21,7 @@ STYLOBATE_INLINE Real adhesion_limit(Real friction, Real adhesion, Real length, 
     return fma(adhesion * (Real(1.0) - broken), length, friction);
 }
 
-/// @param excess what the friction spring had to give up in this step [N]
+/// @param excess force that the friction spring lost in this step [N]
 template <class Real, class Mask>
 STYLOBATE_INLINE Real adhesion_broken(Real broken, Mask pressed, Real excess)
 {

@@ -6,6 +6,8 @@
 /// of the face that the two blocks have in common in the reference stack. The loss is taken from the block whose side
 /// ends the face there (the upper one where both do), over its whole height: for this joint that block is narrower.
 ///
+/// Source: own derivation (geometry; uplift at g (b - c) / h by the balance of moments).
+///
 /// Parameters: chip_left, chip_right [m].  Neutral: 0.  Acts in the overlap of a bed.
 /// Signature: uplift begins earlier, at g (b - c) / h, at lower frequency; one-sided chips lean to their side.
 /// Confounded with the gain (at uplift) and K_N (at small amplitude).
@@ -14,7 +16,7 @@
 
 namespace stylobate {
 
-/// What is lost of the two faces, at their left and right ends [m].
+/// Lost lengths of the two faces, at their left and right ends [m].
 template <class Real>
 struct FaceLoss {
     Real lower_left, lower_right, upper_left, upper_right;
@@ -31,9 +33,9 @@ STYLOBATE_INLINE FaceLoss<Real> face_loss(Real left, Real right, Real left_of_lo
 /// A pair seen as blocks that have lost their ends.
 template <class Real>
 struct ChippedPair {
-    Placement<Real> place; ///< of the faces that are left
+    Placement<Real> place; ///< of the remaining faces
     Real lower_half_width, upper_half_width;
-    Real shift; ///< middle of what is left of the lower face, against the face's own [m]
+    Real shift; ///< middle of the remaining lower face, relative to the whole face's [m]
 };
 
 template <class Real>

@@ -5,7 +5,10 @@
 ///
 /// at both ends, as `corner_loss` takes it from the face, up to 0.45 of the narrower block's width each.
 ///
-/// Parameter: k [m/rad].  Neutral: 0.  Acts in the overlap of a bed. The bed's energy over what is lost goes with it.
+/// Source: own choice, linear in the path (as Archard, "Contact and rubbing of flat surfaces", Journal of Applied
+/// Physics 24 (1953) 981, for the volume worn by sliding).
+///
+/// Parameter: k [m/rad].  Neutral: 0.  Acts in the overlap of a bed. The bed's energy over the lost length is lost too.
 /// Signature: uplift begins earlier in each run than in the one before.
 /// Confounded with `corner_loss` in a single run.
 

@@ -3,9 +3,12 @@
 ///
 ///   F = clamp(k_d D(s - s_p), -F_d, F_d)      D(s) = s - clamp(s, -gap, gap)
 ///
-/// s is the offset of the upper block's face along the lower one's, s_p the plastic offset: it takes up what is beyond
+/// s is the offset of the upper block's face along the lower one's, s_p the plastic offset: it takes up the excess over
 /// F_d. The force acts at the middle of the upper block's bottom face, also while that has lifted, up to half of the
 /// smaller half height: there the dowel comes out of its hole.
+///
+/// Source: return mapping of perfect plasticity (Simo & Laursen, Computers & Structures 42 (1992) 97); the play is an
+/// own choice.
 ///
 /// Parameters: k_d [N/m], F_d [N], gap [m].  Neutral: k_d = 0.  Acts beside the contact of a bed.
 /// Signature: the offset of a joint stops at gap + F / k_d; slip is as before within the gap.

@@ -3,6 +3,8 @@
 ///
 ///   F = -c |v| v,  v: velocity of the centre of mass in the laboratory
 ///
+/// Source: the quadratic drag law.
+///
 /// Parameter: c [N s2/m2].  Neutral: 0.  Acts in the update of a block.
 /// Signature: decay that depends on the amplitude, without a jump at impacts.
 /// Confounded with C_N and `rate_damping` in the decay of rocking.

@@ -4,11 +4,13 @@
 ///   x_centre = x_mass + e (1 - cos theta)      y_centre = y_mass - e sin theta
 ///
 /// The extended step moves centres of mass (Eqs. 4 to 6 hold for these) and takes the faces from the geometric ones;
-/// both as displacements against the reference stack. The moment of inertia given is that about the centre of mass.
+/// both as displacements relative to the reference stack. The moment of inertia given is that about the centre of mass.
+///
+/// Source: own derivation (rigid-body kinematics).
 ///
 /// Parameter: e [m].  Neutral: 0.  Acts in the geometry of a block.
 /// Signature: uplift at g (b - e) / h to one side, g (b + e) / h to the other; drift and residual tilt to one side.
-/// Confounded with `wedge`, a base out of level and `table_pitch` as a bias.
+/// Confounded with `wedge`, a tilted base and `table_pitch` as a bias.
 
 #include "kernels/real.hpp"
 

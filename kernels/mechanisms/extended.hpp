@@ -1,8 +1,8 @@
 #pragma once
-/// How the mechanisms act together: the overlap of a bed, its force, its dowel, and what moves a block besides.
+/// How the mechanisms act together: the overlap of a bed, its force, its dowel, and the other forces on a block.
 ///
-/// What costs much is left out where it is neutral in all realizations of the register: at its neutral value it gives
-/// the same bits, so that a neighbour's mechanism changes nothing.
+/// Expensive mechanisms are skipped where they are neutral in all realizations of the register: at its neutral value
+/// each gives the same bits, so a neighbour's mechanism changes nothing.
 
 #include "kernels/contact.hpp"
 #include "kernels/mechanism.hpp"
@@ -93,7 +93,7 @@ STYLOBATE_INLINE void take_general(const Placement<Real>& place, const PairSizes
     }
 }
 
-/// What the faces of a bed do in this step.
+/// The motion of the faces of a bed in this step.
 template <class Real>
 struct BedMotion {
     Real area, chord;
@@ -230,9 +230,9 @@ STYLOBATE_INLINE Real add_dowel(const Rows<Real, Layout>& rows, int joint, int l
     return work;
 }
 
-/// What follows the contact force of a bed: its dowel, and what its slip and its rocking wear off.
-/// @param s what the step knows of the bed (`JointScratch`);  @param turning as in `BedMotion`
-/// @return 2 x the energy that these took [J]
+/// What follows the contact force of a bed: its dowel, and the wear by slip and rocking.
+/// @param s intermediate values of the bed (`JointScratch`);  @param turning as in `BedMotion`
+/// @return 2 x the energy that these dissipated or stored [J]
 template <class Real, class Layout, class Scratch>
 STYLOBATE_INLINE Real after_force(const Rows<Real, Layout>& rows, TopologyJoint blocks, int joint, const Scratch& s,
                                   const ContactForce<Real>& f, Real turning)
@@ -250,7 +250,7 @@ STYLOBATE_INLINE Real after_force(const Rows<Real, Layout>& rows, TopologyJoint 
     return energy;
 }
 
-/// What moves the blocks in one step besides the contacts, times dt2.
+/// The other accelerations of the blocks in one step, times dt2.
 template <class Real, class Layout>
 class ExtendedPull {
 public:
@@ -309,7 +309,7 @@ public:
                             fma(inertia * ptheta, dtheta + e.theta, drive_energy_));
     }
 
-    /// 2 dt2 x the work of the step's pull on all blocks.
+    /// 2 dt2 x the work of the step's nudging on all blocks.
     STYLOBATE_INLINE Real drive_energy() const { return drive_energy_; }
     STYLOBATE_INLINE void end() const
     {

@@ -3,9 +3,11 @@
 ///
 ///   F_i = max(0, lambda_i F_b + c_i v_i)      F_N = sum F_i      couple = sum F_i a_i
 ///
-/// F_b: elastic force and what is left at the centroid; lambda_i: the point's part of the elastic force; a_i: its place
-/// along the contact from the point where the elastic force acts; v_i: closing velocity there. No point pulls, and the
-/// dashpots only dissipate.
+/// F_b: elastic force and the remaining dashpot at the centroid; lambda_i: the point's part of the elastic force; a_i:
+/// its place along the contact from the point where the elastic force acts; v_i: closing velocity there. No point
+/// pulls, and the dashpots only dissipate.
+///
+/// Source: own derivation.
 ///
 /// With `area` the points are the two ends, lambda_i by the lever rule, c_i = share C_N L / (2 B) with B the contact
 /// length at rest. Parameter: share of the normal dashpot at the ends.  Neutral: 0.  Acts in the normal force of a bed.

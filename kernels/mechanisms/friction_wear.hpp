@@ -3,6 +3,8 @@
 ///
 ///   mu = mu_0 max(0, 1 - k S),  S: sum of |slip| of the joint so far
 ///
+/// Source: own choice, linear in the slip path.
+///
 /// Parameter: k [1/m].  Neutral: 0.  Acts in the friction of a bed.
 /// Signature: under steady shaking the slip of each cycle is larger than that of the one before.
 /// Confounded with `stribeck` in a single run.

@@ -5,6 +5,9 @@
 ///
 /// A: overlap (of the other forms: their force over K_N), A_ref: the overlap at which the force is the linear law's.
 ///
+/// Source: own choice; it generalizes the power law of Hertz, "Ueber die Beruehrung fester elastischer Koerper",
+/// Journal fuer die reine und angewandte Mathematik 92 (1882) 156, to the overlap.
+///
 /// Parameters: q, A_ref [m2].  Neutral: q = 1.  Acts in the elastic normal force of a bed.
 /// Signature: natural frequencies rise with the load above a joint (q > 1), and with the amplitude in closing.
 /// Confounded with K_N where all joints carry about the same.

@@ -3,6 +3,9 @@
 ///
 ///   F_N = max(0, F_el (1 + lambda v_N) + C_N v_N)
 ///
+/// Source: Hunt & Crossley, "Coefficient of restitution interpreted as damping in vibroimpact", Journal of Applied
+/// Mechanics 42 (1975) 440; beside it the dashpot of Eq. 1.
+///
 /// Parameter: lambda [s/m].  Neutral: 0 (with C_N = 0 too the bed is elastic).  Acts in the normal force of a bed.
 /// Signature: no jump of the force when faces meet; losses grow with the velocity of the impact.
 /// Confounded with C_N and drag in the decay of rocking.

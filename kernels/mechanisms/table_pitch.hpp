@@ -9,6 +9,9 @@
 /// (gravity turned, Euler's, centrifugal and Coriolis' term). In the laboratory a point is at U + R(phi) r, and a
 /// block has turned by theta + phi.
 ///
+/// Source: motion in a rotating frame (Goldstein, Poole & Safko, "Classical Mechanics", 3rd edition (2002), section
+/// 4.10).
+///
 /// Parameter: k_p with phi = k_p U'' [rad s2/m].  Neutral: 0.  Acts in the update of all blocks.
 /// Signature: as a gain of the base motion that grows with the square of the frequency; g phi at low frequency.
 /// Confounded with `sensor_gain` at one frequency.
@@ -29,7 +32,7 @@ struct Pull {
     Real x, y;
 };
 
-/// dt2 x what a mass feels in the turned frame of what it feels in the laboratory's.
+/// dt2 x an acceleration of the laboratory frame, in the turned frame.
 template <class Real>
 STYLOBATE_INLINE Pull<Real> turned_pull(const Pitch<Real>& pitch, Real x, Real y)
 {

@@ -6,6 +6,9 @@
 /// L is the length in common now, so that the vertical stiffness at full contact is that of the area form, K_N B, and
 /// the rotational one three times its, K_N B3 / 4. The force is along the lower face's normal; the dashpots are at the
 /// ends (`face_damping.hpp`).
+///
+/// Source: the two-spring foundation of Psycharis & Jennings, "Rocking of slender rigid bodies allowed to uplift",
+/// Earthquake Engineering and Structural Dynamics 11 (1983) 57, on the common face of two blocks.
 
 #include "kernels/overlap.hpp"
 
@@ -20,7 +23,7 @@ struct FormPoints {
     Real moment;                        ///< of the forces over K_N about the middle of the frame [m3]
 };
 
-/// What two faces have in common, and how deep the upper one is.
+/// The common part of two faces, and the depth of the upper one.
 template <class Real>
 struct CommonFace {
     Real left, length;

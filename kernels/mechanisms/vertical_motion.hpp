@@ -3,15 +3,17 @@
 ///
 ///   y'' = F_y / m - g - V''
 ///
+/// Source: Newton's law in an accelerated frame.
+///
 /// Parameter: V (as its second differences), or k_v with V = k_v U.  Neutral: 0.  Acts in the update of all blocks.
-/// Signature: the normal forces, and so the slip, go with the vertical motion; for k_v, at once and at twice the
-/// frequency in what depends on the product of both.
+/// Signature: the normal forces, and so the slip, follow the vertical motion; for k_v simultaneously with the
+/// horizontal one, and at twice the frequency in products of both.
 
 #include "kernels/real.hpp"
 
 namespace stylobate {
 
-/// dt2 x the downward pull in the frame of a base that accelerates upwards.
+/// dt2 x the additional downward acceleration in the frame of a base that accelerates upwards.
 template <class Real>
 STYLOBATE_INLINE Real vertical_pull(Real gravity, Real vertical)
 {

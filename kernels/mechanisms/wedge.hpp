@@ -3,9 +3,11 @@
 ///
 ///   the upper block meets a lower block that is turned by theta_l + wedge
 ///
+/// Source: own derivation (geometry).
+///
 /// Parameter: wedge [rad], counter-clockwise.  Neutral: 0.  Acts in the overlap of a bed.
 /// Signature: the structure rests at a tilt of the sum of the wedges under it; residual tilt and drift to one side.
-/// Confounded with `eccentricity`, a base out of level and `table_pitch` as a bias.
+/// Confounded with `eccentricity`, a tilted base and `table_pitch` as a bias.
 
 #include "kernels/overlap.hpp"
 
