@@ -51,24 +51,30 @@ std::string fingerprints(const Motions& motions)
     return text;
 }
 
-/// Reads or draws the motions of a study.
 Experiment with_motions(Study study)
+{
+    Motions motions = motions_of(study);
+    return Experiment(std::move(study), std::move(motions));
+}
+
+} // namespace
+
+Motions motions_of(const Study& study, const Record* record)
 {
     Motions motions;
     const ExcitationSpec& excitation = study.excitation;
     if (study.fragility)
         motions.drawn = std::make_shared<const MotionSet>(load_motions(study));
     else if (excitation.kind == ExcitationKind::record)
-        motions.record = make_motion(read_record(excitation.file, excitation.component, excitation.unit),
-                                     excitation.baseline, excitation.band_pass);
+        motions.record =
+            make_motion(record ? *record : read_record(excitation.file, excitation.component, excitation.unit),
+                        excitation.baseline, excitation.band_pass);
     else if (excitation.kind == ExcitationKind::table)
         motions.record = read_base_table(excitation.file, excitation.run);
     if (const std::optional<VerticalSpec>& spec = study.vertical)
         motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);
-    return Experiment(std::move(study), std::move(motions));
+    return motions;
 }
-
-} // namespace
 
 void check_settings(const Study& study, const std::string& file, const std::vector<std::string>& settings)
 {
@@ -87,8 +93,8 @@ void check_settings(const Study& study, const std::string& file, const std::vect
     }
 }
 
-LoadedStudy::LoadedStudy(Study study)
-    : experiment_(with_motions(std::move(study))), text_(this->study().text + fingerprints(experiment_.motions()))
+LoadedStudy::LoadedStudy(Experiment experiment)
+    : experiment_(std::move(experiment)), text_(study().text + fingerprints(experiment_.motions()))
 {
     if (experiment_.motions().drawn)
         motions_ = motion_table(*experiment_.motions().drawn);
@@ -96,14 +102,15 @@ LoadedStudy::LoadedStudy(Study study)
 
 LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<std::string>& settings)
 {
-    return LoadedStudy(read_study(file, settings));
+    return LoadedStudy(with_motions(read_study(file, settings)));
 }
 
 LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeader& header, const std::string& file,
                                       const std::vector<std::string>& settings)
 {
     check_settings(of_results, file, settings);
-    LoadedStudy loaded(settings.empty() ? of_results : parse_study(header.study_toml, file + " (its study)", settings));
+    LoadedStudy loaded(
+        with_motions(settings.empty() ? of_results : parse_study(header.study_toml, file + " (its study)", settings)));
     const Study& study = loaded.study();
     const auto check = [&](const std::string& record, const std::string& setting, const std::string& print) {
         if (header.study_toml.find(print) == std::string::npos)

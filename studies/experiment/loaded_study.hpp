@@ -10,8 +10,17 @@
 
 namespace stylobate {
 
+struct Record;
+
+/// The motions of a study, read from its files or drawn.
+/// @param record what is in the file of an excitation of kind "record"; null: that file is read
+/// @throws InputError if a file cannot be read or drives nothing
+Motions motions_of(const Study& study, const Record* record = nullptr);
+
 class LoadedStudy {
 public:
+    explicit LoadedStudy(Experiment experiment);
+
     /// From a study file and the settings of the command line.
     /// @throws InputError for whatever is wrong with the study or its record
     static LoadedStudy from_file(const std::string& file, const std::vector<std::string>& settings);
@@ -37,7 +46,6 @@ public:
 private:
     /// All of the header but its warnings.
     ResultHeader plain_header() const;
-    explicit LoadedStudy(Study study);
 
     Experiment experiment_;
     MotionTable motions_; ///< of a fragility study

@@ -78,6 +78,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"studies/app",
      {"studies", "studies/calibration", "studies/diagnosis/decision", "studies/diagnosis/findings",
       "studies/diagnosis/laws", "studies/experiment", "studies/kinds", "studies/report", "studies/results"}},
+    {"library", {}},
     {"studies/evidence/picture", {}},
     {"studies/evidence/claims",
      {"studies", "studies/app", "studies/experiment", "studies/kinds/surface", "studies/report"}},
@@ -100,7 +101,12 @@ const std::map<std::string, std::set<std::string>> floors_below = {
     {"ensemble", {"kernels"}},
     {"io", {}},
     {"studies", {"kernels", "ensemble", "io"}},
+    {"library", {"kernels", "ensemble", "io", "studies"}},
+    {"include", {}},
 };
+
+/// What other programs include needs nothing but the standard's headers and its own.
+const std::regex public_include(R"re([a-z_]+|stylobate/[a-z_]+\.hpp)re");
 
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
@@ -109,11 +115,11 @@ const std::set<std::string> headers_for_io = {"ensemble/sampling/plausible.hpp"}
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
 const std::map<std::string, std::set<std::string>> library_folders = {
     {"xsimd/", {"kernels"}},
-    {"tbb/", {"ensemble", "studies"}},
+    {"tbb/", {"ensemble", "studies", "library"}},
     {"Eigen/", {"ensemble", "studies"}},
     {"boost/", {"ensemble"}},
     {"Random123/", {"ensemble"}},
-    {"fmt/", {"ensemble", "io", "studies"}},
+    {"fmt/", {"ensemble", "io", "studies", "library"}},
     {"hdf5", {"io"}},
     {"toml++/", {"io"}},
     {"pugixml", {"io"}},
@@ -125,7 +131,8 @@ const std::map<std::string, std::set<std::string>> library_folders = {
 const std::set<std::string> not_in_kernels = {"iostream", "fstream", "sstream", "cstdio", "stdio.h",   "thread",
                                               "mutex",    "future",  "memory",  "map",    "filesystem"};
 
-const std::set<std::string> folders = {"kernels", "ensemble", "io", "studies", "bench", "tests", "python"};
+const std::set<std::string> folders = {"kernels", "ensemble", "io",       "studies", "library",
+                                       "include", "bench",    "examples", "tests",   "python"};
 
 constexpr long most_lines = 600;
 constexpr int most_files = 25; // of a folder; records have a parser for each format
@@ -169,6 +176,8 @@ std::string breach(const std::string& file, const std::string& include)
         if (room == rooms.end() || !room->second.contains(room_of(include)))
             return says + ": the graph of the rooms at the top of this test does not have it";
     }
+    if (from == "include" && !std::regex_match(include, public_include))
+        return says + ": an outside program may not have it";
     if (from == "studies" && (to == "tests" || to == "bench" || to == "python"))
         return says + ": the program stands without it";
     if (from != to && folders.contains(to) && !below->second.contains(to) &&
@@ -321,7 +330,7 @@ TEST(House, RoomsAreNotTooFull)
 TEST(Includes, NameHeadersThatExist)
 {
     for (const Text& file : texts()) {
-        if (!file.is_code() || file.name.starts_with("tests/house/consumer/"))
+        if (!file.is_code())
             continue;
         for (const std::string& include : includes_of(file.text)) {
             const bool ours = folders.contains(first_part(include)) && include.find('/') != std::string::npos;
@@ -356,7 +365,7 @@ TEST(House, NoTextNamesAMachine)
 TEST(House, EveryFolderSaysWhatItIs)
 {
     for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs",
-                               "studies/evidence/verification", "bench", "tests"})
+                               "studies/evidence/verification", "library", "examples", "bench", "tests"})
         EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
 }
 
@@ -394,6 +403,9 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("io/records/record.cpp", "../ensemble/engine/executor.hpp"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "tests/model.hpp"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "hdf5.h"), "");
+    EXPECT_NE(breach("studies/app/run.cpp", "library/inside.hpp"), "");
+    EXPECT_NE(breach("include/stylobate/study.hpp", "ensemble/model/study.hpp"), "");
+    EXPECT_NE(breach("include/stylobate/study.hpp", "fmt/format.h"), "");
 
     EXPECT_EQ(breach("kernels/step.hpp", "kernels/mechanisms/stribeck.hpp"), "");
     EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
@@ -401,6 +413,9 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("ensemble/engine/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
+    EXPECT_EQ(breach("library/study.cpp", "io/study/study_file.hpp"), "");
+    EXPECT_EQ(breach("include/stylobate/study.hpp", "stylobate/record.hpp"), "");
+    EXPECT_EQ(breach("include/stylobate/study.hpp", "vector"), "");
     EXPECT_EQ(breach("tests/kernels/test_wide.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("tests/io/store/test_result_store.cpp", "hdf5.h"), "");
 }

@@ -1,0 +1,18 @@
+#pragma once
+/// The one exception for what a user can correct.
+
+#include <stdexcept>
+
+namespace stylobate::api {
+
+/// Bad input: a study, a record, a results file or an option that cannot be used. The message is the one that the
+/// command line prints: where (file and line, if there is one), what, the allowed range, and what to do.
+///
+/// Everything in this library may throw it. What is no one's input is a std::exception of another type, such as
+/// std::system_error for a full disk.
+class InputError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace stylobate::api

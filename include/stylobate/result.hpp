@@ -1,0 +1,107 @@
+#pragma once
+/// What became of the realizations of a study.
+
+#include "stylobate/fragility.hpp"
+#include "stylobate/surface.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate::api {
+
+/// How a realization ended.
+enum class State : std::uint8_t {
+    stood = 0,
+    rocked = 1,    ///< beyond `outcome.rocking_threshold_rad`, without a fall
+    slid = 2,      ///< beyond `outcome.sliding_threshold`, without a fall
+    collapsed = 3, ///< a block has fallen
+    invalid = 4    ///< set aside: a number was not finite, or the balance of energy lacks too much
+};
+/// "stood", "rocked", "slid", "collapsed", "invalid"
+const char* to_string(State state);
+
+/// One realization. Times are from the start of the simulation; -1 where a thing did not happen.
+struct Outcome {
+    std::uint64_t index = 0;
+    std::uint64_t cell = 0;  ///< of a surface, frequency by frequency; of a fragility study, motion by motion
+    double frequency_hz = 0; ///< of the shaking
+    double pga_m_s2 = 0;     ///< of the shaking
+    State state = State::stood;
+    double collapse_time_s = -1;
+    std::int32_t first_fallen_block = -1; ///< in layout order; -2: several at the same step
+    std::int32_t fallen_blocks = 0;
+    std::int32_t unseated_block = -1; ///< epistyle that lost a seat first; -2: several at once
+    double unseating_time_s = -1;
+    double total_collapse_time_s = -1; ///< when all had fallen, where the study follows its realizations to rest
+    double peak_top_displacement_m = 0;
+    double residual_top_displacement_m = 0;
+    double total_sliding_m = 0;      ///< sum over the beds
+    double residual_sliding_m = 0;   ///< sum over the beds
+    double residual_dislocation = 0; ///< of the bed that is worst, over its width
+    double total_rocking_rad = 0;    ///< sum over the beds of the largest relative rotation
+    double max_relative_rotation_rad = 0;
+    double energy_friction_j = 0; ///< dissipated
+    double energy_damping_j = 0;  ///< dissipated
+    double energy_residual = 0;   ///< what the balance lacks, over the energy that went through it
+    double end_time_s = 0;        ///< simulated time
+    double step_s = 0;
+    std::vector<double> fall_time_s; ///< (blocks) when each fell
+    std::vector<double> inputs;      ///< (`Result::input_names`) what was drawn
+};
+
+/// How often, among the valid realizations.
+struct Share {
+    std::uint64_t trials = 0;
+    std::uint64_t count = 0;
+    double probability = 0; ///< NaN without a trial
+    double lower = 0;       ///< 95 % interval: Jeffreys'; of a fragility study, by how the motions differ
+    double upper = 1;
+};
+
+/// The realizations of a study that have been run, all of them or not. A copy is cheap.
+class Result {
+public:
+    /// Reads a results file of `stylobate run` or `run_to_file`, complete or not.
+    /// @throws InputError if there is no such file, or if it is damaged or no result of stylobate
+    static Result from_file(const std::filesystem::path& file);
+
+    std::string kind() const;       ///< of the study; "replay" for a file of one realization
+    std::string study_text() const; ///< canonical, followed by comments that identify its records
+    std::string code_version() const;
+    bool complete() const;              ///< whether every realization of the study has been run
+    std::uint64_t realizations() const; ///< that have been run
+    std::uint64_t invalid() const;      ///< those that were set aside
+    std::vector<std::string> warnings() const;
+
+    /// How often a limit state was reached, over all cells or motions.
+    /// @param limit_state "collapse", "total", "unseated", "rocked" or "slid"
+    /// @throws InputError for any other word, and for a study of rare events, whose realizations lean to the collapse
+    Share share(const std::string& limit_state = "collapse") const;
+
+    /// By index. Empty for a study that keeps no rows (`output.realizations = "none"`).
+    const std::vector<Outcome>& outcomes() const;
+    std::vector<std::string> input_names() const; ///< "friction[0]"
+    std::vector<std::string> block_names() const; ///< in layout order
+
+    /// The surface of a limit state, of a result that is complete or not.
+    /// @throws InputError if the study is of another kind, for a word that is no limit state, and for an adaptive
+    ///         surface that is not complete or of another limit state than the collapse
+    Surface surface(const std::string& limit_state = "collapse") const;
+
+    /// @throws InputError if the study is of another kind, or not complete
+    Fragility fragility() const;
+
+    Result(const Result&) = default;
+    Result& operator=(const Result&) = default;
+
+private:
+    struct Data;
+    friend struct Inside;
+    explicit Result(std::shared_ptr<const Data> data);
+    std::shared_ptr<const Data> data_;
+};
+
+} // namespace stylobate::api

@@ -1,0 +1,19 @@
+#pragma once
+/// Ensembles of rocking and sliding multi-drum columns, for programs in C++20: all of the library.
+///
+///   namespace sb = stylobate::api;
+///   sb::Study study = sb::Study::from_file("column.toml");
+///   sb::Result result = sb::run(sb::Experiment(study));
+///
+/// SI units throughout; the unit is a part of each name. docs/library.md says how to build against it.
+
+#include "stylobate/diagnosis.hpp"
+#include "stylobate/error.hpp"
+#include "stylobate/experiment.hpp"
+#include "stylobate/fragility.hpp"
+#include "stylobate/record.hpp"
+#include "stylobate/result.hpp"
+#include "stylobate/run.hpp"
+#include "stylobate/study.hpp"
+#include "stylobate/surface.hpp"
+#include "stylobate/trajectory.hpp"

@@ -1,0 +1,54 @@
+#pragma once
+/// One realization through time, and pictures of it.
+
+#include "stylobate/experiment.hpp"
+#include "stylobate/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stylobate::api {
+
+/// The blocks of a structure at evenly spaced times. Places are those of the blocks' centres in the frame of the base:
+/// x to the right, y upwards from the base; angles are counter-clockwise from upright.
+struct Trajectory {
+    Outcome outcome;                   ///< the same bits as in the ensemble
+    std::vector<double> time_s;        ///< (times)
+    std::vector<double> x_m;           ///< (times x blocks), time by time
+    std::vector<double> y_m;           ///< (times x blocks)
+    std::vector<double> theta_rad;     ///< (times x blocks)
+    std::vector<double> base_x_m;      ///< (times) displacement of the base
+    std::vector<double> rest_x_m;      ///< (blocks) place in the structure as it is built: upright, faces touching
+    std::vector<double> rest_y_m;      ///< (blocks)
+    std::vector<double> half_width_m;  ///< (blocks)
+    std::vector<double> half_height_m; ///< (blocks)
+    std::vector<bool> fixed;           ///< (blocks) whether it moves with the base
+    std::vector<bool> epistyle;        ///< (blocks) whether it lies across columns
+    std::vector<std::int32_t> column;  ///< (blocks) of a drum, from the left; -1 of an epistyle
+    std::vector<std::string> name;     ///< (blocks) in layout order: column by column from the bottom, then epistyles
+
+    std::size_t blocks() const { return half_width_m.size(); }
+    /// The last sample that is not after a time; the first one before all.
+    /// @throws std::out_of_range if there are no samples
+    std::size_t sample_at(double time_s) const;
+};
+
+/// Runs one realization, sampled at the study's `output.trajectory_rate_hz`.
+/// @param index from 0 to `experiment.realizations() - 1`
+/// @throws InputError if there is no such realization, and for a study of rare events, whose realizations follow from
+///         each other
+Trajectory follow(const Experiment& experiment, std::uint64_t index);
+
+/// Draws the structure at a time, to scale, in the frame of the base: a vector picture for any browser. A file that is
+/// there is replaced.
+/// @throws InputError if the arrays do not fit each other, or if the file cannot be written
+void write_svg(const Trajectory& trajectory, double time_s, const std::filesystem::path& file);
+
+/// Draws a strip of snapshots with the displacements below (PNG, by gnuplot), as `stylobate export --picture strip`.
+/// @throws InputError if gnuplot is missing, or the file cannot be written
+void write_strip(const Trajectory& trajectory, const std::filesystem::path& png, const std::string& title = {});
+
+} // namespace stylobate::api

@@ -1,0 +1,107 @@
+#include "stylobate/diagnosis.hpp"
+
+#include "io/measured/measured_file.hpp"
+#include "io/study/study_file.hpp"
+#include "library/inside.hpp"
+#include "library/machine.hpp"
+#include "studies/app/fingerprint.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/diagnosis/decision/pipeline.hpp"
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/diagnosis/laws/track.hpp"
+
+namespace stylobate::api {
+
+Diagnosis::Diagnosis(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+Verdict Diagnosis::verdict() const
+{
+    switch (data_->diagnosis.verdict) {
+    case inner::Verdict::none:
+        return Verdict::none;
+    case inner::Verdict::named:
+        return Verdict::named;
+    case inner::Verdict::unexplained:
+        break;
+    }
+    return Verdict::unexplained;
+}
+
+std::string Diagnosis::verdict_text() const
+{
+    return data_->diagnosis.verdict_text;
+}
+
+std::vector<Cause> Diagnosis::causes() const
+{
+    std::vector<Cause> causes;
+    for (const inner::Candidate* c : inner::named_causes(data_->diagnosis))
+        causes.push_back({c->mechanism, c->place, c->parameter, c->unit, c->size, c->low, c->high, c->probability,
+                          c->gain_nats, c->p});
+    return causes;
+}
+
+std::optional<Gain> Diagnosis::gain() const
+{
+    const std::optional<inner::ModelGain>& gain = data_->diagnosis.gain;
+    if (!gain)
+        return {};
+    return Gain{gain->error_before, gain->error_after, gain->low, gain->high, gain->unit};
+}
+
+std::string Diagnosis::extended_study() const
+{
+    return data_->diagnosis.extended_study;
+}
+
+std::string Diagnosis::text() const
+{
+    return inner::diagnosis_text(data_->diagnosis);
+}
+
+std::string Diagnosis::json() const
+{
+    return inner::diagnosis_json(data_->diagnosis).text();
+}
+
+void Diagnosis::write(const std::filesystem::path& file) const
+{
+    translated([&] { inner::write_diagnosis(data_->diagnosis, file); });
+}
+
+std::optional<Diagnosis> diagnose(const std::filesystem::path& measured, const DiagnosisOptions& options)
+{
+    class Asked : public inner::Observer {
+    public:
+        explicit Asked(const std::function<bool()>& go_on) : go_on_(go_on) {}
+        bool stop_requested() override { return go_on_ && !go_on_(); }
+
+    private:
+        const std::function<bool()>& go_on_;
+    } observer(options.go_on);
+    return translated([&]() -> std::optional<Diagnosis> {
+        const inner::Campaign campaign = inner::read_campaign(measured);
+        inner::track_scales(campaign); // refuses what cannot be diagnosed, before any work
+        const inner::Study study = options.study ? Inside::of(*options.study).study : inner::default_study(campaign);
+        inner::demand_double(study, "study", "a diagnosis");
+        inner::DiagnosisOptions how;
+        how.seed = options.seed;
+        how.nulls = options.nulls;
+        how.windows = options.windows;
+        how.cache = options.cache;
+        how.run = run_options(options.threads, options.simd);
+        const auto tell = [&](const std::string& line) {
+            if (options.tell)
+                options.tell(line);
+        };
+        std::optional<inner::Diagnosis> found = inner::diagnose(campaign, study, how, tell, observer);
+        if (!found)
+            return {};
+        found->measured_fingerprint = inner::fingerprint(measured);
+        return Inside::make<Diagnosis>({std::move(*found)});
+    });
+}
+
+} // namespace stylobate::api

@@ -1,0 +1,66 @@
+#pragma once
+/// What the classes of the public headers hold. Here `inner` is the engine's own namespace, whose names are partly the
+/// same.
+
+#include "ensemble/model/input_error.hpp"
+#include "io/records/record.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "stylobate/stylobate.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate::api {
+
+namespace inner = ::stylobate;
+
+struct Study::Data {
+    inner::Study study;
+    std::filesystem::path file;        ///< that it was read from; empty: from a text
+    std::string source;                ///< that text
+    std::vector<std::string> settings; ///< of it all
+};
+
+struct Record::Data {
+    inner::Record record;
+    bool from_file = false;
+};
+
+struct Experiment::Data {
+    inner::LoadedStudy loaded;
+    std::vector<std::string> warnings;
+
+    static Data checked(inner::Experiment experiment, const std::string& name);
+};
+
+struct Diagnosis::Data {
+    inner::Diagnosis diagnosis;
+};
+
+/// The way from a public object to what it holds, and back.
+struct Inside {
+    template <class T>
+    static const auto& of(const T& object)
+    {
+        return *object.data_;
+    }
+    template <class T>
+    static T make(typename T::Data data)
+    {
+        return T(std::make_shared<const typename T::Data>(std::move(data)));
+    }
+};
+
+/// Calls f; the engine's error comes out as the library's.
+template <class F>
+auto translated(const F& f) -> decltype(f())
+{
+    try {
+        return f();
+    } catch (const inner::InputError& error) {
+        throw InputError(error.what());
+    }
+}
+
+} // namespace stylobate::api

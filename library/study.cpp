@@ -1,0 +1,49 @@
+#include "io/study/study_file.hpp"
+#include "io/study/study_names.hpp"
+#include "library/inside.hpp"
+
+namespace stylobate::api {
+
+Study::Study(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+Study Study::from_file(const std::filesystem::path& file, const std::vector<std::string>& settings)
+{
+    return translated([&] { return Inside::make<Study>({inner::read_study(file, settings), file, {}, settings}); });
+}
+
+Study Study::from_text(const std::string& toml, const std::vector<std::string>& settings)
+{
+    return translated([&] {
+        return Inside::make<Study>({inner::parse_study(toml, "study", settings), {}, toml, settings});
+    });
+}
+
+void Study::set(const std::string& setting)
+{
+    // from the beginning: a key that takes the place of another's default must not meet that default
+    std::vector<std::string> settings = data_->settings;
+    settings.push_back(setting);
+    *this = data_->file.empty() ? from_text(data_->source, settings) : from_file(data_->file, settings);
+}
+
+std::string Study::text() const
+{
+    return data_->study.text;
+}
+
+std::string Study::kind() const
+{
+    return inner::word_for(inner::study_kind_names, data_->study.kind);
+}
+
+std::uint64_t Study::seed() const
+{
+    return data_->study.seed;
+}
+
+std::uint64_t Study::realizations() const
+{
+    return inner::most_realizations(data_->study);
+}
+
+} // namespace stylobate::api
