@@ -47,7 +47,7 @@ gate_clang() {
 }
 
 gate_headers() {
-    local flags=(-std=c++20 -fsyntax-only -x c++ -I. -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial
+    local flags=(-std=c++20 -fsyntax-only -x c++ -I. -Iinclude -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial
         -DFMT_SHARED '-DSTYLOBATE_SOURCE_DIR=""' '-DSTYLOBATE_DATA_DIR=""' '-DSTYLOBATE_PROGRAM=""' -mavx2 -mfma
         -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align -Wconversion -Werror
         -Wno-pragma-once-outside-header -Wno-unused-const-variable -Wno-unused-function)
@@ -62,7 +62,7 @@ gate_tidy() {
         git diff --name-only HEAD -- '*.cpp'
         git log -n 200 --name-only --format= -- '*.cpp'
         sources '*.cpp'
-    } | awk '!seen[$0]++' | grep -vE '^bench/peers/|^tests/house/consumer/|fuzz_record' | while read -r file; do
+    } | awk '!seen[$0]++' | grep -vE '^bench/peers/|^examples/|fuzz_record' | while read -r file; do
         [[ -f $file ]] && echo "$file"
     done)
     total=${#files[@]}
