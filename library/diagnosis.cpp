@@ -3,7 +3,6 @@
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
-#include "library/machine.hpp"
 #include "studies/app/fingerprint.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"

@@ -2,6 +2,7 @@
 /// What the classes of the public headers hold. Here `inner` is the engine's own namespace, whose names are partly the
 /// same.
 
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/records/record.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
@@ -50,7 +51,12 @@ struct Inside {
     {
         return T(std::make_shared<const typename T::Data>(std::move(data)));
     }
+    static Result run(const Experiment& experiment, const RunOptions& options);
 };
+
+/// Where and how to run. @param threads, simd as in `RunOptions`
+/// @throws inner::InputError if this machine lacks the instruction set
+inner::RunOptions run_options(int threads, const std::string& simd);
 
 /// Calls f; the engine's error comes out as the library's.
 template <class F>

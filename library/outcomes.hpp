@@ -2,6 +2,7 @@
 /// From the engine's rows and tables to the plain data of the public headers.
 
 #include "io/store/result_store.hpp"
+#include "io/tables/fragility_table.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "stylobate/result.hpp"
 

@@ -2,8 +2,7 @@
 
 #include "io/study/study_file.hpp"
 #include "library/outcomes.hpp"
-#include "studies/kinds/adaptive/run_adaptive.hpp"
-#include "studies/kinds/surface/surface.hpp"
+#include "studies/kinds/adaptive/adaptive_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -22,11 +21,6 @@ inner::LimitState limit_of(const std::string& word)
     return inner::limit_state_of(word);
 }
 
-bool is_adaptive(const inner::Study& study)
-{
-    return study.surface && study.surface->adaptive;
-}
-
 } // namespace
 
 const char* to_string(State state)
@@ -38,43 +32,24 @@ Result::Result(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 Result Result::from_file(const std::filesystem::path& file)
 {
-    return translated([&] { return Inside::make<Result>({inner::ResultReader(file), file.string()}); });
-}
-
-Result::Data::Data(const inner::ResultReader& reader, const std::string& file)
-    : header(reader.header()), study(inner::parse_study(header.study_toml, file + " (its study)")), name(file),
-      complete(reader.complete()), done(reader.done()),
-      limits(header.block_names.size(), header.kind == "replay" ? 0 : inner::cells_of_motion(study))
-{
-    std::vector<inner::SurfaceCounts> counts;
-    if (!header.frequency_hz.empty())
-        for (std::size_t i = 0; i < inner::limit_state_names().size(); ++i)
-            counts.emplace_back(header.frequency_hz, header.pga_m_s2, static_cast<inner::LimitState>(i));
-    const std::uint64_t originals = header.kind == "replay" ? study.total() : study.originals();
-    reader.for_each_row([&](const inner::ResultRow& row) {
-        outcomes.push_back(outcome_of(row));
-        invalid += row.outcome.state == inner::State::invalid;
-        if (row.index >= originals) // perturbed replicas are no further trials
-            return;
-        limits.add(row);
-        for (inner::SurfaceCounts& each : counts)
-            each.add(row);
+    return translated([&] {
+        const inner::ResultReader reader(file);
+        const inner::ResultHeader& header = reader.header();
+        Data data(header, inner::parse_study(header.study_toml, file.string() + " (its study)"), file.string());
+        data.complete = reader.complete();
+        if (!data.complete)
+            data.count_the_first([&](std::uint64_t index) { return reader.has(index); });
+        reader.for_each_row([&](const inner::ResultRow& row) { data.add(row); });
+        if (const inner::Tally* tally = reader.tally())
+            data.add(*tally);
+        data.done = reader.done();
+        if (!data.complete)
+            data.finish();
+        else
+            data.finish(header.frequency_hz.empty() ? std::nullopt : std::optional(reader.surface()),
+                        reader.table("rare"), reader.table("fragility"));
+        return Inside::make<Result>(std::move(data));
     });
-    std::sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
-    for (const inner::SurfaceCounts& each : counts)
-        surfaces.push_back(each.table());
-    if (const inner::Tally* tally = reader.tally()) {
-        limits = inner::LimitCounts(*tally);
-        invalid = tally->all_invalid();
-        for (std::size_t i = 0; i < surfaces.size(); ++i)
-            surfaces[i] = inner::surface_of(header, *tally, static_cast<inner::LimitState>(i));
-    }
-    if (complete && is_adaptive(study))
-        surfaces[static_cast<std::size_t>(inner::LimitState::collapse)] = reader.surface();
-    if (complete && study.rare)
-        rare = reader.rare();
-    if (complete && study.fragility)
-        fragility = reader.fragility();
 }
 
 std::string Result::kind() const
@@ -116,7 +91,7 @@ Share Result::share(const std::string& limit_state) const
 {
     const inner::LimitState limit = limit_of(limit_state);
     Share share = share_of(data_->limits.share(limit));
-    const bool adaptive = is_adaptive(data_->study), rare = data_->study.rare.has_value();
+    const bool adaptive = data_->is_adaptive(), rare = data_->study.rare.has_value();
     if (!adaptive && !rare)
         return share;
     // some cells, or chains, have more realizations than others: the plain share means nothing
@@ -157,7 +132,7 @@ Surface Result::surface(const std::string& limit_state) const
     const inner::LimitState limit = limit_of(limit_state);
     if (data_->surfaces.empty())
         throw InputError(fmt::format("{}: a result of kind '{}' has no surface", data_->name, kind()));
-    if (is_adaptive(data_->study) && (limit != inner::LimitState::collapse || !data_->complete))
+    if (data_->is_adaptive() && (limit != inner::LimitState::collapse || !data_->complete))
         throw InputError(fmt::format("{}: an adaptive surface is that of the collapse, once it is complete; its "
                                      "realizations lie where that one needed them",
                                      data_->name));

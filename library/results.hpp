@@ -1,30 +1,58 @@
 #pragma once
-/// What a `Result` holds.
+/// What a `Result` holds, made from the rows of a run or of a file.
 
+#include "ensemble/numerics/run_order.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/fragility_table.hpp"
+#include "io/tables/rare_table.hpp"
 #include "library/inside.hpp"
 #include "studies/experiment/limit_state.hpp"
+#include "studies/kinds/surface/surface.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate::api {
 
 struct Result::Data {
-    /// @param file its name in messages
-    Data(const inner::ResultReader& reader, const std::string& file);
+    /// @param name of the results in messages
+    Data(inner::ResultHeader header, inner::Study study, std::string name);
+
+    /// Of a run that was stopped, before its rows are added: of these count those that were begun first and have all
+    /// ended; none of them is missing because it takes long.
+    /// @param has whether a realization is there
+    void count_the_first(const std::function<bool(std::uint64_t index)>& has);
+    /// Counts a realization; without its own outcome where the study keeps none.
+    void add(const inner::ResultRow& row);
+    /// Takes the counts of a study that keeps no rows instead.
+    void add(const inner::Tally& tally);
+    /// The last step. @param surface of the collapse, as the kind of study has it; what it has not is empty
+    void finish(std::optional<inner::SurfaceTable> surface = {}, const inner::Table& rare = inner::Table("rare"),
+                const inner::Table& fragility = inner::Table("fragility"));
 
     inner::ResultHeader header;
     inner::Study study;
     std::string name; ///< in messages
-    bool complete = false;
+    bool complete = true;
     std::uint64_t done = 0, invalid = 0;
     inner::LimitCounts limits;
     std::vector<Outcome> outcomes;             ///< by index
     std::vector<inner::SurfaceTable> surfaces; ///< of each limit state; empty for other kinds
     inner::RareTable rare;
     inner::FragilityTable fragility;
+
+    bool is_adaptive() const { return study.surface && study.surface->adaptive; }
+
+private:
+    bool counts(std::uint64_t index) const;
+
+    std::vector<inner::SurfaceCounts> counts_; ///< of each limit state
+    std::optional<inner::RunOrder> order_;     ///< of a run that was stopped
+    std::uint64_t places_ = 0;                 ///< of it, that count
+    std::uint64_t trials_ = 0;                 ///< realizations below count; perturbed replicas are no further trials
 };
 
 } // namespace stylobate::api

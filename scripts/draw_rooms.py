@@ -13,6 +13,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FLOORS = [  # from the top: name, what it is
+    ("library", "library: what other programs use, behind include/stylobate"),
     ("studies/evidence", "studies/evidence: programs that write pages of docs/"),
     ("studies", "studies: what people run"),
     ("io", "io: files (sees plain data of ensemble alone)"),

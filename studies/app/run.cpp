@@ -13,8 +13,6 @@
 #include "studies/results/run_study.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <filesystem>
 #include <limits>
@@ -27,16 +25,6 @@ namespace {
 std::string default_results(const std::string& study)
 {
     return std::filesystem::path(study).stem().string() + ".h5";
-}
-
-/// Draws realizations once, so that one that cannot be run (a fixed step above its bound, drums drawn off each other)
-/// is refused before anything is written. It costs less than a hundredth of running them.
-void check_realizations(const LoadedStudy& loaded, const Kind& kind)
-{
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, kind.drawn_first(), 256), [&](const auto& range) {
-        for (std::uint64_t index = range.begin(); index != range.end(); ++index)
-            loaded.sampler().realization(index);
-    });
 }
 
 /// What to add to a study that is meant as it stands.
@@ -101,7 +89,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const RunOptions run = options.run_options();
     const bool found = std::filesystem::exists(results);
     if (!found) // else it has been done before the file was made
-        check_realizations(loaded, *kind);
+        check_realizations(loaded.sampler(), *kind);
     else if (ResultWriter::is_finished(results, header))
         return report_finished(options, results, loaded.study(), run, *kind);
 

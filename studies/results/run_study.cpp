@@ -2,6 +2,9 @@
 
 #include "studies/experiment/trajectory.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -128,6 +131,14 @@ private:
 };
 
 } // namespace
+
+void check_realizations(const Sampler& sampler, const Kind& kind)
+{
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, kind.drawn_first(), 256), [&](const auto& range) {
+        for (std::uint64_t index = range.begin(); index != range.end(); ++index)
+            sampler.realization(index);
+    });
+}
 
 StudyRun run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
                    Observer& observer)

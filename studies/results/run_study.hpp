@@ -6,6 +6,11 @@
 
 namespace stylobate {
 
+/// Draws realizations once, so that one that cannot be run (a fixed step above its bound, drums drawn off each other)
+/// is refused before anything is written. It costs less than a hundredth of running them.
+/// @throws InputError naming the realization
+void check_realizations(const Sampler& sampler, const Kind& kind);
+
 struct StudyRun {
     Progress progress;
     bool complete = false; ///< else the user has asked to stop

@@ -3,6 +3,10 @@
 #include "stylobate/stylobate.hpp"
 #include "tests/program/program.hpp"
 
+#include "io/study/study_file.hpp"
+#include "io/tables/fragility_table.hpp"
+#include "studies/kinds/surface/surface_kind.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -99,7 +103,7 @@ TEST_P(LibraryKinds, InMemoryItHasTheNumbersOfTheFile)
     } else {
         EXPECT_THROW(result.surface(), api::InputError);
     }
-    if (const FragilityTable table = reader.fragility(); !table.empty()) {
+    if (const FragilityTable table = fragility_table(reader.table("fragility")); !table.empty()) {
         const api::Fragility fragility = result.fragility();
         EXPECT_EQ(fragility.measure, table.measure);
         ASSERT_EQ(fragility.curves.size(), table.states.size());
@@ -163,6 +167,38 @@ INSTANTIATE_TEST_SUITE_P(
                                {"sensitivity.samples=6", "sensitivity.inner=2", "excitation.pga_m_s2=7"}},
                     SmallStudy{"rare", "rare_collapse.toml", {"rare.samples=100", "rare.repeats=5"}}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST_F(LibraryRun, OfAStoppedRunTheFairPartCounts)
+{
+    const api::Experiment experiment(api::Study::from_file(column_study, with(four_cells, {"study.realizations=200"})));
+    int asked = 0;
+    const auto stop = [&](const api::Progress& p) { return p.done < 100 || ++asked < 3; };
+    const api::Result memory = api::run(experiment, {.threads = 1, .progress = stop});
+    EXPECT_FALSE(memory.complete());
+    EXPECT_LT(memory.realizations(), 800U);
+    EXPECT_EQ(memory.outcomes().size(), memory.realizations());
+    const api::Share share = memory.share();
+    EXPECT_GT(share.trials, 0U);
+    EXPECT_LE(share.trials, memory.realizations());
+    const api::Surface surface = memory.surface();
+    std::uint64_t trials = 0;
+    for (const std::uint64_t cell : surface.trials) {
+        EXPECT_NEAR(static_cast<double>(cell), static_cast<double>(share.trials) / 4, 2) << "spread over the cells";
+        trials += cell;
+    }
+    EXPECT_EQ(trials, share.trials);
+
+    // what the program draws of a file that was left so
+    asked = 0;
+    const api::Result file = api::run_to_file(experiment, folder / "part.h5", {.threads = 1, .progress = stop});
+    EXPECT_FALSE(file.complete());
+    const ResultReader reader(folder / "part.h5");
+    const Study study = read_study(column_study, with(four_cells, {"study.realizations=200"}));
+    const SurfaceTable drawn = surface_so_far(reader, study, "part.h5", LimitState::collapse);
+    EXPECT_EQ(file.surface().trials, drawn.trials);
+    EXPECT_EQ(file.surface().reached, drawn.collapses);
+    EXPECT_EQ(file.surface().upper, drawn.upper);
+}
 
 TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
 {

@@ -31,14 +31,6 @@ SurfaceTable table_of(AdaptiveAllocation& allocation, const ResultHeader& header
     return table;
 }
 
-/// The mean as the progress' share, and the interval of 1.96 standard errors.
-void set_share(Progress& progress, const SurfaceMean& mean)
-{
-    progress.share = mean.value;
-    progress.share_lower = std::max(0.0, mean.value - 1.96 * mean.error);
-    progress.share_upper = std::min(1.0, mean.value + 1.96 * mean.error);
-}
-
 /// What is known of a surface after a round: its mean, and how many realizations it will have taken. A cell that is too
 /// wide is taken to go on with the share that it has until its own interval is narrow; what the neighbours will give is
 /// not foreseen.
@@ -65,6 +57,13 @@ void foretell(AdaptiveAllocation& allocation, const SurfaceTable& table, const s
 }
 
 } // namespace
+
+void set_share(Progress& progress, const SurfaceMean& mean)
+{
+    progress.share = mean.value;
+    progress.share_lower = std::max(0.0, mean.value - 1.96 * mean.error);
+    progress.share_upper = std::min(1.0, mean.value + 1.96 * mean.error);
+}
 
 SurfaceMean mean_of(const SurfaceTable& table)
 {

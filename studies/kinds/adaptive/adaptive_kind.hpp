@@ -34,6 +34,8 @@ struct SurfaceMean {
     double value = 0, error = 0;
 };
 SurfaceMean mean_of(const SurfaceTable& table);
+/// The mean as the progress' share, with the interval of 1.96 standard errors.
+void set_share(Progress& progress, const SurfaceMean& mean);
 /// What was reached with how many realizations, as a sentence.
 std::string describe_adaptive(const SurfaceTable& table);
 
