@@ -35,10 +35,10 @@ void over_step(Report& report, std::uint64_t realizations)
     fmt::format_to(
         out,
         "### Collapse probability\n\nThe specimen (six free drums), {} realizations of the same draws (friction, drum "
-        "widths), 10 cycles of 3 Hz at an amplitude with which about half of them collapse. *Less that of the fine "
-        "step*: against an eighth of the bound, with the standard error of the difference, root(differ) / {}; "
-        "*differ*: realizations that end in another way.\n\n"
-        "| form | dashpot | K_N [N/m2] | amplitude [m/s2] | step | block-steps per s | collapsed | less that of the "
+        "widths), 10 cycles of 3 Hz at an amplitude at which about half of them collapse. *Difference from the fine "
+        "step*: relative to an eighth of the bound, with the standard error of the difference, root(differ) / {}. "
+        "*Differ*: number of realizations with a different outcome.\n\n"
+        "| form | dashpot | K_N [N/m2] | amplitude [m/s2] | step | block-steps per s | collapsed | difference from the "
         "fine step | differ |\n|---|---|---|---|---|---|---|---|---|\n",
         realizations, realizations);
     struct Sum {
@@ -95,7 +95,7 @@ void over_step(Report& report, std::uint64_t realizations)
                        fine.cost, fine.probability());
         report.collapse.push_back(marks);
     }
-    fmt::format_to(out, "\nMean difference of all:");
+    fmt::format_to(out, "\nMean difference over all settings:");
     for (std::size_t i = 1; i < steps.size(); ++i)
         fmt::format_to(out, "{} {:+.4f} ± {:.4f} at {} of the bound", i == 1 ? "" : ",",
                        sums[i].difference / sums[i].cases, std::sqrt(sums[i].variance) / sums[i].cases,

@@ -13,11 +13,11 @@
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Work and precision: errors of three answers against block-steps per simulated second.");
+    CLI::App app("Work and precision: errors of three results against block-steps per simulated second.");
     std::string picture;
     std::uint64_t realizations = 1024;
-    app.add_option("--picture", picture, "draw the curves there (PNG)");
-    app.add_option("--realizations", realizations, "of each ensemble")
+    app.add_option("--picture", picture, "write a picture of the curves to this file (PNG)");
+    app.add_option("--realizations", realizations, "number of realizations in each ensemble")
         ->check(CLI::Range(8, 1 << 20))
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);

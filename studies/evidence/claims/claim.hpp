@@ -76,7 +76,7 @@ struct Window {
 struct Criterion {
     enum class Kind {
         bound, ///< the measure is at least a number, at most one, or both: in all cells of the window or in any
-        trend, ///< it rises or falls along the frequency: from end to end, and nowhere the other way
+        trend, ///< it rises or falls along the frequency: from end to end, and in no cell in the opposite direction
         order, ///< it rises or falls from level to level of an axis: in all cells of the window; or it differs: in any
         same   ///< the most frequent of stood, rocked, slid, both, collapsed is the same at all levels of an axis
     };

@@ -209,12 +209,12 @@ Test read_test(const KeyReader& keys, const std::vector<VariantAxis>& axes)
     test.id = keys.text("id");
     test.says = prose(keys, "says");
     if (test.says.empty())
-        keys.missing("says", "Say what the paper says.");
+        keys.missing("says", "Give the statement of the paper.");
     test.contradiction = prose(keys, "contradiction");
     test.untestable = prose(keys, "untestable");
     test.impossible = prose(keys, "impossible");
     if (!keys.has("criterion"))
-        keys.missing("criterion", "A claim is decided by a criterion that is written down before.");
+        keys.missing("criterion", "A claim is decided by a criterion that is fixed before the run.");
     test.criterion = read_criterion(keys.table("criterion"));
     const std::string& along = test.criterion.along;
     if (!along.empty() &&

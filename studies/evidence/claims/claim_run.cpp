@@ -118,11 +118,14 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
             settings.push_back(fmt::format("study.realizations={}", place.realizations));
         const Study study = read_study(file.file, settings);
         if (study.surface && study.surface->adaptive)
-            throw InputError(file.file, 0,
-                             "surface.adaptive: a claim is judged on cells with equally many realizations; leave it "
-                             "out");
+            throw InputError(
+                file.file, 0,
+                "surface.adaptive: a claim is tested on cells with equal numbers of realizations; leave it "
+                "out");
         if (study.kept == KeptRealizations::none)
-            throw InputError(file.file, 0, "output.realizations = \"none\": a claim is judged on rows; leave it out");
+            throw InputError(
+                file.file, 0,
+                "output.realizations = \"none\": a claim is tested on the rows of all realizations; omit this key");
         const std::vector<std::string> record = record_setting(study, place);
         settings.insert(settings.end(), record.begin(), record.end());
 

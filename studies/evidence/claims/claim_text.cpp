@@ -79,8 +79,8 @@ std::string measure_text(const Measure& m)
         text = fmt::format("the probability that it {}", event_phrase(m, m.event));
         break;
     case Measure::Kind::minority:
-        text = fmt::format("the share of the rarer of the two outcomes, that it {} and that it does not,",
-                           event_phrase(m, m.event));
+        text =
+            fmt::format("the smaller of the probabilities that it {} and that it does not", event_phrase(m, m.event));
         break;
     case Measure::Kind::median:
         text = fmt::format("the median {}", word_of(amount_words, m.amount).text);
@@ -90,7 +90,7 @@ std::string measure_text(const Measure& m)
         break;
     }
     if (m.given)
-        text += fmt::format(" (counting only those of which it is true that it {})", event_phrase(m, *m.given));
+        text += fmt::format(" (given that it {})", event_phrase(m, *m.given));
     return text;
 }
 
@@ -128,7 +128,8 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
         text += c.any ? " in at least one cell" : " in every cell";
         break;
     case Criterion::Kind::trend:
-        text = fmt::format("{} {} with frequency: the last frequency against the first, and no pair the other way{}",
+        text = fmt::format("{} {} with frequency: the last frequency against the first, and no pair of frequencies in "
+                           "the opposite direction{}",
                            measure_text(c.measure), way,
                            c.tolerance > 0 ? fmt::format(" by more than {:g} %", 100 * c.tolerance) : "");
         break;
@@ -137,13 +138,13 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
             text = fmt::format("{} differs between levels of {}, in at least one cell", measure_text(c.measure),
                                axis_label(file, c.along));
         else
-            text = fmt::format("{} {}{} from level to level of {}, in {}", measure_text(c.measure), way,
+            text = fmt::format("{} {}{} from each level of {} to the next, in {}", measure_text(c.measure), way,
                                c.margin > 0 ? fmt::format(" by more than {:g} %", 100 * c.margin) : "",
                                axis_label(file, c.along),
-                               c.any ? "at least one cell and nowhere the other way" : "every cell");
+                               c.any ? "at least one cell and in no cell in the opposite direction" : "every cell");
         break;
     case Criterion::Kind::same:
-        text = fmt::format("the most frequent way of moving is the same for every {}", axis_label(file, c.along));
+        text = fmt::format("the most frequent response mode is the same for every {}", axis_label(file, c.along));
         break;
     }
     if (!of_onset)
@@ -155,7 +156,7 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
         if (const std::string where = window_text(test.ranges.front().frequency, "Hz"); !where.empty())
             text += ", " + where;
     } else {
-        text += "; judged separately";
+        text += "; evaluated separately:";
         for (std::size_t i = 0; i < test.ranges.size(); ++i)
             text += (i == 0 ? " " : " and ") + test.ranges[i].name;
     }

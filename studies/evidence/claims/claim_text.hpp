@@ -34,7 +34,7 @@ inline constexpr std::array amount_words{
     Word<Amount>{"peak_top_m", Amount::peak_top_m, "largest displacement of the top"},
     Word<Amount>{"top_path_ratio", Amount::top_path_ratio, "path of the top over that of the base"},
     Word<Amount>{"face_path_ratio", Amount::face_path_ratio, "path of the faces in contact over that of the base"},
-    Word<Amount>{"friction_share", Amount::friction_share, "part of the dissipated energy that friction took"},
+    Word<Amount>{"friction_share", Amount::friction_share, "share of friction in the dissipated energy"},
     Word<Amount>{"collapse_cycles", Amount::collapse_cycles, "cycles until collapse"}};
 
 template <class List, class Enum>

@@ -122,7 +122,7 @@ private:
             ++known;
         }
         if (known == 0) {
-            found.number_text = "too few realizations to say";
+            found.number_text = "too few realizations";
             return;
         }
         found.number_text = shown(found.number) + at(sample, cells[at_cell]);

@@ -110,7 +110,7 @@ int run(const Options& o)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Puts the claims of claim files to the test and writes the page of their verdicts.");
+    CLI::App app("Tests the claims of claim files and writes a page with the verdicts.");
     Options o;
     app.add_option("FILE", o.files, "claim files: studies with a section [claim]")->required();
     app.add_option("--page", o.page, "the page to write")->capture_default_str();

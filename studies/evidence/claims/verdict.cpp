@@ -92,8 +92,7 @@ void name_separation(const ClaimFile& file, const Test& test, const std::vector<
     const auto holding = names(places, split, best, Finding::holds),
                failing = names(places, split, best, Finding::fails);
     const auto listed = [&](const std::vector<std::string>& list, const std::vector<std::string>& other) {
-        return list.size() > most_named && list.size() > other.size() ? "everything else that is decided"
-                                                                      : series(list);
+        return list.size() > most_named && list.size() > other.size() ? "all other decided cases" : series(list);
     };
     verdict.split = fmt::format("holds for {}; it fails for {}", listed(holding, failing), listed(failing, holding));
 }

@@ -44,7 +44,7 @@ std::vector<PageCase> chosen(const std::vector<std::string>& names)
             std::string known;
             for (const PageCase& c : cases)
                 known += (known.empty() ? "" : ", ") + c.name;
-            throw InputError(fmt::format("--case {}: there is no such case.\n  There are: {}.", name, known));
+            throw InputError(fmt::format("--case {}: unknown case.\n  Known: {}.", name, known));
         }
     if (!names.empty())
         std::erase_if(cases,
@@ -75,9 +75,9 @@ int write_one_motion(const Options& o)
     const auto test = std::find_if(data.tests.begin(), data.tests.end(),
                                    [&](const BoulderTest& t) { return t.number == o.boulder_test; });
     if (test == data.tests.end() || test->motion.empty())
-        throw InputError(fmt::format("--boulder-motion {}: the table's motion in this test was not measured, or is too "
-                                     "weak to move anything",
-                                     o.boulder_test));
+        throw InputError(fmt::format(
+            "--boulder-motion {}: the table's motion in this test was not measured, or is too weak to move the boulder",
+            o.boulder_test));
     write_motion(test->motion, o.to);
     return exit_done;
 }
@@ -111,19 +111,20 @@ int run(Options o)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Sets the engine against measured data and writes a page for each set of data.");
+    CLI::App app("Compares the engine with measured data and writes a page for each data set.");
     Options o;
     o.place.docs = "docs/measured";
     app.add_option("DATA_DIR", o.place.data, "folder of the measured data")->required();
     app.add_option("-o,--output", o.place.docs, "folder of the pages")->capture_default_str();
     app.add_option("--studies", o.place.studies, "folder of the study files of the fitted models [that of the pages]");
-    app.add_option("--case", o.names, "only these")->delimiter(',');
+    app.add_option("--case", o.names, "names of the cases to run (default: all)")->delimiter(',');
     app.add_option("--boulder-motion", o.boulder_test, "writes the table's motion in this boulder test, and no page");
     app.add_option("--double-pulse", o.pulse, "writes the base motion over this distance [m] at this velocity [m/s]")
         ->expected(2);
     app.add_option("--to", o.to, "the file for that motion");
-    app.add_option("--predict", o.place.predict,
-                   "a table of planar impacts: what the fitted laws say of them, beside the page planar_impact");
+    app.add_option(
+        "--predict", o.place.predict,
+        "a table of planar impacts: writes the predictions of the fitted laws beside the page planar_impact");
     app.add_option("--threads", o.common.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));
     app.add_flag("--quiet", o.common.quiet, "no progress: only errors");

@@ -29,7 +29,7 @@ std::string processor()
     for (std::string line; std::getline(file, line);)
         if (line.starts_with("model name"))
             return line.substr(line.find(':') + 2);
-    return "an unknown processor";
+    return "unknown processor";
 }
 
 Cases chosen(const std::vector<std::string>& names)
@@ -69,7 +69,7 @@ int run(const std::vector<std::string>& names, const std::filesystem::path& out,
         fmt::print("{:<40} {}\n", r.the_case.name, r.passed() ? "passed" : "FAILED");
         for (const Check& c : r.finding.checks)
             if (!c.passed())
-                fmt::print("  {}: expected {:.9g}, measured {:.9g}, allowed {:.2g}\n", c.what, c.expected, c.measured,
+                fmt::print("  {}: expected {:.9g}, measured {:.9g}, tolerance {:.2g}\n", c.what, c.expected, c.measured,
                            c.tolerance);
         if (!r.error.empty())
             fmt::print("  {}\n", r.error);
@@ -92,12 +92,12 @@ int run(const std::vector<std::string>& names, const std::filesystem::path& out,
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Runs the verification cases; writes their page if asked.");
+    CLI::App app("Runs the verification cases and, with --output, writes their page.");
     std::filesystem::path out, images;
     std::vector<std::string> names;
     app.add_option("-o,--output", out, "the page to write (Markdown)");
-    app.add_option("--images", images, "folder of its pictures [images/verification beside it]");
-    app.add_option("cases", names, "only these");
+    app.add_option("--images", images, "folder for the pictures [images/verification beside the page]");
+    app.add_option("cases", names, "names of the cases to run (default: all)");
     try {
         app.parse(argc, argv);
         return run(names, out, images);

@@ -32,7 +32,7 @@ std::string dashpot_text(const BoulderModel& m)
 /// In words, whether an interval leaves a sign.
 const char* firmness(const Estimate& e)
 {
-    return e.low > 0 || e.high < 0 ? "" : ", an interval that holds 0";
+    return e.low > 0 || e.high < 0 ? "" : ", an interval that contains 0";
 }
 
 /// Log-likelihood that one more free number has to bring: likelihoods of neighbouring heights and stiffnesses differ by
@@ -179,12 +179,12 @@ std::string data_section(const BoulderResults& r)
         "published by their experimenters with the repository of a virtual shaking robot (github "
         "ZhiangChen/virtual_shake_robot_pybullet, data/Shake_Table_Response). {} tests have the measured motion of the "
         "table (boulder 1 fell in {}, boulder 2 in {}); {} more tests have outcomes but no measured motion here and "
-        "are left out, and the others of the 582 published tests (21 more ground motions) are set aside for a later "
-        "judgement: no number here comes from them.\n\n"
-        "The rule of the split: the ground motions in the order of their names, every second one, from the first on, "
-        "is for fitting, and the others are held out. No motion is in both. {} motions with {} tests are fitted on, {} "
-        "motions with {} tests (twice that many outcomes) are held out: all scores below are of these. Intervals are "
-        "95 % of a bootstrap that draws whole motions, because tests of one motion are not independent.\n\n",
+        "are omitted. The others of the 582 published tests (21 more ground motions) are reserved for a later test, "
+        "and no number here comes from them.\n\n"
+        "The split: of the ground motions in alphabetical order, the first, third and so on are for fitting, and the "
+        "others are held out. No motion is in both halves. {} motions with {} tests are fitted on, {} "
+        "motions with {} tests (twice that many outcomes) are held out; all scores below refer to these. Intervals are "
+        "95 % of a bootstrap that resamples whole motions, because tests of one motion are not independent.\n\n",
         r.data.tests.size(), falls[0], falls[1], r.data.without_motion, r.fitting_motions, fitted, r.held_motions,
         r.data.tests.size() - fitted);
 }
@@ -196,14 +196,15 @@ std::string model_section(const BoulderResults& r)
         "second before it first exceeds 0.6 m/s2 to half a second after it last does), contacts by area with dashpots "
         "at the centroid of the overlap, friction 0.7: the engine as it is. The boulders share all but the "
         "slenderness. Everything is fitted by the likelihood of the outcomes of the fitting half, over a grid: 24 "
-        "slendernesses from 0.1 to 0.45, 2 heights, 2 stiffnesses, and, extended, 4 dashpots and 6 spreads. A test "
-        "ends *as it likes* with probability `slip`, which keeps a yes-or-no model from being infinitely wrong "
-        "once.\n\n"
+        "slendernesses from 0.1 to 0.45, 2 heights, 2 stiffnesses, and, extended, 4 dashpots and 6 spreads. The "
+        "outcome of a test is random with probability `slip`, which keeps the likelihood of a deterministic model "
+        "above zero.\n\n"
         "- *baseline*: one realization, dashpots of ratio 0.1 at the centroid.\n"
         "- *with scatter*: the width differs from test to test (lognormal): an ensemble gives the probability of "
         "falling.\n"
-        "- *extended*: and the dashpot is free: its ratio, and whether it acts at the centroid or at the ends of the "
-        "contact, where it takes up rotation (`damping = \"ends\"`): more is lost in an impact.\n\n"
+        "- *extended*: in addition the dashpot is free, that is its ratio and its position at the centroid or at the "
+        "ends of the contact. At the ends it also damps rotation (`damping = \"ends\"`), which increases the loss in "
+        "an impact.\n\n"
         "| model | slenderness (boulder 1, 2) | height [m] | p [rad/s] | K_N [N/m2] | dashpot, ratio | spread | slip "
         "|\n"
         "|---|---|---|---|---|---|---|---|\n";
@@ -220,23 +221,23 @@ std::string model_section(const BoulderResults& r)
 
 std::string judgement_section(const BoulderResults& r)
 {
-    std::string text = "## What it predicts of the held-out half\n\n| predictor | log-likelihood of the fitting half | "
+    std::string text = "## Predictions for the held-out half\n\n| predictor | log-likelihood of the fitting half | "
                        "right | false falls | false stands | Brier | log |\n|---|---|---|---|---|---|---|\n";
     for (const Predictor* p :
          {&r.by_rate, &r.by_box, &r.by_published, &r.by_intensity, &r.by_baseline, &r.by_scattered, &r.by_extended})
         text += scores_row(*p);
-    text += fmt::format(
-        "\nA yes-or-no answer of the published models, of the baseline's block or of the box gets the probability that "
-        "it deserved in the fitting half. Brier and log scores are better the smaller they are.\n\n![Share of the "
-        "held-out outcomes that each predictor gets right]({}rock_shake_table_scores.png)\n\n| gain of the extended "
-        "model over | right | Brier | log |\n|---|---|---|---|\n",
-        "images/");
+    text += fmt::format("\nA deterministic prediction (of the published models, the baseline block or the box) is "
+                        "converted to the probability calibrated on the fitting half. Smaller Brier and log scores are "
+                        "better.\n\n![Share of the held-out outcomes that each predictor predicts "
+                        "correctly]({}rock_shake_table_scores.png)\n\n| gain of the extended "
+                        "model over | right | Brier | log |\n|---|---|---|---|\n",
+                        "images/");
     for (const Predictor* p : {&r.by_baseline, &r.by_scattered, &r.by_intensity, &r.by_published})
         text += fmt::format("| {} | {} | {} | {} |\n", p->name,
                             signed_interval(difference(r.by_extended.held, p->held, share_right)),
                             signed_interval(difference(r.by_extended.held, p->held, brier)),
                             signed_interval(difference(r.by_extended.held, p->held, log_loss)));
-    text += fmt::format("\nWith the halves exchanged (fitted on the held-out half, judged on the fitting half), the "
+    text += fmt::format("\nWith the halves exchanged (fitted on the held-out half, evaluated on the fitting half), the "
                         "gain over the baseline is {} of right answers{}, and {} of the Brier score{}.\n\n",
                         signed_interval(r.swapped_right), firmness(r.swapped_right), signed_interval(r.swapped_brier),
                         firmness(r.swapped_brier));
@@ -257,97 +258,99 @@ std::string judgement_section(const BoulderResults& r)
 
 std::string cause_section(const BoulderResults& r)
 {
-    std::string text = "## What it gets wrong, and where\n\n";
+    std::string text = "## Distribution of the errors\n\n";
     text += error_table(r, "PGA [g]", {0.2, 0.4, 0.7, 1.1}, [](const BoulderTest& t) { return t.pga_g; });
     text +=
         error_table(r, "PGV/PGA [s]", {0.03, 0.05, 0.08, 0.12}, [](const BoulderTest& t) { return t.pgv_over_pga_s; });
     text += motion_table(r);
-    text += "![Held-out tests of boulder 1 over PGA and PGV/PGA, with what the baseline says of "
-            "them](images/rock_shake_table_errors.png)\n\n## Why\n\n**The box is not what stands on the table.** ";
+    text += "![Held-out tests of boulder 1 over PGA and PGV/PGA, with the predictions of the "
+            "baseline](images/rock_shake_table_errors.png)\n\n## Why\n\n**Shape of the boulder.** ";
     double least = 1e9, most = 0;
     for (const Stance& s : r.stances) {
         least = std::min(least, s.effective_slenderness());
         most = std::max(most, s.effective_slenderness());
     }
+    text +=
+        fmt::format("The photogrammetric shape has a bounding box of {:.2f} x {:.2f} x {:.2f} m, but it stands on a "
+                    "small, eccentric part of its underside. When its convex hull is tilted about its lowest points, "
+                    "the rise to balance equals that of a rectangle of slenderness {:.2f} in the weakest direction and "
+                    "{:.2f} in the strongest. The slenderness of the box itself is {:.2f}; the values fitted to the "
+                    "outcomes of the two boulders are {:.2f} and {:.2f}. (The direction of shaking is not known. The "
+                    "orientation of the mesh, z up, is inferred from its lowest points, which form a "
+                    "support.)\n\n![Slenderness of the boulder by direction](images/rock_shake_table_stance.png)\n\n",
+                    r.body.extent_m[0], r.body.extent_m[1], r.body.extent_m[2], least, most,
+                    std::min(r.body.extent_m[0], r.body.extent_m[1]) / r.body.extent_m[2],
+                    r.extended.model[0].slenderness, r.extended.model[1].slenderness);
     text += fmt::format(
-        "The photogrammetric shape has a bounding box of {:.2f} x {:.2f} x {:.2f} m, but it stands on a small part of "
-        "its underside, out of its middle: leaned as its convex hull over its lowest points, it needs to rise as much "
-        "as a rectangle of slenderness {:.2f} in its weakest direction and of {:.2f} in its strongest one. The box "
-        "itself would have {:.2f}; the outcomes give {:.2f} and {:.2f} to the two boulders. (Which direction was "
-        "shaken is not known; the orientation of the mesh, z up, is read from its lowest points being a "
-        "stance.)\n\n![Slenderness of the boulder by direction](images/rock_shake_table_stance.png)\n\n",
-        r.body.extent_m[0], r.body.extent_m[1], r.body.extent_m[2], least, most,
-        std::min(r.body.extent_m[0], r.body.extent_m[1]) / r.body.extent_m[2], r.extended.model[0].slenderness,
-        r.extended.model[1].slenderness);
-    text += fmt::format(
-        "**Is too little lost in an impact?** A dashpot at the centroid of the contact hardly damps rocking, so the "
-        "engine's block keeps more of its rocking speed at an impact than Housner's; a boulder on facetted edges may "
-        "keep less. What it keeps, measured in free rocking, against how likely the outcomes of the fitting half are, "
-        "each dashpot with its best height, slendernesses and spread:\n\n"
+        "**Energy loss in an impact.** A dashpot at the centroid of the contact hardly damps rocking, so the "
+        "engine's block keeps more of its rocking speed at an impact than Housner's; a boulder on faceted edges may "
+        "keep less. The table compares the restitution in free rocking with the likelihood of the outcomes of the "
+        "fitting half, for each dashpot with its best height, slendernesses and spread:\n\n"
         "| dashpot, ratio | K_N [N/m2] | restitution e | Housner's e | log-likelihood |\n|---|---|---|---|---|\n");
     for (const Dissipation& d : r.dissipation)
         text += fmt::format("| {} | {:g} | {:.3f} | {:.3f} | {:.1f} |\n", dashpot_text(d.best.model[0]),
                             d.best.model[0].normal_stiffness_n_m2, d.restitution, d.housner, d.best.log_likelihood);
     const double gain = r.extended.log_likelihood - r.scattered.log_likelihood;
-    text += fmt::format("\nThe likeliest of all is {} with e = {:.3f}; the baseline's dashpot at its best has e = "
-                        "{:.3f} and a log-likelihood that is {:.1f} lower. {}\n\n![Log-likelihood of the fitting half "
-                        "over the restitution](images/rock_shake_table_restitution.png)\n\n",
-                        dashpot_text(r.extended.model[0]), restitution_of(r, r.extended),
-                        restitution_of(r, r.scattered), gain,
-                        gain > asks_for_it ? "The outcomes ask for more loss than the baseline has."
-                                           : "That is no more than tables of chaotic outcomes differ by for no reason: "
-                                             "falls alone do not ask for another dissipation.");
-    text += "**Do the tests themselves scatter?** Little of it is seen. ";
+    text += fmt::format(
+        "\nThe highest likelihood is that of {} with e = {:.3f}; the baseline's dashpot at its optimum has e = {:.3f} "
+        "and a log-likelihood that is {:.1f} lower. {}\n\n![Log-likelihood of the fitting half "
+        "over the restitution](images/rock_shake_table_restitution.png)\n\n",
+        dashpot_text(r.extended.model[0]), restitution_of(r, r.extended), restitution_of(r, r.scattered), gain,
+        gain > asks_for_it ? "The outcomes indicate more dissipation than the baseline has."
+                           : "This difference is within the random variation of tables of chaotic outcomes, so the "
+                             "falls alone do not require another dissipation.");
+    text += "**Scatter between repeated tests.** The observed scatter is small. ";
     for (std::size_t s = 0; s < boulders; ++s) {
         const Repeats found = repeats(r.data, s);
         text +=
             fmt::format("Boulder {}: of {} pairs of tests with one motion and PGAs within 2 %, {} ended differently; a "
-                        "threshold of the PGA for each motion, chosen after the fact, still misses {} of {} tests. ",
+                        "threshold of the PGA for each motion, chosen a posteriori, misclassifies {} of {} tests. ",
                         s + 1, found.pairs, found.differ, found.beyond_threshold, found.tests);
     }
-    text += fmt::format(
-        "No rule of the motion and its PGA alone gets these right. But repeats are few: most of the model's scatter "
-        "stands for what a planar rectangle cannot follow, not for measured scatter. Scatter alone changes the Brier "
-        "score by {} and the log score by {}{}.\n\n**One-sidedness** (the centre of mass 15 % of half the width off "
-        "the middle, to either "
-        "side): with the extended model's other values its log-likelihood is {:.1f} against {:.1f}, {}.\n\n",
-        signed_interval(difference(r.by_scattered.held, r.by_baseline.held, brier)),
-        signed_interval(difference(r.by_scattered.held, r.by_baseline.held, log_loss)),
-        firmness(difference(r.by_scattered.held, r.by_baseline.held, brier)), r.one_sided.log_likelihood,
-        r.extended.log_likelihood,
-        r.one_sided.log_likelihood > r.extended.log_likelihood + asks_for_it
-            ? "so that the outcomes ask for it too; it is not in the extended model here"
-            : "so that the outcomes do not ask for it");
+    text += fmt::format("No rule of the motion and its PGA alone predicts these tests correctly. Repeated tests are "
+                        "few: most of the scatter of the model represents effects that a planar rectangle cannot "
+                        "reproduce, and not measured scatter. Scatter alone changes the Brier "
+                        "score by {} and the log score by {}{}.\n\n**One-sidedness** (the centre of mass eccentric by "
+                        "15 % of half the width, to either side): with the extended model's other values its "
+                        "log-likelihood is {:.1f} against {:.1f}, {}.\n\n",
+                        signed_interval(difference(r.by_scattered.held, r.by_baseline.held, brier)),
+                        signed_interval(difference(r.by_scattered.held, r.by_baseline.held, log_loss)),
+                        firmness(difference(r.by_scattered.held, r.by_baseline.held, brier)),
+                        r.one_sided.log_likelihood, r.extended.log_likelihood,
+                        r.one_sided.log_likelihood > r.extended.log_likelihood + asks_for_it
+                            ? "so the outcomes support it; it is not part of the extended model here"
+                            : "so the outcomes do not support it");
     return text;
 }
 
 std::string limits(const BoulderResults& r)
 {
     return "## Limits\n\n"
-           "- The held-out half is not untouched: while the case was made, held-out scores of earlier and larger "
-           "parameter grids were seen, and the grid was then cut for run time to heights of 0.40 and 0.55 m and K_N "
-           "of 3e8 and 1e9 N/m2. The numbers in the models come from the fitting half alone, but what was offered to "
-           "the fit was chosen with the other half in view: the gain may be somewhat flattered. Height, "
-           "K_N and the ratio of the dashpots are each one of only two values that were tried.\n"
-           "- A block counts as fallen when its centre is below 0.85 of its height at rest (or it has turned past "
-           "balance for good): not when it lies flat, because a long side that hits the ground is stiffer than the bed "
-           "that the step is chosen for, and realizations that fell flat could become invalid there. " +
+           "- The held-out half is not fully independent: held-out scores of earlier and larger parameter grids were "
+           "seen during the development of the case, and the grid was then reduced for run time to heights of 0.40 and "
+           "0.55 m and K_N "
+           "of 3e8 and 1e9 N/m2. The numbers in the models come from the fitting half alone, but the candidates were "
+           "chosen with knowledge of the other half, so the gain may be overestimated. Height, K_N and the ratio of "
+           "the dashpots each take one of only two tested values.\n"
+           "- A block counts as fallen when its centre is below 0.85 of its height at rest, or when it has permanently "
+           "rotated past the balance point. Lying flat is not required: a long side that hits the ground is stiffer "
+           "than the bed for which the time step is chosen, so a realization could become invalid there. " +
            fmt::format(
-               "A realization that becomes invalid after it has turned by more than 1 rad counts as fallen; any other "
-               "invalid one is left out of the share of its ensemble, and counts as standing in the tables that are "
-               "fitted with. Of the {} realizations of the three judged models, {} were counted as fallen so, and {} "
-               "left out; of the {} of the tables, {} counted as fallen so, and {} as standing.\n",
+               "A realization that becomes invalid after a rotation of more than 1 rad counts as fallen. Any other "
+               "invalid realization is omitted from the share of its ensemble, and counts as standing in the tables "
+               "used for fitting. Of the {} realizations of the three evaluated models, {} were counted as fallen by "
+               "this rule, and {} omitted; of the {} of the tables, {} were counted as fallen, and {} as standing.\n",
                r.judging.total, r.judging.on_its_side, r.judging.set_aside, r.fitting.total, r.fitting.on_its_side,
                r.fitting.set_aside) +
-           "- The boulder is not planar: it can wobble, twist and walk. The block is an effective one for falls under "
-           "this table's motions, not the boulder; its slenderness, height and dissipation are not measured "
-           "properties.\n"
-           "- The direction of shaking against the boulder is unknown, and so is which side fell; the two closed "
-           "meshes may be of one and the same boulder.\n"
-           "- Units of the published KN and KS are not given; what they mean is not judged here, only their answers.\n"
-           "- One campaign, two boulders of one mass. Nothing is said of other sizes or of columns.\n"
-           "- What is named as dissipation is what a single number for it can say; rounded edges, several contact "
-           "points and out-of-plane motion lose energy too and are not told apart by falls alone.\n";
+           "- The boulder is three-dimensional: it can wobble, twist and walk. The block is an effective model for "
+           "falls under the motions of this table; its slenderness, height and dissipation are not measured properties "
+           "of the boulder.\n"
+           "- The direction of shaking relative to the boulder and the side of the fall are unknown; the two closed "
+           "meshes may be of the same boulder.\n"
+           "- Units of the published KN and KS are not given; only their predictions are evaluated here.\n"
+           "- One campaign, two boulders of one mass. The results do not extend to other sizes or to columns.\n"
+           "- The dissipation is represented by a single number. Rounded edges, several contact points and "
+           "out-of-plane motion also lose energy, and falls alone do not separate these effects.\n";
 }
 
 } // namespace
@@ -371,18 +374,19 @@ std::string boulder_page(const BoulderResults& r, const std::string&)
             weak_stands += f.probability < 0.5 && f.fell && r.data.tests[i].pga_g < 0.4;
         }
     return fmt::format(
-               "# Boulders on a shaking table\n\nWritten by `scripts/measured.sh --case rock_shake_table` from its "
-               "runs; not by hand. Version {}.\n\n"
-               "Does the engine know which of two real boulders falls? On ground motions that nothing was fitted on, a "
-               "fitted planar block is right in {:.1f} % of the outcomes (Brier score {:.3f}); extended by scatter "
-               "between tests and a free dashpot in {:.1f} % ({:.3f}). The gain is {} of right answers{} and {} of the "
+               "# Boulders on a shaking table\n\nThis page is generated by `scripts/measured.sh --case "
+               "rock_shake_table`. Version {}.\n\n"
+               "This page tests predictions of the fall of two real boulders. On held-out ground motions a fitted "
+               "planar block is right in {:.1f} % of the outcomes (Brier score {:.3f}); extended by scatter between "
+               "tests and a free dashpot it is right in {:.1f} % ({:.3f}). The gain is {} of right answers{} and {} of "
+               "the "
                "Brier score{}. The logistic rule of two intensities is right in {:.1f} % ({:.3f}), the published "
-               "numerical model that was best on the fitting half in {:.1f} %; all {} published ones, each on its "
+               "numerical model that was best on the fitting half in {:.1f} %; all {} published models, each on its "
                "boulder, in {:.1f} to {:.1f} %.\n\n"
-               "What the baseline gets wrong: {} falls that did not happen, {} of them at PGV/PGA below 0.08 s, and {} "
-               "that it missed, {} of them at a PGA below 0.4 g. Why, as far as outcomes tell: near the boundary "
-               "between falling and standing the single answer of one rectangle is a toss-up, and a spread of widths "
-               "averages over it. What mends it is this scatter: beyond it, the dashpot changes the Brier score by "
+               "Errors of the baseline: {} false falls, {} of them at PGV/PGA below 0.08 s, and {} false stands, {} of "
+               "them at a PGA below 0.4 g. The probable reason is that the outcome of one rectangle is unpredictable "
+               "near the boundary between falling and standing, and a spread of widths averages over it. This scatter "
+               "removes most of the errors. With the scatter included, the dashpot changes the Brier score by "
                "{}{}.\n\n",
                code_version(), 100 * before.right, before.brier, 100 * after.right, after.brier,
                signed_interval(difference(r.by_extended.held, r.by_baseline.held, share_right)),
@@ -403,8 +407,8 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
         run_gnuplot(script, verification::picture_size, place.images() / ("rock_shake_table_" + name + ".png"));
     };
     // what the baseline says of boulder 1
-    Series right_fall{"fell, foretold", {}, {}}, right_stand{"stood, foretold", {}, {}},
-        false_fall{"stood, but a fall was foretold", {}, {}}, false_stand{"fell, not foretold", {}, {}};
+    Series right_fall{"fell, predicted", {}, {}}, right_stand{"stood, predicted", {}, {}},
+        false_fall{"stood, fall predicted", {}, {}}, false_stand{"fell, not predicted", {}, {}};
     std::size_t k = 0;
     for (std::size_t i = 0; i < r.data.tests.size(); ++i) {
         if (r.fits[i])

@@ -61,7 +61,7 @@ std::string fifths(const ImpactStudy& s)
         {"lever arm of the normal, mm", [](I, A a, C) { return a.n; }, 1000},
         {"lever arm of the tangent (height of the centre), mm", [](I, A a, C) { return a.t; }, 1000},
         {"order in time", [](I i, A, C) { return static_cast<double>(i.index); }, 1}};
-    std::string text = "| fifths of | upper ends | restitution, median | error of constant (mu, e) | error of the "
+    std::string text = "| quintiles of | upper ends | restitution, median | error of constant (mu, e) | error of the "
                        "extended law |\n|---|---|---|---|---|\n";
     for (const Quantity& q : quantities) {
         std::vector<double> value;
@@ -97,7 +97,7 @@ std::string fifths(const ImpactStudy& s)
 std::string regressions(const ImpactStudy& s)
 {
     std::string text =
-        "| candidate | restitution | besides the place | the place besides it | restitution, extended "
+        "| candidate | restitution | given the place | the place given the candidate | restitution, extended "
         "law | friction P_t / P_n, extended law | line of action (no law) |\n|---|---|---|---|---|---|---|\n";
     for (const CandidateLine& l : s.lines) {
         const bool place = &l == &s.lines.front();
@@ -116,8 +116,9 @@ std::string added_terms(const ImpactStudy& s)
                 return fmt::format("{} | {}", percent(a.training_gain), interval(a.gain));
         return std::string(" | ");
     };
-    std::string text = "| term | to the engine's law: fit | other half | to the extended law: fit | other half |\n"
-                       "|---|---|---|---|---|\n";
+    std::string text =
+        "| term | engine's law: fitted half | held-out half | extended law: fitted half | held-out half |\n"
+        "|---|---|---|---|---|\n";
     for (const AddedTerm& a : s.to_constant)
         text += fmt::format("| {} | {} | {} |\n", to_string(a.term), row(s.to_constant, a.term),
                             row(s.to_extended, a.term));
@@ -147,15 +148,14 @@ std::string way_of_loss(const ImpactStudy& s)
         return fmt::format("{} (90 %: {})", percent(quantile(s.laws[which].error, 0.5)),
                            percent(quantile(s.laws[which].error, 0.9)));
     };
-    const auto verdict = [](double p) {
-        return p < 0.01 ? "the data tell them apart" : "the data do not tell them apart";
-    };
-    return fmt::format(
-        "- rate damping (C_N = lambda K_N A_c) by the place: {}; a constant dashpot by the place: {}. p = {:.3g}: {}.\n"
-        "- a surface that recoils as a free body, its mass by the place: {}. Against rate damping p = {:.3g}: {}.\n",
-        both(ImpactStudy::place_rate), both(ImpactStudy::place_dashpot), s.rate_against_dashpot_p,
-        verdict(s.rate_against_dashpot_p), both(ImpactStudy::place_recoil), s.rate_place_against_recoil_p,
-        verdict(s.rate_place_against_recoil_p));
+    const auto verdict = [](double p) { return p < 0.01 ? "the data separate them" : "the data do not separate them"; };
+    return fmt::format("- rate damping (C_N = lambda K_N A_c) as a function of the place: {}; a dashpot as a function "
+                       "of the place: {}. p = {:.3g}: {}.\n"
+                       "- a surface that recoils as a free body, its mass as a function of the place: {}. Against rate "
+                       "damping p = {:.3g}: {}.\n",
+                       both(ImpactStudy::place_rate), both(ImpactStudy::place_dashpot), s.rate_against_dashpot_p,
+                       verdict(s.rate_against_dashpot_p), both(ImpactStudy::place_recoil),
+                       s.rate_place_against_recoil_p, verdict(s.rate_place_against_recoil_p));
 }
 
 /// Whether the place along the surface is named: it explains restitution beyond chance, alone and besides each other
@@ -188,7 +188,7 @@ std::string unexplained(const ImpactStudy& s)
         add("restitution", l, l.restitution_extended);
     for (const CandidateLine& l : s.lines)
         add("friction", l, l.friction);
-    return text.empty() ? "nothing that was tried" : text;
+    return text.empty() ? "none of the tested candidates" : text;
 }
 
 /// Where a number lies against a floor.
@@ -217,131 +217,123 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
     const Gain over_pair = gain(laws[ImpactStudy::newton].error, laws[ImpactStudy::extended].error, 7);
     const Gain over_engine = gain(laws[ImpactStudy::constant].error, laws[ImpactStudy::extended].error, 7);
     std::string text = fmt::format(
-        "# Planar impacts of an ellipse\n\nWritten by `scripts/measured.sh --case planar_impact` from its run; not by "
-        "hand. {}\n\n"
-        "**What is wrong:** any constant (mu, e) misses the velocity after an impact by {} (median; 90 %: {}), the "
-        "engine's contact law with constant numbers by {} ({}). **The cause:** {} With rate damping that depends on "
-        "the place and an "
-        "orientation corrected by {:.1f} degrees the error is {} ({}), on impacts that were not fitted: {} less than "
-        "the "
-        "constant pair, {} less than the engine's law (95 % intervals).\n\n",
+        "# Planar impacts of an ellipse\n\nThis page is generated by `scripts/measured.sh --case planar_impact`. {}\n\n"
+        "**Errors:** the best constant (mu, e) has an error of {} in the velocity after an impact (median; 90 %: {}), "
+        "the engine's contact law with constant numbers an error of {} ({}). **Cause:** {} With rate damping that "
+        "depends on the place and an orientation corrected by {:.1f} degrees the error is {} ({}). On held-out impacts "
+        "it is {} smaller than with the constant pair, {} smaller than with the engine's law (95 % intervals).\n\n",
         made_by, median(ImpactStudy::newton), high(ImpactStudy::newton), median(ImpactStudy::constant),
         high(ImpactStudy::constant),
-        place_is_named(s) ? "the restitution depends on *where along the surface* the body falls; of all candidates "
-                            "this one is separated from the others."
-                          : "the data do not separate one from the others.",
+        place_is_named(s) ? "the restitution depends on the *place along the surface* of the impact; this candidate is "
+                            "separated from all others."
+                          : "the data do not separate one candidate from the others.",
         s.orientation * 180 / M_PI, median(ImpactStudy::extended), high(ImpactStudy::extended), interval(over_pair),
         interval(over_engine));
     text += fmt::format(
         "## Data and question\n\nMCube Lab, MIT (Fazeli, Donlon, Drumwright, Rodriguez): a rigid ellipse (semi-axes 35 "
         "and 25 mm, 36.4 g, radius of gyration 19.2 mm) falls on a flat surface; state before and after each impact, "
-        "sampled at 250 Hz. {} of the 1718 published impacts are used here, the others are set aside for a later "
-        "judgement (`--predict TABLE` writes what the laws of this page say of them).\n\n"
-        "The stored vx has the opposite sign of x, spin and lever arms (with it as stored the moment balance fails); "
-        "it "
-        "is turned where the table is read.\n\n"
+        "sampled at 250 Hz. {} of the 1718 published impacts are used here; the others are reserved for a later test "
+        "(`--predict TABLE` writes the predictions of the laws of this page).\n\n"
+        "The stored vx has the opposite sign of x, spin and lever arms (with the stored sign the moment balance "
+        "fails). Its sign is reversed when the table is read.\n\n"
         "The law of the engine (`kernels/contact.hpp`: penalty on the overlap's area, dashpot, elastic spring under "
         "Coulomb's cone) is integrated by central differences from the measured state before the impact to separation; "
         "the overlap of an ellipse and a half plane is in closed form. The error of a predicted velocity v is "
         "sqrt(T(v - v_measured) / T(v_measured)), T the kinetic energy.\n\n"
-        "*Halves:* blocks of {} consecutive numbers of the published order, by turns: {} impacts to fit, {} to judge. "
-        "A "
-        "fit makes the mean error least, each counted as 60 % at most. Intervals are 95 % over resampled impacts of "
-        "the "
-        "judged half. Which forms to try was decided while looking at both halves; only the numbers in them come from "
-        "one half. The impacts set aside are the clean test.\n\n",
+        "*Halves:* blocks of {} consecutive numbers in the published order, alternating: {} impacts for fitting, {} "
+        "held out. A fit minimizes the mean error, with each error limited to 60 %. Intervals are 95 % over resampled "
+        "held-out impacts. The forms of the laws were chosen with knowledge of both halves; only their parameters come "
+        "from one half. The reserved impacts are the independent test.\n\n",
         s.impacts.size(), split_block, s.training.size(), s.other.size());
     text += fmt::format(
-        "## What the laws get wrong\n\n{}\nThe first law fitted on all {} impacts: mu {:.3f}, e {:.3f}, error {} "
-        "(90 %: {}); the data set's own notes give 14.7 % and 30.4 % on all 1718, by a grid search. They also give 40 "
-        "to 49 % for six published impact laws, compared the same way: these are quoted, not computed here.\n\n"
-        "![Errors of the laws](images/planar_impact_errors.png)\n\n*Errors on the other half. The last curve is no "
-        "law: "
-        "it is the best impulse in the contact point, known afterwards.*\n\n{}\n",
+        "## Errors of the laws\n\n{}\nThe first law fitted on all {} impacts: mu {:.3f}, e {:.3f}, error {} "
+        "(90 %: {}); the notes of the data set give 14.7 % and 30.4 % on all 1718, by a grid search. They also give 40 "
+        "to 49 % for six published impact laws, compared in the same way; these values are quoted and not computed "
+        "here.\n\n"
+        "![Errors of the laws](images/planar_impact_errors.png)\n\n*Errors on the held-out half. The last curve is not "
+        "a law: it is the best impulse at the contact point, computed from the measured velocities.*\n\n{}\n",
         laws_table(s), s.impacts.size(), s.pair_on_all.mu, s.pair_on_all.e, percent(quantile(s.pair_on_all_error, 0.5)),
         percent(quantile(s.pair_on_all_error, 0.9)), fifths(s));
     text += fmt::format(
         "## The cause\n\nShare of the residual's variance that a candidate explains (cubic, or cosine and sine), on "
         "the "
         "fitted half; **bold** where shuffled residuals explain as much in fewer than 1 of 100 cases. The first "
-        "columns "
-        "are of the engine's constant law; 'besides' means after the other has been taken out.\n\n{}\n"
-        "Horizontal speed goes with the place (the body falls farther when it is faster), so their shares alone would "
-        "not tell them apart; the columns besides the place do. The term `place` as part of the law, fitted: it takes "
-        "{} "
-        "of the misfit; with the places dealt out anew among the impacts, the most of {} fits is {}.\n\n"
-        "![Restitution along the surface](images/planar_impact_place.png)\n\n*Restitution along the surface, the other "
-        "half, in 14 bins of equally many impacts.*\n\n"
-        "Each term that the law can have, added alone and fitted anew: gain of the misfit on the fitted half, and of "
-        "the "
-        "median error on the other, with its interval. The terms above the orientation's act on the "
-        "loss.\n\n{}\nBeyond chance on the other half: added to the engine's law {}; to "
-        "the extended law {}.\n\n",
+        "columns are for the engine's constant law. *Given* means after the effect of the other candidate is "
+        "removed.\n\n{}\n"
+        "Horizontal speed correlates with the place (a faster body falls farther), so their shares alone do not "
+        "separate them; the conditional columns do. The term `place` as part of the fitted law removes {} of the "
+        "misfit. With the places permuted among the impacts, the maximum of {} fits is {}.\n\n"
+        "![Restitution along the surface](images/planar_impact_place.png)\n\n*Restitution along the surface, held-out "
+        "half, in 14 bins with equal numbers of impacts.*\n\n"
+        "Each possible term of the law, added alone and refitted: the reduction of the misfit on the fitted half, and "
+        "of the median error on the held-out half with its interval. The terms above the orientation act on the "
+        "loss.\n\n{}\nTerms with a significant gain on the held-out half: for the engine's law {}; for the extended "
+        "law {}.\n\n",
         regressions(s), percent(s.true_place), s.shuffled_place.size(), percent(quantile(s.shuffled_place, 1)),
         added_terms(s), helpful(s.to_constant), helpful(s.to_extended));
     text += fmt::format(
-        "**Named:** {}. **Not separated further:** what makes the surface differ from place "
-        "to "
-        "place. Ways in which it could take the energy, fitted alike:\n\n{}\nWhether the surface loses energy in its "
-        "material, at its supports or in its own vibration cannot be told from velocities of the body alone.\n\n"
-        "**Orientation.** The laws prefer an orientation {:+.4f} rad beyond the table's. The moment balance, in which "
-        "no "
-        "law enters, has its least residual at {:+.4f} rad [{:+.4f}, {:+.4f}]. A centre of mass off the ellipse's "
+        "**Identified:** {}. **Not identified:** the physical property of the surface that varies. Possible "
+        "dissipation mechanisms, fitted in the same way:\n\n{}\nThe velocities of the body alone do not show whether "
+        "the energy is lost in the material of the surface, at its supports or in its vibration.\n\n"
+        "**Orientation.** The laws prefer an orientation {:+.4f} rad beyond the table's. The moment balance, which is "
+        "independent of the law, has its smallest residual at {:+.4f} rad [{:+.4f}, {:+.4f}]. A centre of mass off the "
+        "ellipse's "
         "centre would show as the first harmonic of the orientation in the line of action, of which it explains {} (p "
-        "= {:.2g}). The term mends the observation; it is no property of the contact.\n\n"
+        "= {:.2g}). The term corrects the observation and is not a property of the contact.\n\n"
         "![Sliding after the impact](images/planar_impact_sliding.png)\n\n*Sliding of the contact point after the "
-        "impact, the other half. Friction at every instant (sliding that ends, sticks or reverses during the impact) "
-        "is "
-        "what a cone on the whole impulse cannot have.*\n\n",
+        "impact, held-out half. A cone on the whole impulse cannot represent sliding that ends, sticks or reverses "
+        "during the impact.*\n\n",
         place_is_named(s) ? "the place along the surface" : "none", way_of_loss(s), s.orientation,
         s.orientation_interval.value, s.orientation_interval.low, s.orientation_interval.high,
         percent(first_harmonic(s).lever.share), first_harmonic(s).lever.p);
     text += fmt::format(
-        "## How good can a law be\n\n| | median | 90 % |\n|---|---|---|\n"
+        "## Lower bound of the error\n\n| | median | 90 % |\n|---|---|---|\n"
         "| extended law | {} | {} |\n"
-        "| and a smooth regression of all it leaves on the whole state before (kernel ridge, trained on the fitted "
-        "half) "
+        "| extended law plus a smooth regression of its residuals on the state before the impact (kernel ridge, "
+        "trained on the fitted half) "
         "| {} | {} |\n"
-        "| best impulse in the contact point, known afterwards: error that no law with a point of contact can avoid | "
+        "| best impulse at the contact point, computed from the measured velocities: lower bound for laws with point "
+        "contact | "
         "{} "
-        "| {} |\n| the same scaled from the one direction that the moment balance shows to all three, if they err "
-        "alike "
+        "| {} |\n| the same, scaled from the direction of the moment balance to all three directions under the "
+        "assumption of equal errors "
         "| {} | {} |\n\n"
         "The residual moment mixes errors of the measured velocities (250 Hz), of the orientation at the contact and "
         "forces outside the point, and the scaling assumes equal errors in the norm's three directions: the last line "
         "is "
-        "an estimate of the measurement's floor, not a bound. The extended law's median lies {} it; its 90 % lies {} "
-        "its own. "
+        "an estimate of the measurement's floor, not a bound. The median of the extended law lies {} that estimate; "
+        "its 90 % quantile lies {} the corresponding one. "
         "Neighbouring residuals of the restitution correlate by {:+.3f} (standard error {:.3f}).\n\n**Left "
-        "unexplained.** On the fitted half the extended law's residuals still depend, beyond chance, on: {}. No term "
-        "that was tried takes this, and the smooth regression shows that it can be predicted in part: the law is not "
-        "complete.\n\n",
+        "unexplained.** On the fitted half the residuals of the extended law still depend significantly on: {}. None "
+        "of the tested terms removes this dependence, and the smooth regression predicts part of it, so the law is "
+        "incomplete.\n\n",
         median(ImpactStudy::extended), high(ImpactStudy::extended), percent(quantile(s.smooth, 0.5)),
         percent(quantile(s.smooth, 0.9)), percent(quantile(s.point_floor, 0.5)), percent(quantile(s.point_floor, 0.9)),
         percent(s.isotropic_floor[0]), percent(s.isotropic_floor[1]),
         against(quantile(laws[ImpactStudy::extended].error, 0.5), s.isotropic_floor[0]),
         against(quantile(laws[ImpactStudy::extended].error, 0.9), s.isotropic_floor[1]), s.residual_neighbours,
         1 / std::sqrt(static_cast<double>(s.training.size())), unexplained(s));
-    text += "## Robustness\n\n| K_N [N/m2], others fitted anew | duration | median | 90 % |\n|---|---|---|---|\n";
+    text += "## Robustness\n\n| K_N [N/m2], others refitted | duration | median | 90 % |\n|---|---|---|---|\n";
     for (const auto& line : s.stiffness)
         text += fmt::format("| {:.0e} | {:.2f} ms | {} | {} |\n", line.K_N, 1000 * line.duration_s,
                             percent(quantile(line.error, 0.5)), percent(quantile(line.error, 0.9)));
     text += fmt::format(
-        "\nVelocities before and after do not tell K_N: it is kept at 1e8 N/m2. With the halves exchanged the extended "
-        "law's gain over the engine's is {}. A tenth of the step changes its velocities by {} in the mean.\n\n{}\n"
+        "\nVelocities before and after the impact do not determine K_N, which is fixed at 1e8 N/m2. With the halves "
+        "exchanged the gain of the extended law over the engine's law is {}. A tenth of the time step changes its "
+        "velocities by {} on average.\n\n{}\n"
         "Loss terms are exponents: the loss is multiplied by exp(c1 z + c2 z^2), z the covariate about the middle of "
         "its range (place: 0.37 m, in 0.1 m).\n\n"
         "## Limits\n\n"
-        "- The forms of the laws, the terms that were tried and the settings of the ridge regression were chosen "
-        "looking at both halves; only the parameters come from one. The gains on the other half may be flattered by "
-        "this choice; the impacts set aside took no part, but the notes of the data set, quoted above, describe all "
+        "- The forms of the laws, the tested terms and the settings of the ridge regression were chosen with knowledge "
+        "of both halves; only the parameters come from one half. The gains on the held-out half may be overestimated "
+        "by this choice. The reserved impacts were not used, but the notes of the data set, quoted above, describe all "
         "1718.\n"
-        "- Both halves come from one body on one surface, in alternating blocks of the same order: a law of the "
-        "place that holds on the other half need not hold on another surface.\n"
-        "- One body, one surface, closing speeds of 2.2 to 2.9 m/s, sliding almost always to one side: nothing about "
-        "rest, about faces that lie on each other, or about other materials. The place is a property of this surface; "
-        "what carries over is that a constant restitution hides it, and that its shape has to be fitted before "
-        "friction and damping are judged.\n",
+        "- Both halves come from one body on one surface, in alternating blocks of the same order: a dependence on the "
+        "place that holds on the held-out half need not hold on another surface.\n"
+        "- One body, one surface, closing speeds of 2.2 to 2.9 m/s, sliding almost always to one side. The results do "
+        "not apply to rest, to faces in full contact, or to other materials. The dependence on the place is a property "
+        "of this surface. The general conclusion is that a constant restitution hides such a dependence, and that it "
+        "has to be fitted before friction and damping are assessed.\n",
         interval(s.swapped), percent(s.step_error, 2), parameters(s));
     return text;
 }

@@ -69,7 +69,7 @@ void draw(const ImpactStudy& s, const std::filesystem::path& folder)
                          {"part of the other half's impacts", false, 0, 1},
                          {cumulative("constant mu, e (Newton, Coulomb)", laws[ImpactStudy::newton].error, 5),
                           cumulative("the engine's law, constant", laws[ImpactStudy::constant].error, 1),
-                          cumulative("rate damping by the place", laws[ImpactStudy::place_rate].error, 2),
+                          cumulative("rate damping as a function of the place", laws[ImpactStudy::place_rate].error, 2),
                           cumulative("extended law", laws[ImpactStudy::extended].error, 0),
                           cumulative("best impulse in the contact point", s.point_floor, 3)},
                          "bottom right"));

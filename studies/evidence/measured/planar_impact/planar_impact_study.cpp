@@ -82,14 +82,14 @@ public:
         s_.models.resize(ImpactStudy::law_count);
         simulated(ImpactStudy::constant, "**the engine's law**: constant K_N, C_N, K_T, C_T, mu", "constant", {});
         simulated(ImpactStudy::constant_rate, "rate damping instead of the dashpot", "rate", {Loss::rate, {}});
-        from(ImpactStudy::place_dashpot, ImpactStudy::constant, "dashpot by the place", "place_dashpot",
+        from(ImpactStudy::place_dashpot, ImpactStudy::constant, "dashpot as a function of the place", "place_dashpot",
              s_.models[ImpactStudy::constant].with(Term::place));
-        from(ImpactStudy::place_rate, ImpactStudy::constant_rate, "rate damping by the place", "place_rate",
-             s_.models[ImpactStudy::constant_rate].with(Term::place));
-        simulated(ImpactStudy::place_recoil, "constant rate damping, recoil of the surface by the place",
+        from(ImpactStudy::place_rate, ImpactStudy::constant_rate, "rate damping as a function of the place",
+             "place_rate", s_.models[ImpactStudy::constant_rate].with(Term::place));
+        simulated(ImpactStudy::place_recoil, "constant rate damping, recoil of the surface as a function of the place",
                   "place_recoil", {Loss::recoil, {Term::place}});
         from(ImpactStudy::extended, ImpactStudy::place_rate,
-             "**extended**: rate damping by the place, orientation corrected", "extended",
+             "**extended**: rate damping as a function of the place, orientation corrected", "extended",
              s_.models[ImpactStudy::place_rate].with(Term::orientation));
         s_.orientation = 0.01 * law(ImpactStudy::extended).parameters.back();
         s_.rate_against_dashpot_p =

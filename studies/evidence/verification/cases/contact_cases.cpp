@@ -50,7 +50,7 @@ Finding overlap()
         centre = std::max(centre, std::fabs(column.at(OfBlock::moment, 1) - moment) / (force * 0.048));
     }
     Finding f;
-    f.at_least("pairs that press", 0.5 * trials, pressed);
+    f.at_least("pairs in contact", 0.5 * trials, pressed);
     f.equals("largest error of the force, relative", 0, area, 1e-8);
     f.equals("largest error of its direction [rad]", 0, direction, 1e-9);
     f.equals("largest error of its moment, over force x width", 0, centre, 1e-9);
@@ -125,19 +125,19 @@ Finding free_fall()
 Cases contact_cases()
 {
     return {
-        {"StaticOverlap", subject, "How deep the drums of SPEC sink into each other at rest, K_N = 1e8 N/m2.",
+        {"StaticOverlap", subject, "Overlap of the drums of SPEC at rest, K_N = 1e8 N/m2.",
          "W / (K_N B), seven digits.", "the digits.", static_overlap},
         {"Overlap", subject,
-         "The contact force in one step of 20 000 random pairs: drums of unequal widths, off the axis, flat or on a "
-         "corner, 1e-8 to 1e-5 m deep, turned by 1e-7 to 0.3 rad.",
+         "The contact force in one step of 20 000 random pairs: drums of unequal widths, eccentric, flat or on a "
+         "corner, with an overlap of 1e-8 to 1e-5 m and a rotation of 1e-7 to 0.3 rad.",
          "clipping of one outline by the other (Sutherland and Hodgman) in extended precision.",
          "rounding of positions of 0.01 m against overlaps that may be 1e-8 m deep.", overlap},
         {"Restitution", subject,
-         "A mass that meets its bed, whose force F_N = max(0, K_N A + C_N v) ends when it is used up.",
+         "Impact of a mass on its bed; the contact ends when F_N = max(0, K_N A + C_N v) becomes zero.",
          "the damped oscillation's velocity at the time when spring and dashpot cancel, in closed form.",
-         "the scheme is of first order in the dashpot; extrapolated from two steps, what is left is of second order.",
+         "the scheme is of first order in the dashpot; the extrapolation from two steps leaves a second-order error.",
          restitution},
-        {"FreeFall", subject, "A block that falls and turns without contact.",
+        {"FreeFall", subject, "A block that falls and rotates without contact.",
          "h - g t2 / 2 and w t: central differences are exact for a constant acceleration.", "rounding of 2000 steps.",
          free_fall},
     };

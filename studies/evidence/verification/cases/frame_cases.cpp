@@ -50,14 +50,15 @@ Finding rocking_frame()
 {
     Finding f;
     const RigidBlock frame = rigid_frame(1, 4, 1), colo = rigid_frame(0.06L, 0.1L, 0.76L);
-    f.equals("COLO: p against its digits [rad/s]", 11.232991, static_cast<double>(rigid_block(0.06L, 0.1L).p), 1e-6);
+    f.equals("COLO: p against its reference value [rad/s]", 11.232991, static_cast<double>(rigid_block(0.06L, 0.1L).p),
+             1e-6);
     f.equals("COLO: p of the frame [rad/s]", 9.845976, static_cast<double>(colo.p), 1e-6);
     f.equals("COLO: e of the frame", 0.510940, static_cast<double>(housner_restitution(colo.alpha, 0.76L)), 1e-6);
     f.equals("A with G = 1: p of the frame [rad/s]", 1.636057, static_cast<double>(frame.p), 1e-6);
     f.equals("A with G = 1: e of the frame", 0.889706, static_cast<double>(housner_restitution(frame.alpha, 1)), 1e-6);
-    f.equals("quarter period from 0.3 alpha against its digits [s]", 0.548962,
+    f.equals("quarter period from 0.3 alpha against its reference value [s]", 0.548962,
              static_cast<double>(quarter_period(frame, 0.3L * frame.alpha)), 1e-6);
-    f.equals("quarter period from 0.5 alpha against its digits [s]", 0.806377,
+    f.equals("quarter period from 0.5 alpha against its reference value [s]", 0.806377,
              static_cast<double>(quarter_period(frame, 0.5L * frame.alpha)), 1e-6);
     const std::vector<double> stiffness{1e9, 1e10, 1e11, 1e12};
     for (const double part : {0.3, 0.5}) {
@@ -92,8 +93,8 @@ Finding static_limit()
     Finding f;
     for (const auto& [mu, digits] : {std::pair{0.2, 1.962}, {0.6, 5.705331}, {0.68, 5.705331}, {10.0, 5.733378}})
         for (int drums : {1, 2})
-            f.equals(fmt::format("linear programme against its digits: mu = {}, {} drum{} a column [m/s2]", mu, drums,
-                                 drums > 1 ? "s" : ""),
+            f.equals(fmt::format("linear programme against its reference value: mu = {}, {} drum{} a column [m/s2]", mu,
+                                 drums, drums > 1 ? "s" : ""),
                      digits, limit_acceleration(paper_frame(drums, 1e8, mu)).acceleration_m_s2, 1e-6);
     const LimitState limit = limit_acceleration(paper_frame(1, 1e8, 0.6));
     f.equals("linear programme, mu = 0.6: force on the seat of the trailing column [N]", 0, limit.pressure_n[3], 1e-9);
@@ -128,20 +129,20 @@ Cases frame_cases()
 {
     return {
         {"RockingFrame", subject,
-         "Two columns of 1 x 4 m, 8 m apart, with a cap as heavy as both, leaned by 0.3 and 0.5 alpha and let go: time "
+         "Two columns of 1 x 4 m, 8 m apart, with a cap as heavy as both, tilted by 0.3 and 0.5 alpha and released: "
+         "time "
          "to the upright position.",
          "the rigid frame, which obeys the equation of one block with p2 (1 + 2 G) / (1 + 3 G); and numbers of another "
          "program.",
          "Aitken's limit of the three stiffest; the start (cap on the corners) moves it by up to 0.3 %.",
          rocking_frame},
         {"FrameLimit", subject,
-         "COLO under an acceleration that is reached slowly and held, with a drag that vanishes at rest: the largest "
-         "one "
-         "under which it stays.",
+         "COLO under an acceleration that is reached slowly and held, with a drag that is zero at rest: the largest "
+         "acceleration at which it stays upright.",
          "static limit analysis of rigid blocks in dry contact, a linear programme solved here by the simplex method; "
-         "and "
-         "seven digits of others. Note that the cap leaves the trailing column: the limit is below g B / H = 5.886.",
-         "the compliant contacts approach the limit as K_N^(-1/3): the extrapolation is good to 1 %.", static_limit,
+         "and published values with seven digits. The cap lifts off the trailing column, so the limit is below g B / H "
+         "= 5.886.",
+         "the compliant contacts approach the limit as K_N^(-1/3): the extrapolation is accurate to 1 %.", static_limit,
          Duration::slow},
     };
 }

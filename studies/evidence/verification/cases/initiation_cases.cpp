@@ -107,12 +107,13 @@ Finding regimes()
             rock.x.push_back(a);
             rock.y.push_back(rock_friction(a, B));
         }
-        f.pictures.push_back({fmt::format("regimes_{}", name),
-                              fmt::format("How a block of {} mm begins to move: the engine on a grid (colours), "
-                                          "Shenton's formulas (lines)",
-                                          name),
-                              map({"a / g", false, 0, 0}, {"friction", false, 0, 0}, as, mus, kind,
-                                  {"rest", "slide", "rock", "slide and rock"}, {slide, rock, edge, low})});
+        f.pictures.push_back(
+            {fmt::format("regimes_{}", name),
+             fmt::format(
+                 "Initial motion of a block of {} mm: the engine on a grid (colours), Shenton's formulas (lines)",
+                 name),
+             map({"a / g", false, 0, 0}, {"friction", false, 0, 0}, as, mus, kind,
+                 {"rest", "slide", "rock", "slide and rock"}, {slide, rock, edge, low})});
     }
     return f;
 }
@@ -211,18 +212,18 @@ Cases initiation_cases()
 {
     return {
         {"Regimes", subject,
-         "How a block begins to move under an acceleration that is there at once: rest, slide, rock, slide and rock, "
+         "Initial motion of a block under a suddenly applied acceleration (rest, slide, rock, slide and rock), "
          "on 40 x 30 cells of a / g and friction, K_N = 1e12 N/m2.",
          "Shenton's closed forms.",
-         "a block close to a boundary turns or slides by too little to tell within 4 ms: cells may differ next to it.",
+         "close to a boundary the rotation or slip within 4 ms is too small to classify, so cells next to it may "
+         "differ.",
          regimes},
         {"TwoBlocks", subject,
-         "Angular accelerations with which two blocks start, one on the other, without slip: the upper one alone, "
-         "both, "
-         "both as one, or the upper one backwards.",
-         "Lagrange's equations of each pattern, of which the right one presses within its faces; and the digits of its "
-         "bounds.",
-         "in the measured time the blocks turn by some 1e-3 rad, and their contacts vibrate.", two_blocks},
+         "Initial angular accelerations of two blocks, one on the other, without slip: only the upper block, both, "
+         "both as one, or the upper block in the opposite direction.",
+         "Lagrange's equations of each pattern, of which the valid one has its contact forces within the faces; and "
+         "reference values of its bounds.",
+         "in the measured time the blocks rotate by about 1e-3 rad, and their contacts vibrate.", two_blocks},
     };
 }
 

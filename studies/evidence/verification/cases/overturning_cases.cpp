@@ -80,7 +80,7 @@ Finding half_sine()
     std::vector<double> rigid, limit, soft;
     for (std::size_t i = 0; i < rates.size(); ++i) {
         rigid.push_back(half_sine_edge(rigid_monolith(), rates[i]));
-        f.equals(fmt::format("the oracle against the digits, w = {} p", rates[i]), digits[i], rigid[i], 1e-6);
+        f.equals(fmt::format("the oracle against the reference value, w = {} p", rates[i]), digits[i], rigid[i], 1e-6);
         std::vector<double> values;
         for (double K : stiffness)
             values.push_back(edge(ExcitationKind::half_sine, 1, K, rates[i], 1.05, rigid[i] + 0.2));
@@ -93,10 +93,10 @@ Finding half_sine()
                 f.equals(fmt::format("another program's eta at K_N = {:g} N/m2, w = 4 p", stiffness[k]), other[k],
                          values[k], 1e-3);
             f.convergences.push_back(
-                convergence("K_N [N/m2]", "eta of half a sine, w = 4 p", stiffness, values, rigid[i]));
+                convergence("K_N [N/m2]", "eta of a half sine, w = 4 p", stiffness, values, rigid[i]));
         }
     }
-    f.pictures.push_back({"half_sine", "Least amplitude of half a sine that overturns MONO",
+    f.pictures.push_back({"half_sine", "Smallest amplitude of a half sine that overturns MONO",
                           curves({"w / p", false, 0, 11}, {"eta = a / (g tan alpha)", false, 0, 0},
                                  {{"rigid block", rates, rigid, true, {}, {}},
                                   {"engine, limit of K_N", rates, limit, false, {}, {}},
@@ -134,12 +134,13 @@ Finding full_sine_direct()
         // without an impact no restitution enters
         const FullSineEdges edges = full_sine_edges(rigid_monolith(), rates[i], 0);
         const double rigid = edges.direct;
-        f.equals(fmt::format("the oracle against the digits, w = {} p", rates[i]), digits[i], rigid, 1e-6 * digits[i]);
+        f.equals(fmt::format("the oracle against the reference value, w = {} p", rates[i]), digits[i], rigid,
+                 1e-6 * digits[i]);
         if (edges.direct_pressure < 0) {
             // a contact cannot pull, so such a block flies, and the rigid one is no oracle
             f.remarks.push_back(fmt::format(
-                "At w = {} p the rigid block would have to be held down by {:.3f} of its weight, which nothing does "
-                "here: the block flies, and the two are **not expected** to agree; no comparison is made.",
+                "At w = {} p the rigid block would have to be held down by {:.3f} of its weight. Here the block lifts "
+                "off instead, so the two are **not expected** to agree, and no comparison is made.",
                 rates[i], -edges.direct_pressure));
             continue;
         }
@@ -167,8 +168,8 @@ Finding full_sine_impact()
     std::vector<double> at, with_housner, with_ours, engine, direct;
     for (const Digits& d : digits) {
         const FullSineEdges edges = full_sine_edges(rigid, d.rate, housner);
-        f.equals(fmt::format("the oracle with Housner's e against the digits, w = {} p, lower edge", d.rate), d.low,
-                 edges.low, 1e-6 * d.low);
+        f.equals(fmt::format("the oracle with Housner's e against the reference value, w = {} p, lower edge", d.rate),
+                 d.low, edges.low, 1e-6 * d.low);
         f.equals(fmt::format("the same, upper edge, w = {} p", d.rate), d.high, edges.high, 1e-6 * d.high);
         at.push_back(d.rate);
         with_housner.push_back(edges.low);
@@ -190,10 +191,9 @@ Finding full_sine_impact()
     f.equals("another program's lower edge at K_N = 1e10 N/m2, w = 4 p", 1.686,
              edge(ExcitationKind::full_sine, 2, 1e10, 4, 1.2, 1.8), 0.02);
     f.remarks.push_back(fmt::format(
-        "With Housner's e = {:.4f} the rigid block needs more: this contact law loses less at an impact and is **not "
-        "expected** to agree with him. What is compared is the rigid block with the e = {:.4f} that the engine shows "
-        "in "
-        "free rocking from 0.5 alpha at the same contact.",
+        "With Housner's e = {:.4f} the rigid block needs a larger amplitude: this contact law dissipates less energy "
+        "at an impact and is **not expected** to agree with Housner. The comparison is with the rigid block with e = "
+        "{:.4f}, the restitution of the engine in free rocking from 0.5 alpha with the same contact.",
         housner, e));
     f.pictures.push_back({"full_sine", "Overturning of MONO by a full sine",
                           curves({"w / p", false, 0, 7}, {"eta = a / (g tan alpha)", false, 0, 10},
@@ -211,25 +211,26 @@ Cases overturning_cases()
 {
     return {
         {"HalfSine", subject,
-         "Least amplitude of half a sine that overturns MONO, by bisection to 1e-4, for w from 1 to 10 p.",
-         "the rigid block, integrated by Runge and Kutta in extended precision (no impact can happen before it falls); "
-         "and four digits of another program.",
-         "Aitken's limit carries the bisection's 1e-4 threefold, and its factor is only nearly constant.", half_sine,
-         Duration::slow},
+         "Smallest amplitude of a half sine that overturns MONO, by bisection to 1e-4, for w from 1 to 10 p.",
+         "the rigid block, integrated by Runge and Kutta in extended precision (no impact is possible before it "
+         "falls); and four digits of another program.",
+         "Aitken's limit multiplies the bisection error of 1e-4 by three, and its factor is only nearly constant.",
+         half_sine, Duration::slow},
         {"HalfSineStiff", subject, "The same for w = 4 p on very stiff contacts, and with half and double the step.",
          "the rigid block; the other step.",
-         "what is missing falls by 2.4 per decade of K_N; the step moves it by some 1e-5, the bisection by 1e-4.",
+         "the error falls by a factor of 2.4 per decade of K_N; the step contributes about 1e-5, the bisection 1e-4.",
          stiffest, Duration::slow},
         {"FullSineDirect", subject,
-         "Least amplitude of a full sine that overturns MONO without an impact, for w from 1 to 10 p.",
-         "the rigid block; without an impact no restitution enters.", "Aitken's limit, as for half a sine.",
-         full_sine_direct, Duration::slow},
+         "Smallest amplitude of a full sine that overturns MONO without an impact, for w from 1 to 10 p.",
+         "the rigid block; without an impact the result does not depend on restitution.",
+         "Aitken's limit, as for a half sine.", full_sine_direct, Duration::slow},
         {"FullSineImpact", subject,
-         "Least amplitude of a full sine that overturns MONO after one impact, for w from 1 to 6 p.",
-         "the rigid block with the restitution that the engine shows in free rocking: **not Housner's**, see below. "
+         "Smallest amplitude of a full sine that overturns MONO after one impact, for w from 1 to 6 p.",
+         "the rigid block with the restitution of the engine in free rocking: **not Housner's**, see below. "
          "The "
-         "oracle itself is checked with Housner's e against the digits of others.",
-         "the contact is not rigid: half a sine needs some 0.5 % less at this stiffness; and its impact takes a time.",
+         "oracle itself is checked with Housner's e against published values.",
+         "the contact is not rigid: a half sine needs about 0.5 % less at this stiffness, and the impact has a finite "
+         "duration.",
          full_sine_impact, Duration::slow},
     };
 }

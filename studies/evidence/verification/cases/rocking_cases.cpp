@@ -36,7 +36,7 @@ Finding monolith()
     Finding f = quarter_periods(model::mono_stone, "MONO", {1e8, 1e9, 1e10, 1e11, 1e12});
     const RigidBlock rigid = rigid_block(0.048L, 0.174L);
     for (const auto& [part, digits] : {std::pair{0.1, 0.20800736}, {0.5, 0.58467309}, {0.9, 1.32676631}})
-        f.equals(fmt::format("the oracle against the digits, from {} alpha: whole period [s]", part), digits,
+        f.equals(fmt::format("the oracle against the reference value, from {} alpha: whole period [s]", part), digits,
                  static_cast<double>(4 * quarter_period(rigid, part * rigid.alpha)), 1e-8);
     f.equals("another program's MONO from 0.5 alpha at K_N = 1e8 N/m2 [s]", 0.148046, f.convergences[1].value[0],
              0.003 * 0.148);
@@ -50,7 +50,7 @@ Finding tall_block()
     Finding f = quarter_periods(block_a, "A", {1e9, 1e10, 1e11, 1e12, 1e13});
     const RigidBlock rigid = rigid_block(1, 4);
     for (const auto& [part, digits] : {std::pair{0.1, 0.99328373}, {0.5, 2.79337282}, {0.9, 6.34056642}})
-        f.equals(fmt::format("the oracle against the digits, from {} alpha: whole period [s]", part), digits,
+        f.equals(fmt::format("the oracle against the reference value, from {} alpha: whole period [s]", part), digits,
                  static_cast<double>(4 * quarter_period(rigid, part * rigid.alpha)), 1e-8);
     return f;
 }
@@ -61,17 +61,16 @@ Finding loss_at_impact()
     // centroid of the overlap does not damp rotation about it.
     Finding f;
     const double housner = static_cast<double>(housner_restitution(rigid_block(0.048L, 0.174L).alpha));
-    f.equals("Housner's e of MONO against its digits", 0.893922652, housner, 1e-9);
+    f.equals("Housner's e of MONO against its reference value", 0.893922652, housner, 1e-9);
     for (const auto& [K, e] : {std::pair{1e7, 0.995}, {1e8, 0.984}, {1e10, 0.967}})
         f.equals(fmt::format("e of MONO from 0.5 alpha at K_N = {:g} N/m2, xi = 0.4", K), e,
                  impact_restitution(leaned_block(model::mono_stone, K, 0.5, 0.1, 0.4)), 4e-3);
     f.at_least("e of MONO at K_N = 1e12 N/m2, xi = 0.4: above Housner's by at least 0.05", housner + 0.05,
                impact_restitution(leaned_block(model::mono_stone, 1e12, 0.5, 0.1, 0.4)));
-    f.remarks.push_back(
-        fmt::format("Housner's {:.6f} is **not** reached, and is not expected to be: his impulse acts at "
-                    "the new corner alone, while here it is spread over the face. Tests of real blocks "
-                    "also lie above his value.",
-                    housner));
+    f.remarks.push_back(fmt::format("Housner's {:.6f} is **not** reached, as expected: his impulse acts only at the "
+                                    "new corner, while here it is distributed over the face. Tests of real blocks "
+                                    "also lie above his value.",
+                                    housner));
     return f;
 }
 
@@ -116,11 +115,11 @@ Cases rocking_cases()
 {
     return {
         {"QuarterPeriod", subject,
-         "MONO leaned by 0.3, 0.5 and 0.8 alpha and let go: time to the upright position, at growing contact "
+         "MONO tilted by 0.3, 0.5 and 0.8 alpha and released: time to the upright position, at growing contact "
          "stiffness.",
          "the rigid block's integral, in extended precision; and numbers of another program at two stiffnesses.",
-         "Aitken's limit of the three stiffest; against the other program 0.3 %, by which the start and the form of "
-         "the dashpot move it.",
+         "Aitken's limit of the three stiffest; against the other program 0.3 %, the effect of the start and of the "
+         "form of the dashpot.",
          monolith},
         {"QuarterPeriodTall", subject, "The same for A, a block of 1 x 4 m and 2500 kg/m3.", "the same integral.",
          "Aitken's limit of the three stiffest.", tall_block},
@@ -128,15 +127,15 @@ Cases rocking_cases()
          "Ratio of the angular velocities after and before the first impact, from the energies of the rigid block at "
          "the peaks on both sides.",
          "another program's e for the same contact law (dashpot at the centroid): 0.995, 0.984, 0.967. **Not Housner's "
-         "e**, which this contact law does not have.",
-         "another program's figures hold to 0.002, and the peaks are those of a compliant block.", loss_at_impact},
+         "e**: this contact law does not reproduce it.",
+         "the values of the other program are accurate to 0.002, and the peaks are those of a compliant block.",
+         loss_at_impact},
         {"SpecimenOnset", subject,
-         "SPEC under a harmonic with a smooth start, 12 cycles, K_N = 1e8 N/m2: least amplitude, on a grid of 0.02 "
-         "m/s2, "
-         "that makes it rock or overturn.",
+         "SPEC under a harmonic with a smooth start, 12 cycles, K_N = 1e8 N/m2: smallest amplitude, on a grid of 0.02 "
+         "m/s2, that causes rocking or overturning.",
          "two other programs of the same contact law.",
-         "the response is chaotic, with pockets, and the start, the number of cycles and the form of the dashpot move "
-         "the others' bands (at 15 Hz 3.4 to 4.2): this is a check of sanity.",
+         "the response is chaotic, and the start, the number of cycles and the form of the dashpot change the ranges "
+         "of the other programs (at 15 Hz 3.4 to 4.2). This is a plausibility check.",
          specimen_onset, Duration::slow},
     };
 }

@@ -138,12 +138,12 @@ Finding stability()
                  measured_limit(column, critical, xi == 0 ? 4000 : 60000), 4e-4 * critical);
     }
     Realization light = model::spec({1e8, 0, 10}, 1);
-    f.equals("the oracle against the digits of SPEC, xi = 0 [s]", 1.601232e-4, critical_step_s(light), 1e-10);
+    f.equals("the oracle against the reference value of SPEC, xi = 0 [s]", 1.601232e-4, critical_step_s(light), 1e-10);
     light.gravity_m_s2 = 0;
     for (const auto& [xi, digits] : {std::pair{0.1, 1.349618e-4}, {0.3, 0.952181e-4}, {0.5, 0.700472e-4}}) {
         Realization damped = model::spec({1e8, xi, 10}, 1);
         damped.gravity_m_s2 = 0;
-        f.equals(fmt::format("the oracle against the digits of SPEC without weight, xi = {} [s]", xi), digits,
+        f.equals(fmt::format("the oracle against the reference value of SPEC without weight, xi = {} [s]", xi), digits,
                  critical_step_s(damped), 1e-10);
     }
     return f;
@@ -163,7 +163,7 @@ Finding energy_balance()
         std::vector<double> values;
         for (double rate : rates)
             values.push_back(residual(rate, xi));
-        f.at_most(fmt::format("what the balance lacks at dt w1 = 0.4, xi = {}, over the energy that went through", xi),
+        f.at_most(fmt::format("residual of the balance at dt w1 = 0.4, xi = {}, over the energy transferred", xi),
                   xi > 0 ? 3e-3 : 1e-3, values.front());
         f.at_most(fmt::format("the same at dt w1 = 0.0125, xi = {}", xi), xi > 0 ? 1e-4 : 1e-5, values.back());
         f.convergences.push_back(convergence("dt w1", fmt::format("energy residual, xi = {}", xi), rates, values, 0));
@@ -179,22 +179,24 @@ Cases scheme_cases()
     return {
         {"DampedOscillation", subject,
          "u'' + 2 xi w u' + w2 u = 0, w = 2 pi, xi = 0.05, from u = 1 at rest: the displacement after one second.",
-         "the closed form, and nine digits of the scheme with the velocity of the last step.",
-         "the digits; the velocity of the last step makes it first order.", damped_oscillation},
-        {"UndampedOscillation", subject, "Period of a mass on its bed, and the quantity that central differences keep.",
+         "the closed form, and a reference value with nine digits for the scheme with the velocity of the last step.",
+         "the digits of the reference value; the velocity of the last step makes the scheme first order.",
+         damped_oscillation},
+        {"UndampedOscillation", subject,
+         "Period of a mass on its bed, and the quantity that central differences conserve.",
          "w_num / w = (2 / h) asin(h / 2), h = w dt; m v2 / 2 + k u(n) u(n+1) / 2 is constant.",
          "rounding over 6000 steps.", undamped_oscillation},
         {"StepLimit", subject,
-         "Least step at which SPEC (K_N = 1e8) grows out of a disturbance of 1e-11 m, found by halving.",
-         "4 M - 2 dt C - dt2 K loses its definiteness: matrices assembled from discrete springs.",
-         "how far beyond the limit growth shows within the run.", stability},
+         "Smallest time step at which a disturbance of SPEC (K_N = 1e8) of 1e-11 m grows, found by bisection.",
+         "the step at which 4 M - 2 dt C - dt2 K is no longer positive definite, with matrices assembled from discrete "
+         "springs.",
+         "the excess over the limit that is needed for visible growth within the run.", stability},
         {"EnergyBalance", subject,
-         "Kinetic + potential + spring + dissipated energy less the base's work over three impacts of MONO, from half "
-         "its slenderness.",
+         "Kinetic + potential + spring + dissipated energy minus the work of the base over three impacts of MONO, "
+         "released from half its slenderness angle.",
          "0.",
-         "the works are taken with the contact's centroid of one end of a step, and contacts open and close within "
-         "one: "
-         "first order, with dashpots of a larger constant.",
+         "the work is computed with the contact centroid at one end of a step, and contacts open and close within a "
+         "step. The error is of first order, with a larger constant where there are dashpots.",
          energy_balance},
     };
 }

@@ -100,11 +100,11 @@ Finding contact_stiffness()
     }
     f.remarks.push_back(table);
     f.remarks.emplace_back(
-        "The step does not matter, the contact does: it is the model's compliance, not the integration. 2.15 m/s2 is "
-        "below the 2.706 m/s2 at which a rigid column opens at all. On a bed of any stiffness the joints begin to open "
-        "at a third of that (see Uplift); how far they then open, how much the column can carry, and how near its "
-        "first "
-        "frequency is to that of the shaking depend on the stiffness: the columns at the right.");
+        "The result depends on the contact stiffness and not on the time step, so it is due to the compliance of the "
+        "model and not to the integration. 2.15 m/s2 is below 2.706 m/s2, the acceleration at which a rigid column "
+        "opens. With compliant beds the joints begin to open at a third of that value (see Uplift). The stiffness "
+        "controls the further opening, the capacity of the column, and the ratio of the shaking frequency to its first "
+        "frequency (the columns at the right).");
     f.pictures.push_back({"contact_stiffness",
                           fmt::format("Collapse probability of SPEC at {} m/s2 and {} Hz over the "
                                       "contact stiffness, with its first frequency",
@@ -121,15 +121,14 @@ Finding contact_stiffness()
 Cases sensitivity_cases()
 {
     return {
-        {"ContactStiffness", "What the outcome depends on",
+        {"ContactStiffness", "Dependence of the outcome on parameters",
          fmt::format(
              "Collapse probability of SPEC with imperfections under 3 Hz and 2.15 m/s2, {} realizations for each "
              "contact stiffness.",
              realizations),
-         "none for the probability itself, which no other program can know. What is checked is that it is the model: "
-         "the "
-         "stiffness moves it beyond its interval, a quarter of the step does not; f1 (eigenvalues) and the static "
-         "capacity (closed form) stand beside it.",
+         "none for the probability itself. The check is that the result is a property of the model: the stiffness "
+         "changes the probability beyond its interval, and a quarter of the step does not. f1 (eigenvalues) and the "
+         "static capacity (closed form) are given for comparison.",
          "1.96 standard errors of the difference of two proportions.", contact_stiffness, Duration::slow},
     };
 }

@@ -79,11 +79,11 @@ Finding pulses()
     for (std::size_t i = 0; i < etas.size(); ++i) {
         const double eta = etas[i];
         const Slip h = pulse_slip(eta, 0.5), s = pulse_slip(eta, 1);
-        f.equals(fmt::format("half a sine, eta = {}: slip", eta), h.total, half[i].total, 1e-5 * h.total);
+        f.equals(fmt::format("half sine, eta = {}: slip", eta), h.total, half[i].total, 1e-5 * h.total);
         f.equals(fmt::format("full sine, eta = {}: total slip", eta), s.total, full[i].total, 1e-4);
         f.equals(fmt::format("full sine, eta = {}: base less block", eta), s.net, full[i].net, 1e-4);
-        f.equals(fmt::format("the oracle against the digits, eta = {}, half a sine", eta), digits[i].half, h.total,
-                 1e-8);
+        f.equals(fmt::format("the oracle against the reference value, eta = {}, half sine", eta), digits[i].half,
+                 h.total, 1e-8);
         f.equals(fmt::format("the same, full sine, total, eta = {}", eta), digits[i].full, s.total, 1e-8);
         f.equals(fmt::format("the same, full sine, net, eta = {}", eta), digits[i].net, s.net, 1e-8);
     }
@@ -100,7 +100,8 @@ Finding steady()
     Finding f;
     for (const auto& [eta, digits] :
          {std::pair{1.2, 0.064724028}, {1.5, 0.269152304}, {2.0, 0.618990892}, {10.0, 0.987585940}})
-        f.equals(fmt::format("the oracle against the digits, eta = {}", eta), digits, steady_slip_ratio(eta), 1e-9);
+        f.equals(fmt::format("the oracle against the reference value, eta = {}", eta), digits, steady_slip_ratio(eta),
+                 1e-9);
     const std::vector<double> etas{1.1, 1.2, 1.35, 1.5, 1.7, 1.85, 2, 2.5, 3, 4, 5, 6.7072, 8, 10};
     const auto measured = steady_ratio(etas, 0);
     for (std::size_t i = 0; i < etas.size(); ++i) {
@@ -128,15 +129,16 @@ Finding steady()
 Cases sliding_cases()
 {
     return {
-        {"SlidingPulses", subject, "Slip of a block under half a sine and a full one of the base, in mu g / w2.",
-         "the rigid block, piece by piece in closed form; and nine digits of others.",
-         "half a sine: the elastic part, 1e-6, some of it times ten. Full: where the sliding turns, the tangential "
-         "spring needs a time as 1 / sqrt(K_T); two stiffnesses give the limit to some 1e-5.",
+        {"SlidingPulses", subject, "Slip of a block under a half sine and a full sine of the base, in mu g / w2.",
+         "the rigid block, piecewise in closed form; and published values with nine digits.",
+         "half sine: the elastic part, 1e-6, up to ten times in some comparisons. Full sine: where the sliding "
+         "reverses, the tangential spring needs a time proportional to 1 / sqrt(K_T); two stiffnesses give the limit "
+         "to about 1e-5.",
          pulses},
         {"SteadySliding", subject, "Slip path over the base's path in the steady state, for eta from 1.1 to 670.",
-         "for eta >= sqrt(1 + pi2 / 4) it never sticks: sqrt(1 - (pi / (2 eta))2); below, the rigid block piece by "
-         "piece.",
-         "as above, relative: 2e-4; 5e-4 at 1.85, where the sticks are about to vanish.", steady},
+         "for eta >= sqrt(1 + pi2 / 4) the block never sticks: sqrt(1 - (pi / (2 eta))2); below, the rigid block "
+         "piecewise.",
+         "as above, relative: 2e-4; 5e-4 at 1.85, where the sticking phases nearly vanish.", steady},
     };
 }
 

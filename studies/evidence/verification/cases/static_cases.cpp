@@ -46,7 +46,7 @@ Finding uplift()
 {
     Finding f;
     const double rigid = model::gravity * model::spec_drum.width / (3 * 6 * model::spec_drum.height);
-    f.equals("g B / (3 H_tot) against its digits [m/s2]", 0.902069, rigid, 1e-6);
+    f.equals("g B / (3 H_tot) against its reference value [m/s2]", 0.902069, rigid, 1e-6);
     const std::vector<double> at{1e8, 1e9, 1e10, 1e11};
     std::vector<double> values;
     for (double K : at)
@@ -54,8 +54,8 @@ Finding uplift()
     for (std::size_t i = 0; i < at.size(); ++i) {
         // the weight on the bent column takes the part (buckling stiffness) / K_N of it
         const double leaned = rigid * (1 - 148349 / at[i]);
-        f.equals(fmt::format("SPEC at K_N = {:g} N/m2: a_sep less the weight's part [m/s2]", at[i]), leaned, values[i],
-                 2e-3 * rigid);
+        f.equals(fmt::format("SPEC at K_N = {:g} N/m2: a_sep minus the effect of the weight [m/s2]", at[i]), leaned,
+                 values[i], 2e-3 * rigid);
     }
     return f;
 }
@@ -125,22 +125,21 @@ Cases static_cases()
 {
     return {
         {"Uplift", subject,
-         "SPEC under an acceleration that rises over 400 periods of its first mode: where the heel of the lowest drum "
-         "leaves the base.",
-         "a_sep = g B / (3 H_tot), a third of what overturns a rigid column, less what the weight on the bent column "
-         "takes.",
-         "the slow rise leaves vibrations of some 1e-3.", uplift},
+         "SPEC under an acceleration that rises over 400 periods of its first mode: the acceleration at which the heel "
+         "of the lowest drum leaves the base.",
+         "a_sep = g B / (3 H_tot), a third of the overturning acceleration of a rigid column, minus the effect of the "
+         "weight on the bent column.",
+         "the slow rise leaves vibrations of about 1e-3.", uplift},
         {"StaticCapacity", subject,
          "Largest acceleration that does not overturn MONO when it is reached slowly and held, by bisection to 5e-4, "
-         "with "
-         "a drag on all velocities (it vanishes at rest).",
+         "with a drag on all velocities (zero at rest).",
          "a_max = g (b/h - 3 t*), t* = (sqrt(2 W / K_N) / (6 h))^(2/3), a block on a bed without tension; K_N to "
          "infinity: g b / h, which the limit analysis finds too.",
-         "the closed form leaves out terms of the order of g t*2; and 2e-3 for the bisection and the time that the "
-         "load is held.",
+         "the closed form omits terms of the order of g t*2; the bisection and the hold time contribute 2e-3.",
          capacity},
         {"MovesWithTheBase", subject,
-         "SPEC at 2 Hz and 0.5 m/s2, below sliding and uplift: the largest displacement of the top against the base.",
+         "SPEC at 2 Hz and 0.5 m/s2, below sliding and uplift: the largest displacement of the top relative to the "
+         "base.",
          "the static bending of the beds, amplified by 1 / (1 - (f/f1)2), by the weight, and by the smooth start's "
          "overshoot.",
          "second-order terms of these factors.", follows_the_base},

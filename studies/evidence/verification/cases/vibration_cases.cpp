@@ -102,9 +102,9 @@ Finding first_mode()
     f.equals("SPEC with flush sides, K_N = 1e8 N/m2: f1 [Hz]", flush,
              first_frequency(model::spec({1e8, 0, 10}, 5e-5), flush), 1e-3 * flush);
     for (const auto& [K, digits] : {std::pair{1e7, 11.600457}, {1e8, 36.925220}, {1e9, 116.843819}})
-        f.equals(fmt::format("the oracle against the digits of SPEC, K_N = {:g} N/m2 [Hz]", K), digits,
+        f.equals(fmt::format("the oracle against the reference value of SPEC, K_N = {:g} N/m2 [Hz]", K), digits,
                  frequencies_hz(model::spec({K, 0, 1}, 1))[0], 1e-6);
-    f.equals("the oracle against the digits of MONO, K_N = 1e8 N/m2 [Hz]", 52.459709,
+    f.equals("the oracle against the reference value of MONO, K_N = 1e8 N/m2 [Hz]", 52.459709,
              frequencies_hz(model::single(model::mono_stone, {1e8, 0, 1}, 1))[0], 1e-6);
     f.pictures.push_back({"first_frequency",
                           "First lateral frequency over the contact stiffness: eigenvalues (lines) and "
@@ -144,9 +144,9 @@ Finding axial_modes()
     for (int i = 1; i <= 6; ++i)
         wanted.push_back(w1 / pi * std::sin((2 * i - 1) * pi / 26));
     measure(model::spec({K, 0, 10}, dt), wanted);
-    f.equals("the formula against the digits, one drum [Hz]", 947.264153, w1 / (2 * pi), 1e-6);
-    f.equals("the formula against the digits, mode 1 [Hz]", 228.360153, wanted[0], 1e-6);
-    f.equals("the formula against the digits, mode 6 [Hz]", 1839.476756, wanted[5], 1e-6);
+    f.equals("the formula against the reference value, one drum [Hz]", 947.264153, w1 / (2 * pi), 1e-6);
+    f.equals("the formula against the reference value, mode 1 [Hz]", 228.360153, wanted[0], 1e-6);
+    f.equals("the formula against the reference value, mode 6 [Hz]", 1839.476756, wanted[5], 1e-6);
     return f;
 }
 
@@ -156,16 +156,17 @@ Cases vibration_cases()
 {
     return {
         {"FirstFrequency", subject,
-         "Free vibration after a soft push, over sixty periods, at five contact stiffnesses.",
-         "eigenvalues (Eigen) of matrices that are assembled from discrete springs, with the weight; and eight digits "
-         "of others.",
-         "the spectrum's window leaves 1e-7. Drums that taper by 1e-5, so that no two sides are flush, add 1e-4; for "
-         "flush ones the contact leans by overlap / width, a force of constant size that takes 3e-4 at this amplitude. "
-         "Forces act at the centroid of the overlap, half of it inside: overlap / height.",
+         "Free vibration after a small impulse, over sixty periods, at five contact stiffnesses.",
+         "eigenvalues (Eigen) of matrices that are assembled from discrete springs, with the weight; and published "
+         "values with eight digits.",
+         "the window of the spectrum contributes 1e-7. Drums that taper by 1e-5, so that no two sides are flush, add "
+         "1e-4. For flush sides the contact normal tilts by overlap / width, which is a force of constant size and "
+         "contributes 3e-4 at this amplitude. Forces act at the centroid of the overlap, at half its depth: overlap / "
+         "height.",
          first_mode},
         {"AxialModes", subject, "Vertical vibration of one drum and of SPEC after a blow at the top.",
-         "w_i = 2 w1 sin((2 i - 1) pi / (4 n + 2)), w1 = sqrt(K_N B / m).", "the line's width over 20 000 steps.",
-         axial_modes},
+         "w_i = 2 w1 sin((2 i - 1) pi / (4 n + 2)), w1 = sqrt(K_N B / m).",
+         "the width of the spectral line over 20 000 steps.", axial_modes},
     };
 }
 
