@@ -228,7 +228,7 @@ int report(const std::string& file, const std::vector<std::string>& runs, const 
            int repeats)
 {
     const SurfaceTable reference = table_of(file, nullptr);
-    Known main{"the main job's reference", reference.frequency_hz.size(), reference.pga_m_s2.size(),
+    Known main{"small-scale column, reference", reference.frequency_hz.size(), reference.pga_m_s2.size(),
                reference.probability};
 
     fmt::print("Reference: {:.0f} realizations in {} × {} cells, {:.3f} of which collapse. A uniform grid needs {:.0f} "
@@ -241,24 +241,23 @@ int report(const std::string& file, const std::vector<std::string>& runs, const 
         "|\n|---|---|---|---|---|---|---|\n");
     print_known(main, "own trials", measure(main, false, 8, 4 * repeats));
     const Measured borrowed = measure(main, true, 8, 2 * repeats);
-    print_known(main, "borrowing", borrowed);
-    print_known(main, "borrowing, minimum 16", measure(main, true, 16, repeats));
+    print_known(main, "pooled", borrowed);
+    print_known(main, "pooled, minimum 16", measure(main, true, 16, repeats));
     for (const Known& truth : known_surfaces()) {
         print_known(truth, "own trials", measure(truth, false, 8, repeats));
-        print_known(truth, "borrowing", measure(truth, true, 8, repeats));
+        print_known(truth, "pooled", measure(truth, true, 8, repeats));
     }
-    fmt::print(
-        "\nThe main job's reference, borrowing, by min(p, 1 - p):\n\n| min(p, 1 - p) | cells | hold | realizations "
-        "of one |\n|---|---|---|---|\n");
+    fmt::print("\nSmall-scale column, reference, pooled intervals, by min(p, 1 - p):\n\n| min(p, 1 - p) | cells | hold "
+               "| realizations "
+               "of a cell |\n|---|---|---|---|\n");
     for (const Kind& kind : borrowed.kinds)
         if (kind.cells > 0)
             fmt::print("| {} | {:.0f} | {:.3f} | {:.0f} |\n", kind.name, kind.cells / (2 * repeats),
                        kind.held / kind.cells, kind.trials / kind.cells);
     if (!runs.empty()) {
-        fmt::print(
-            "\nThe study itself, run adaptively:\n\n| seed | realizations | times fewer | rounds | widest ± | cells "
-            "that hold the reference's share | exact 95 % intervals would, given its error "
-            "|\n|---|---|---|---|---|---|---|\n");
+        fmt::print("\nAdaptive runs of the study:\n\n| seed | realizations | times fewer | rounds | widest ± | cells "
+                   "whose interval contains the reference's share | exact 95 % intervals would, given its error "
+                   "|\n|---|---|---|---|---|---|---|\n");
         for (const std::string& run : runs)
             print_run(run, reference);
     }
@@ -276,7 +275,7 @@ int main(int argc, char** argv)
     std::string reference;
     std::vector<std::string> runs, sobol;
     int repeats = 20;
-    CLI::App app("What adaptive surfaces gain, and whether their intervals hold");
+    CLI::App app("Gain of adaptive surfaces, and coverage of their intervals");
     app.add_option("--reference", reference, "a uniform surface with many realizations")->required();
     app.add_option("--run", runs, "adaptive runs of the same study");
     app.add_option("--sobol", sobol, "uniform surfaces of scrambled Sobol points");

@@ -50,7 +50,7 @@ bool covers(const Limits& limits, double value)
 void curve_coverage(std::uint64_t repeats, std::size_t resamples)
 {
     fmt::print(
-        "\n### Curves\n\nPercent of {} repeats in which the interval at 95 % holds the truth (one standard error: "
+        "\n### Curves\n\nPercent of {} repeats in which the 95 % interval contains the truth (one standard error: "
         "{:.2f}); bootstrap in a fifth of them with {} resamples. Stripes at 0.5 to 2.4 of the median, 5 runs "
         "of a record at each "
         "of its stripes. A repeat without a maximum of the likelihood gives no curve and is not counted.\n\n",
@@ -103,10 +103,10 @@ void curve_coverage(std::uint64_t repeats, std::size_t resamples)
 
 void fit_sizes(std::uint64_t repeats)
 {
-    fmt::print("\n### Lack of fit\n\nPercent of {} repeats in which the lognormal curve is rejected at 5 %, beside "
-               "what the deviance against the shares of the stripes would do, which counts runs as independent; last, "
-               "where at the stripe at 1.55 a share of the probability is taken away.\n\n| records | true curve, by "
-               "records | true curve, by deviance | 30 % taken away | 60 % taken away |\n|---|---|---|---|---|\n",
+    fmt::print("\n### Lack of fit\n\nPercent of {} repeats in which the lognormal curve is rejected at 5 %, by "
+               "records and by the deviance from the shares of the stripes, which counts runs as independent; last "
+               "columns: the probability of the stripe at 1.55 is reduced.\n\n| records | true curve, by "
+               "records | true curve, by deviance | reduced by 30 % | reduced by 60 % |\n|---|---|---|---|---|\n",
                repeats);
     for (const Case& c : cases()) {
         std::array<std::uint64_t, 4> rejected{};
@@ -139,11 +139,12 @@ void fit_sizes(std::uint64_t repeats)
 
 void stripe_coverage(std::uint64_t repeats)
 {
-    fmt::print("\n### Shares by stripe and the monotone band\n\nPercent of {} repeats in which the interval of a "
-               "stripe holds its probability (lowest, mean and highest of the eight), in which the band holds all at "
-               "once, and in which a fall is claimed at 5 % although the truth only grows.\n\n| records | lowest | "
-               "mean | highest | band | fall claimed |\n|---|---|---|---|---|---|\n",
-               repeats);
+    fmt::print(
+        "\n### Shares by stripe and the monotone band\n\nPercent of {} repeats in which the interval of a "
+        "stripe contains its probability (lowest, mean and highest of the eight), in which the band contains all "
+        "at once, and in which a decrease is reported at 5 % although the truth only grows.\n\n| records | lowest | "
+        "mean | highest | band | decrease reported |\n|---|---|---|---|---|---|\n",
+        repeats);
     for (const Case& c : cases()) {
         std::vector<double> covered(c.truth.stripes.size(), 0);
         double band = 0, falls = 0;
@@ -174,9 +175,10 @@ void few_coverage(std::uint64_t repeats)
 {
     fmt::print(
         "\n### Few or no damaged records\n\nOne stripe, 30 runs of each record. Percent of {} repeats in which the "
-        "interval at 95 % holds the probability (one standard error: {:.1f}); in brackets its mean upper limit. "
+        "95 % interval contains the probability (one standard error: {:.1f}); in brackets its mean upper limit. "
         "Weak: the records have 10 % of the variance of ln capacity; strong: 80 %; complete: 99.9 %, so that "
-        "all runs of a record do the same.\n\n| records | clustering | p = 0.005 | 0.01 | 0.02 | 0.05 | 0.2 | 0.5 "
+        "all runs of a record have the same outcome.\n\n| records | clustering | p = 0.005 | 0.01 | 0.02 | 0.05 | 0.2 "
+        "| 0.5 "
         "|\n|---|---|---|---|---|---|---|---|\n",
         repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
     constexpr std::pair<const char*, double> clusterings[] = {{"weak", 0.1}, {"strong", 0.8}, {"complete", 0.999}};
@@ -208,10 +210,10 @@ void few_coverage(std::uint64_t repeats)
 void share_coverage(std::uint64_t repeats)
 {
     fmt::print(
-        "### Shares of the dispersion\n\nStandard deviations 0.5 between records, 0.4 imperfections, 0.3 contact "
-        "parameters, 0.3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 twins of each. "
-        "Percent of {} repeats in which the interval of the share at 95 % holds the truth, and the mean "
-        "estimate beside the truth (of outcomes: that of 200,000 records). Sum: the largest distance of the sum "
+        "### Variance components\n\nStandard deviations 0.5 between records, 0.4 imperfections, 0.3 contact "
+        "parameters, 0.3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 replicas of each. "
+        "Percent of {} repeats in which the 95 % interval of the share contains the truth, and the mean "
+        "estimate with the truth (for outcomes: that of 200,000 records). Sum: the largest deviation of the sum "
         "of the four estimates from 1.\n\n| response | records | record | imperfection | contact | chaos | sum "
         "|\n|---|---|---|---|---|---|---|\n",
         repeats);

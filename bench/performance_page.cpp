@@ -28,8 +28,8 @@ void kernel(const ResultsFile& file)
     const auto best = [&](const char* family, const std::string& isa, int blocks, const char* counter) {
         return file.best(fmt::format("{}/{}/{}", family, isa, blocks), counter);
     };
-    fmt::print("Million block-steps per second of one core: the steps alone, and with base motion and looks as the "
-               "ensemble runs them; best of the repetitions.\n\n"
+    fmt::print("Million block-steps per second of one core: the steps alone, and with base motion and termination "
+               "checks as in the ensemble (with all); best of the repetitions.\n\n"
                "| free blocks | steps: scalar | AVX2 | AVX-512 | with all: scalar | AVX2 | AVX-512 |\n"
                "|---:|---:|---:|---:|---:|---:|---:|\n");
     for (const int blocks : {2, 4, 7, 13, 25, 49}) {
@@ -39,10 +39,9 @@ void kernel(const ResultsFile& file)
                 fmt::print(" {} |", millions(best(family, isa, blocks, "block_steps_per_second")));
         fmt::print("\n");
     }
-    fmt::print(
-        "\nThe seven-block specimen (six of them free): operations counted by running the kernel's template on a "
-        "number that counts, a multiply-add is two; peak: multiply-adds on registers, same run.\n\n"
-        "| | scalar | AVX2 | AVX-512 |\n|---|---:|---:|---:|\n");
+    fmt::print("\nThe seven-block specimen (six of them free): operations counted with a counting number type in the "
+               "kernel's template, a multiply-add is two; peak: multiply-adds on registers, same run.\n\n"
+               "| | scalar | AVX2 | AVX-512 |\n|---|---:|---:|---:|\n");
     const auto row = [&](const char* name, const auto& value) {
         fmt::print("| {} |", name);
         for (const char* isa : isas)
@@ -59,7 +58,7 @@ void kernel(const ResultsFile& file)
         const bool alone = std::string(family) == "BM_Kernel";
         row(alone ? "steps, GFLOP/s" : "with all, GFLOP/s",
             [&](const char* isa) { return fmt::format("{:.1f}", best(family, isa, 7, "flops_per_second") / 1e9); });
-        row("part of the peak", [&](const char* isa) {
+        row("fraction of the peak", [&](const char* isa) {
             return peak(isa) > 0 ? fmt::format("{:.0f} %", 100 * best(family, isa, 7, "flops_per_second") / peak(isa))
                                  : "";
         });

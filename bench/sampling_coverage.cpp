@@ -35,9 +35,9 @@ void rare_coverage(std::size_t repeats)
 {
     constexpr std::array<std::size_t, 4> sizes = {5, 10, 20, 40};
     fmt::print(
-        "### Rare events\n\nPercent of {} estimates whose interval at 95 % holds the probability (one standard "
-        "error: {:.1f}), with 5, 10, 20 and 40 repeats of 500 samples; in brackets in how many the whole interval "
-        "lies above it, and below it. Mean: of the estimates, over the probability.\n\n| in ten dimensions | "
+        "### Rare events\n\nPercent of {} estimates whose 95 % interval contains the probability (one standard "
+        "error: {:.1f}), with 5, 10, 20 and 40 repeats of 500 samples; in brackets the percentage of intervals "
+        "entirely above it, and below it. Mean: of the estimates, divided by the probability.\n\n| in ten dimensions | "
         "probability | 5 repeats | 10 | 20 | 40 | mean |\n|---|---|---|---|---|---|---|\n",
         repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
     for (const RareTruth& truth : {rare_plane(1e-3), rare_plane(1e-4), rare_plane(1e-5), rare_plane(1e-6),
@@ -97,10 +97,11 @@ void index_coverage(std::size_t repeats)
 {
     constexpr std::size_t resamples = 400;
     fmt::print(
-        "\n### Sobol's indices\n\nPercent of {} designs in which the interval at 95 % ({} resamples) holds the "
-        "index, mean over the factors and the least of them; how many first indices had an interval altogether "
-        "below 0; how many had none, as the variance is not told from 0.\n\n| function | rows | first: mean, least "
-        "| total: mean, least | below 0 | none |\n|---|---|---|---|---|---|\n",
+        "\n### Sobol's indices\n\nPercent of {} designs in which the 95 % interval ({} resamples) contains the "
+        "index: mean over the factors and the lowest of them; percentage of first indices with an interval entirely "
+        "below 0, and without one, because the variance is not distinguishable from 0.\n\n| function | rows | first: "
+        "mean, lowest "
+        "| total: mean, lowest | below 0 | none |\n|---|---|---|---|---|---|\n",
         repeats, resamples);
     for (const IndexTruth& truth : functions())
         for (const std::size_t rows : {100, 200, 500, 1000}) {
