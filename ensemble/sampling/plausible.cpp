@@ -36,8 +36,8 @@ Doubt doubt(bool refused, std::string text)
     return {"", refused, std::move(text)};
 }
 
-/// Motions of one frequency, whose velocity says whether a table or the ground can do it; a small structure is shaken
-/// harder and faster than a large one.
+/// Motions of one frequency, whose velocity decides whether a table or the ground can reach it; small structures are
+/// tested with stronger and faster motions than large ones.
 bool is_sine(ExcitationKind kind)
 {
     return kind == ExcitationKind::harmonic || kind == ExcitationKind::half_sine || kind == ExcitationKind::full_sine ||

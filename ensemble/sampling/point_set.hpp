@@ -77,7 +77,7 @@ private:
     std::uint64_t contacts_ = 1, twins_ = 1;
     std::optional<SensitivitySpec> design_;
     std::unordered_map<std::uint64_t, std::uint64_t> factor_; ///< by key
-    int digits_ = 0; ///< that tell the points of a cell apart; 0: all are independent
+    int digits_ = 0; ///< that distinguish the points of a cell; 0: all are independent
     std::unordered_map<std::uint64_t, std::uint64_t> dimension_; ///< by key
     std::span<const double> given_;                              ///< (dimensions), not kept
     std::vector<std::uint64_t> direction_; ///< (dimensions x digits), the first digit in the highest bit

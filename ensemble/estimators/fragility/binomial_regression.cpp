@@ -175,7 +175,7 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
         const Eigen::LDLT<ParameterMatrix> solver(fit.information);
         step = solver.solve(slope);
         if (iteration == 0 && !(solver.rcond() > 1e-14)) {
-            if (start.size() > 0) // so steep there that hardly a point says anything: from the beginning, then
+            if (start.size() > 0) // too steep there for information in most points: start from the beginning
                 return fit_binomial(link, predictors, counts, offset);
             throw InputError("fragility: the predictors of a regression are not independent.\n  Give at least as many "
                              "different intensities as coefficients, and no measure that follows from others.");

@@ -21,7 +21,7 @@ struct LackOfFit {
     std::string says; ///< the finding in a sentence
 };
 
-/// @param significance at which the sentence says that the form does not hold
+/// @param significance at which the sentence states that the form does not hold
 LackOfFit lack_of_fit(const FittedCurve& curve, double significance = 0.05);
 
 } // namespace stylobate

@@ -58,9 +58,9 @@ public:
         while (true) {
             std::vector<double> sorted = samples.response;
             std::sort(sorted.begin(), sorted.end(), std::greater<>());
-            // The level is the greatest response that does not go on: so the product has no bias, whatever the chains
-            // do (Brehier et al., Annals of Applied Probability 26 (2016) 3559). The least of those that go on, which
-            // is often taken, makes each factor greater by one over the number of chains.
+            // The level is the greatest response that does not continue: the product is then unbiased for any behaviour
+            // of the chains (Brehier et al., Annals of Applied Probability 26 (2016) 3559). The least of those that
+            // continue, which is often taken, makes each factor greater by one over the number of chains.
             const double next = sorted[chains_];
             const bool last = next >= options_.limit;
             level.probability = last ? share(samples.response, options_.limit, true) : share(samples.response, next);
@@ -68,7 +68,7 @@ public:
             product *= level.probability;
             if (last || run_.levels.size() > options_.most_levels || !(next > level.threshold) ||
                 level.probability == 0) {
-                // not there yet, and no level that is higher than this: what fails among these is all that is known
+                // the limit is not reached, and there is no higher level: the estimate is the share that fails here
                 run_.probability = last ? product : before * share(samples.response, options_.limit, true);
                 return run_;
             }

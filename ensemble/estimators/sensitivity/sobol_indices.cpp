@@ -180,7 +180,7 @@ SobolIndices sobol_indices(const DesignValues& values, const BootstrapOptions& o
         std::size_t next = 2;
         for (std::size_t k = 0; k < d; ++k) {
             const double pair = design.variance_of_pair(m, k);
-            // where the variance of the mean is not told from 0, neither is its part
+            // where the variance of the mean is not distinguishable from 0, neither is its share
             out[next++] = of_mean > 0 ? share(design.first(m, k, beta[k]), pair) : std::nan("");
             out[next++] = share(design.total(m, k), of_mean);
         }
