@@ -90,6 +90,89 @@ void write_replay(const std::filesystem::path& file, const ResultHeader& header,
         std::filesystem::rename(made, file);
 }
 
+/// What is known of a replayed realization.
+struct Replayed {
+    const ResultRow& row;
+    const std::vector<std::string>& names; ///< of the blocks
+    double total_s = 0;                    ///< `total_collapse_s`
+    std::string chosen;                    ///< how it was chosen, in words
+    std::string trajectory;                ///< file; empty: none
+    bool keeps_rows = true;                ///< the results
+    bool complete = true;                  ///< the results
+    bool known = false;                    ///< whether they have a row of it
+    bool same = false;                     ///< whether that row has the same bits
+};
+
+void print_json(const Replayed& r)
+{
+    const Outcome& o = r.row.outcome;
+    const std::vector<std::size_t> falls = fall_sequence(o.fall_time_s);
+    Json json = Json::object();
+    json.member("realization", r.row.index)
+        .member("frequency_hz", r.row.frequency_hz)
+        .member("pga_m_s2", r.row.pga_m_s2)
+        .member("state", to_string(o.state))
+        .member("collapse_time_s", without_none("collapse_time_s", o.collapse_time_s))
+        .member("first_collapse_block", o.first_collapse_block)
+        .member("fallen_blocks", o.fallen_blocks)
+        .member("unseated_block", o.unseated_block)
+        .member("unseating_time_s", without_none("unseating_time_s", o.unseating_time_s))
+        .member("total_collapse_time_s", without_none("total_collapse_time_s", r.total_s))
+        .member("falls", falls_json(falls, r.names, o.fall_time_s))
+        .member("peak_top_displacement_m", o.peak_top_displacement_m)
+        .member("residual_top_displacement_m", o.residual_top_displacement_m)
+        .member("total_sliding_m", o.total_sliding_m)
+        .member("total_rocking_rad", o.total_rocking_rad)
+        .member("energy_residual", o.energy_residual)
+        .member("end_time_s", o.end_time_s)
+        .member("step_s", o.step_s)
+        .member("in_results", r.known)
+        .member("same_bits", r.same);
+    if (!r.chosen.empty())
+        json.member("chosen", r.chosen);
+    if (!r.trajectory.empty())
+        json.member("trajectory", r.trajectory);
+    fmt::print("{}\n", json.text());
+}
+
+void print_text(const Replayed& r)
+{
+    const Outcome& o = r.row.outcome;
+    const std::vector<std::size_t> falls = fall_sequence(o.fall_time_s);
+    const auto name = [&](std::int32_t block) { return r.names.at(static_cast<std::size_t>(block)); };
+    fmt::print("realization {} at {:.4g} Hz, {:.4g} m/s2: {}", r.row.index, r.row.frequency_hz, r.row.pga_m_s2,
+               to_string(o.state));
+    if (o.state == State::collapsed)
+        fmt::print(" at {:.4f} s, {} first", o.collapse_time_s,
+                   o.first_collapse_block == several_blocks ? "several blocks together" : name(o.first_collapse_block));
+    if (o.unseating_time_s >= 0)
+        fmt::print("; {} unseated at {:.4f} s",
+                   o.unseated_block == several_blocks ? "several epistyles" : name(o.unseated_block),
+                   o.unseating_time_s);
+    if (o.state == State::invalid)
+        fmt::print(" ({})", to_string(o.invalid_reason));
+    if (!r.chosen.empty())
+        fmt::print("\n  {}", r.chosen);
+    fmt::print("\n  centre of the top block: peak displacement {:.4g} m, residual {:.4g} m; sliding {:.4g} m, "
+               "rocking {:.4g} rad\n",
+               o.peak_top_displacement_m, o.residual_top_displacement_m, o.total_sliding_m, o.total_rocking_rad);
+    if (falls.size() > 1) {
+        fmt::print("  {} of {} blocks fell: {}\n", falls.size(), r.names.size(),
+                   falls_text(falls, r.names, o.fall_time_s));
+    }
+    if (r.total_s >= 0)
+        fmt::print("  total collapse at {:.4f} s: every column and every epistyle has fallen\n", r.total_s);
+    else if (std::isnan(r.total_s))
+        fmt::print("  followed until the first fall only (outcome.follow = \"collapse\")\n");
+    fmt::print("  {}\n", !r.keeps_rows ? "the results keep no rows: there is nothing to compare it with"
+                         : !r.known
+                             ? (r.complete ? "not in the results: the run did not need it" : "not in the results yet")
+                         : r.same ? "the same bits as in the results"
+                                  : "NOT the bits of the results");
+    if (!r.trajectory.empty())
+        fmt::print("  trajectory in {}\n", r.trajectory);
+}
+
 } // namespace
 
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
@@ -119,74 +202,21 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     if (!trajectory.empty()) // made only now: an interrupted replay leaves no file
         write_replay(trajectory, one, row, f.trajectory);
 
-    const std::vector<std::string>& names = header.block_names;
-    const std::vector<std::size_t> falls = fall_sequence(row.outcome.fall_time_s);
     const bool known = reader.has(index);
     const bool same = known && same_bits(reader.row(index), row);
-    const Outcome& o = f.outcome;
-    const double total_s = total_collapse_s(experiment.study(), f);
-    if (options.json) {
-        Json json = Json::object();
-        json.member("realization", index)
-            .member("frequency_hz", row.frequency_hz)
-            .member("pga_m_s2", row.pga_m_s2)
-            .member("state", to_string(o.state))
-            .member("collapse_time_s", without_none("collapse_time_s", o.collapse_time_s))
-            .member("first_collapse_block", o.first_collapse_block)
-            .member("fallen_blocks", o.fallen_blocks)
-            .member("unseated_block", o.unseated_block)
-            .member("unseating_time_s", without_none("unseating_time_s", o.unseating_time_s))
-            .member("total_collapse_time_s", without_none("total_collapse_time_s", total_s))
-            .member("falls", falls_json(falls, names, row.outcome.fall_time_s))
-            .member("peak_top_displacement_m", o.peak_top_displacement_m)
-            .member("residual_top_displacement_m", o.residual_top_displacement_m)
-            .member("total_sliding_m", o.total_sliding_m)
-            .member("total_rocking_rad", o.total_rocking_rad)
-            .member("energy_residual", o.energy_residual)
-            .member("end_time_s", o.end_time_s)
-            .member("step_s", o.step_s)
-            .member("in_results", known)
-            .member("same_bits", same);
-        if (!chosen.words.empty())
-            json.member("chosen", chosen.words);
-        if (!trajectory.empty())
-            json.member("trajectory", trajectory);
-        fmt::print("{}\n", json.text());
-    } else if (!options.quiet) {
-        const auto name = [&](std::int32_t block) { return names.at(static_cast<std::size_t>(block)); };
-        fmt::print("realization {} at {:.4g} Hz, {:.4g} m/s2: {}", index, row.frequency_hz, row.pga_m_s2,
-                   to_string(o.state));
-        if (o.state == State::collapsed)
-            fmt::print(" at {:.4f} s, {} first", o.collapse_time_s,
-                       o.first_collapse_block == several_blocks ? "several blocks together"
-                                                                : name(o.first_collapse_block));
-        if (o.unseating_time_s >= 0)
-            fmt::print("; {} unseated at {:.4f} s",
-                       o.unseated_block == several_blocks ? "several epistyles" : name(o.unseated_block),
-                       o.unseating_time_s);
-        if (o.state == State::invalid)
-            fmt::print(" ({})", to_string(o.invalid_reason));
-        if (!chosen.words.empty())
-            fmt::print("\n  {}", chosen.words);
-        fmt::print("\n  centre of the top block: peak displacement {:.4g} m, residual {:.4g} m; sliding {:.4g} m, "
-                   "rocking {:.4g} rad\n",
-                   o.peak_top_displacement_m, o.residual_top_displacement_m, o.total_sliding_m, o.total_rocking_rad);
-        if (falls.size() > 1) {
-            fmt::print("  {} of {} blocks fell: {}\n", falls.size(), names.size(),
-                       falls_text(falls, names, row.outcome.fall_time_s));
-        }
-        if (total_s >= 0)
-            fmt::print("  total collapse at {:.4f} s: every column and every epistyle has fallen\n", total_s);
-        else if (std::isnan(total_s))
-            fmt::print("  followed until the first fall only (outcome.follow = \"collapse\")\n");
-        fmt::print("  {}\n", !header.has_rows() ? "the results keep no rows: there is nothing to compare it with"
-                             : !known           ? (reader.complete() ? "not in the results: the run did not need it"
-                                                                     : "not in the results yet")
-                             : same             ? "the same bits as in the results"
-                                                : "NOT the bits of the results");
-        if (!trajectory.empty())
-            fmt::print("  trajectory in {}\n", trajectory);
-    }
+    const Replayed replayed{row,
+                            header.block_names,
+                            total_collapse_s(experiment.study(), f),
+                            chosen.words,
+                            trajectory,
+                            header.has_rows(),
+                            reader.complete(),
+                            known,
+                            same};
+    if (options.json)
+        print_json(replayed);
+    else if (!options.quiet)
+        print_text(replayed);
     if (known && !same) {
         fmt::print(stderr,
                    "stylobate: realization {} came out otherwise than in {}, which was made by version {} (this "
