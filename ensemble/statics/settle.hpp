@@ -27,7 +27,7 @@ double bed_elastic_n(const Realization& realization, int bed, const Pose& lower_
 ///
 /// Newton's method: the residual is that of the exact overlaps, the tangent that of a bed on the length that is in
 /// contact, without the turning of the forces, which is smaller by (weight x height) / (rotational stiffness). Steps
-/// that make the residual larger are halved. What cannot stand stays where the last step that helped has led.
+/// that make the residual larger are halved. A structure that cannot stand stays at the last step that reduced it.
 ///
 /// @param poses (blocks) in: the reference stack; out: the equilibrium
 /// @param spring_n (joints) out: elastic parts of the friction forces [N]

@@ -7,7 +7,7 @@
 
 namespace stylobate {
 
-/// Displacements against the reference stack, block by block, and the elastic part of the friction forces.
+/// Displacements relative to the reference stack, block by block, and the elastic part of the friction forces.
 struct StaticState {
     std::vector<double> x_m;       ///< (blocks)
     std::vector<double> y_m;       ///< (blocks)
@@ -16,11 +16,11 @@ struct StaticState {
 };
 
 /// A single column is statically determinate: each bed presses by the weight above it, with the tilt that its
-/// eccentricity gives a bed without tension, and the friction carries the slope of a base out of level. A colonnade is
+/// eccentricity gives a bed without tension, and the friction carries the slope of a tilted base. A colonnade is
 /// not: there the equilibrium of the contact forces themselves is found (`settle`), friction counted from the reference
 /// stack on. Starting from the reference stack instead would make the structure bounce.
 ///
-/// With extensions a column's loads act where its blocks' centres of mass are, leaned as they rest.
+/// With extensions a column's loads act at its blocks' centres of mass, in their tilted state of rest.
 ///
 /// With `initial_tilt_rad` each column, from `initial_tilt_block` up, then turns as one rigid body about the lower
 /// corner of that block, which sinks in until the bed carries what is above. Epistyles are carried along, level, on the

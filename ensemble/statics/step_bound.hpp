@@ -7,6 +7,9 @@
 ///
 /// With u[n] = v lambda^n and the quotients m, c, k of v it is stable while 4 m - 2 dt c - dt2 k > 0 for every v, so
 /// while 4 M - 2 dt C - dt2 K is positive definite; instability begins at lambda = -1.
+///
+/// Source: Belytschko, Liu, Moran & Elkhodary, "Nonlinear Finite Elements for Continua and Structures", 2nd edition
+/// (2014), section 6.2; the bounds by blocks and at an edge are own derivations (`kernels/THEORY.md`, section 6).
 
 #include "ensemble/model/realization.hpp"
 
@@ -43,8 +46,8 @@ struct StepBound {
 /// its two blocks would store with the other one held. A partial contact is a part of the full one and softer.
 ///
 /// With dashpots: C <= beta K in each joint with beta = max(C_N / k_n, C_T / K_T), so z = beta w / 2 = C w / (2 k),
-/// the largest over the joints. For equal drums it is xi w / sqrt(min(k_n, K_T) / m), and coefficients that were given
-/// as such work alike.
+/// the largest over the joints. For equal drums it is xi w / sqrt(min(k_n, K_T) / m), and the same holds for given
+/// coefficients.
 ///
 /// Edge: a dashpot with a constant coefficient (`damping_chord_m` == 0) stays as it is when the contact has shrunk to
 /// an edge, where the stiffness has gone and the effective mass is smaller, 1 / G with G = 1/m + b2/I for the normal
@@ -52,9 +55,9 @@ struct StepBound {
 /// C_T) is below 1 (G: 2 x 2, both blocks, at the corner where it is largest). A block that is held at edges by two
 /// joints at once then has at most 2, which is where the scheme becomes unstable.
 ///
-/// Watched pairs (the last `watched` joints): what falls can be caught between two others on its long faces, so such a
-/// block counts as if full contacts of the pair's stiffness held both of them. Their dashpots go with the contact's
-/// length, at most the shorter of the two blocks' long faces.
+/// Watched pairs (the last `watched` joints): a falling block can be caught between two others on its long faces, so it
+/// counts as held by full contacts of the pair's stiffness on both of them. Their dashpots are proportional to the
+/// length of the contact, at most the shorter of the two blocks' long faces.
 ///
 /// @pre at least one bed; stiffnesses, sizes and masses above 0; watched pairs have `damping_chord_m` > 0
 StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched = 0);
