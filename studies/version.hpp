@@ -2,7 +2,7 @@
 
 namespace stylobate {
 
-/// "0.1.0+1a2b3c4", with "-dirty" where the tree had changes that were not committed: it goes into every result.
+/// "0.2.0+1a2b3c4", with "-dirty" where the tree had changes that were not committed: it goes into every result.
 const char* code_version();
 
 } // namespace stylobate

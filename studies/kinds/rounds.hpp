@@ -20,8 +20,7 @@ struct Round {
 
 class Rounds {
 public:
-    Rounds(const Experiment& experiment, const RunOptions& options, Observer& observer)
-        : experiment(experiment), options(options), observer(observer)
+    Rounds(const Experiment& run, const RunOptions& how, Observer& told) : experiment(run), options(how), observer(told)
     {
     }
     virtual ~Rounds() = default;

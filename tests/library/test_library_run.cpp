@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <thread>
 
 namespace stylobate {
 namespace {
@@ -200,6 +201,23 @@ TEST_F(LibraryRun, OfAStoppedRunTheFairPartCounts)
     EXPECT_EQ(file.surface().upper, drawn.upper);
 }
 
+TEST_F(LibraryRun, RunsOfSeveralThreadsDoNotDisturbEachOther)
+{
+    const api::Experiment experiment(api::Study::from_file(column_study, four_cells));
+    const api::Result want = api::run(experiment);
+    std::vector<std::vector<api::Outcome>> got(4);
+    std::vector<std::thread> threads;
+    for (std::vector<api::Outcome>& outcomes : got)
+        threads.emplace_back([&] { outcomes = api::run(experiment, {.threads = 2}).outcomes(); });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (const std::vector<api::Outcome>& outcomes : got) {
+        ASSERT_EQ(outcomes.size(), want.outcomes().size());
+        for (std::size_t i = 0; i < outcomes.size(); ++i)
+            EXPECT_EQ(outcomes[i].peak_top_displacement_m, want.outcomes()[i].peak_top_displacement_m);
+    }
+}
+
 TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
 {
     by_program("small_scale_column.toml", four_cells);
@@ -227,6 +245,8 @@ TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
     const std::string svg = read_bytes(folder / "t.svg");
     EXPECT_EQ(count_of(svg, "<polygon"), 7U);
     EXPECT_TRUE(svg.ends_with("</svg>\n"));
+    api::write_strip(got, folder / "t.png", "a fall");
+    EXPECT_TRUE(read_bytes(folder / "t.png").starts_with("\x89PNG"));
     api::Trajectory broken = got;
     broken.x_m.pop_back();
     EXPECT_THROW(api::write_svg(broken, 0, folder / "broken.svg"), api::InputError);
