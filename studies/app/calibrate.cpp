@@ -32,7 +32,7 @@ namespace {
 
 const char* form_name(ContactForm form)
 {
-    return contact_form_names[static_cast<std::size_t>(form)].word;
+    return word_for(contact_form_names, form);
 }
 
 /// The contact forms of "--form area,points", or all of them.

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
+#include "io/study/study_names.hpp"
 #include "studies/app/command.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/version.hpp"
@@ -175,9 +176,15 @@ private:
             ->type_name("KEY")
             ->take_all()
             ->allow_extra_args(false);
-        calibrate->add_option("--form", calibration_.forms, "contact forms: area, two_corner, points, or all")
+        std::vector<std::string> forms;
+        for (const auto& name : contact_form_names)
+            forms.emplace_back(name.word);
+        std::vector<std::string> with_all = forms;
+        with_all.emplace_back("all");
+        calibrate
+            ->add_option("--form", calibration_.forms, fmt::format("contact forms: {}, or all", fmt::join(forms, ", ")))
             ->delimiter(',')
-            ->check(CLI::IsMember({"area", "two_corner", "points", "all"}));
+            ->check(CLI::IsMember(with_all));
         calibrate->add_flag("--outcomes", calibration_.outcomes,
                             "use who fell and who stood even where there are histories");
         calibrate->add_flag("--no-held-out", keep_all_, "do not predict each motion by what the others say");

@@ -270,7 +270,7 @@ void mark_effective(FormCalibration& form)
         p.note =
             fmt::format("effective: of this model with the contact form {}, not of the specimen; its interval does "
                         "not hold for another contact law",
-                        contact_form_names[static_cast<std::size_t>(form.form)].word);
+                        word_for(contact_form_names, form.form));
     }
 }
 
@@ -296,8 +296,7 @@ void compare_forms(std::vector<FormCalibration>& forms)
             for (const FormCalibration& other : forms)
                 if (&other != &form)
                     form.parameters[i].note += fmt::format(
-                        "; form {} has {:.4g}", contact_form_names[static_cast<std::size_t>(other.form)].word,
-                        other.parameters[i].value);
+                        "; form {} has {:.4g}", word_for(contact_form_names, other.form), other.parameters[i].value);
         }
 }
 

@@ -18,7 +18,7 @@ constexpr std::uint64_t format_version = 3;
 
 void write_form(hid_t parent, const FormCalibration& form)
 {
-    const char* name = contact_form_names[static_cast<std::size_t>(form.form)].word;
+    const char* name = word_for(contact_form_names, form.form);
     const hdf5::Handle group = hdf5::create_group(parent, name);
     const std::size_t n = form.parameters.size();
     hdf5::write_text(group.id(), "study_toml", form.study.text);
@@ -228,7 +228,7 @@ void write_calibration(const Calibration& calibration, const Study& start, const
         hdf5::write_text(made.id(), "evidence", calibration.from_outcomes ? "outcomes" : "histories");
         hdf5::write_text(made.id(), "start_toml", start.text.empty() ? study_text(start) : start.text);
         hdf5::write_text(made.id(), "best_form",
-                         contact_form_names[static_cast<std::size_t>(calibration.forms[calibration.best].form)].word);
+                         word_for(contact_form_names, calibration.forms[calibration.best].form));
         hdf5::write_number(made.id(), "parameter_sets", H5T_STD_U64LE, calibration.parameter_sets);
         hdf5::write_number(made.id(), "simulations", H5T_STD_U64LE, calibration.simulations);
         hdf5::write_number(made.id(), "window_simulations", H5T_STD_U64LE, calibration.window_simulations);

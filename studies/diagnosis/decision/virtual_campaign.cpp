@@ -5,6 +5,7 @@
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/measured/measured_motion.hpp"
+#include "io/study/study_names.hpp"
 #include "studies/calibration/calibration_windows.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +20,8 @@ namespace stylobate {
 
 namespace {
 
+/// A form is drawn by its place here: a new one would change every null campaign.
 constexpr std::array null_forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
-constexpr std::array form_names = {"area", "two_corner", "points"};
 // A block has fallen whose centre is below this part of its height at rest, or that leans by more.
 constexpr double fallen = 0.6;
 constexpr double most_lean = 0.8; // rad
@@ -110,8 +111,9 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
     r.extended = true;
     for (const SizedCause& cause : causes)
         apply_cause(cause, built, r);
-    out.contacts = fmt::format("{}, K_N x {:.2f}, damping {:.2f} ({:.0f} % at the ends), exponent {:.2f}",
-                               form_names[form], stiffness, damping, 100 * share, exponent);
+    out.contacts =
+        fmt::format("{}, K_N x {:.2f}, damping {:.2f} ({:.0f} % at the ends), exponent {:.2f}",
+                    word_for(contact_form_names, null_forms[form]), stiffness, damping, 100 * share, exponent);
     return out;
 }
 

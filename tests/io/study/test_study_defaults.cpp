@@ -5,6 +5,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
+#include "io/study/study_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -185,7 +186,7 @@ TEST(StudyDefaults, TheTextOfEachReadyStudyHasThemAll)
         kinds.insert(study.kind);
         expect_every_default(study, entry.path().filename());
     }
-    EXPECT_EQ(kinds.size(), 5U) << "every kind of study";
+    EXPECT_EQ(kinds.size(), study_kind_names.size()) << "every kind of study";
 }
 
 TEST(StudyDefaults, TheTextOfEachExcitationHasThemAll)
