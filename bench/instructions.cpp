@@ -43,7 +43,7 @@ void await_stop(pid_t child)
 {
     int status = 0;
     if (waitpid(child, &status, 0) != child || !WIFSTOPPED(status))
-        throw std::runtime_error("the process that is counted ended early");
+        throw std::runtime_error("the counted process ended early");
 }
 
 /// Steps the child until it stops itself, and counts.
@@ -54,10 +54,10 @@ Visits count_until_stop(pid_t child, std::uint64_t base)
         const long at = ptrace(PTRACE_PEEKUSER, child, offsetof(user, regs.rip), nullptr);
         ++visits[static_cast<std::uint64_t>(at) - base];
         if (ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) != 0)
-            throw std::runtime_error("the system does not let a process be stepped (ptrace)");
+            throw std::runtime_error("the system does not allow single-stepping of a process (ptrace)");
         int status = 0;
         if (waitpid(child, &status, 0) != child || !WIFSTOPPED(status))
-            throw std::runtime_error("the process that is counted ended early");
+            throw std::runtime_error("the counted process ended early");
         if (WSTOPSIG(status) == SIGSTOP)
             return visits;
     }
@@ -107,7 +107,7 @@ std::map<std::uint64_t, std::string> disassembly()
         }
     }
     if (found.empty())
-        throw std::runtime_error("objdump (package binutils) gives no disassembly of this program");
+        throw std::runtime_error("objdump (package binutils) cannot disassemble this program");
     return found;
 }
 

@@ -27,7 +27,7 @@ struct Comparison {
 /// normal distribution here. Faster or slower: the interval leaves out 1 and the median is beyond `matters`; the same:
 /// the interval lies within 1 -+ `matters`, or leaves 1 out by less than that.
 ///
-/// @param ratios > 0;  @param confidence asked for, in (0, 1);  @param matters relative difference that counts
+/// @param ratios > 0;  @param confidence asked for, in (0, 1);  @param matters smallest relevant relative difference
 /// @throws std::invalid_argument for no pair, or a ratio that is not positive and finite
 Comparison compare(std::vector<double> ratios, double confidence = 0.95, double matters = 0.01);
 

@@ -56,14 +56,14 @@ int main(int argc, char** argv)
     app.add_option("BEFORE", before, "stylobate_bench of the build to compare with")
         ->required()
         ->check(CLI::ExistingFile);
-    app.add_option("AFTER", after, "stylobate_bench of the build that is judged")->required()->check(CLI::ExistingFile);
+    app.add_option("AFTER", after, "stylobate_bench of the build under test")->required()->check(CLI::ExistingFile);
     app.add_option("--filter", filter, "regular expression of the benchmarks")->capture_default_str();
-    app.add_option("--pairs", pairs, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
-    app.add_option("--seconds", seconds, "for each benchmark in each run")->check(CLI::Range(0.001, 60.0));
-    app.add_option("--confidence", confidence, "of the interval")
+    app.add_option("--pairs", pairs, "runs of each build")->check(CLI::Range(1, 1000))->capture_default_str();
+    app.add_option("--seconds", seconds, "seconds for each benchmark in each run")->check(CLI::Range(0.001, 60.0));
+    app.add_option("--confidence", confidence, "level of the interval")
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
-    app.add_option("--matters", matters, "relative difference that counts")
+    app.add_option("--matters", matters, "smallest relevant relative difference")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     try {
@@ -90,7 +90,7 @@ int main(int argc, char** argv)
             fmt::print(stderr, "\r                    \r");
         if (ratios.empty())
             throw std::runtime_error("the two builds have no benchmark in common that matches");
-        fmt::print("| benchmark | speed against before | interval | verdict |\n|---|---:|---|---|\n");
+        fmt::print("| benchmark | speed relative to before | interval | verdict |\n|---|---:|---|---|\n");
         for (const auto& [name, all] : ratios) {
             const Comparison c = compare(all, confidence, matters);
             fmt::print("| {} | {:.3f} | {} | {} |\n", name, c.ratio,

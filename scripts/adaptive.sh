@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures what adaptive surfaces gain, and whether their intervals hold, and writes the tables into docs/adaptive.md.
+# Measures the gain of adaptive surfaces and the coverage of their intervals, and writes the tables into docs/adaptive.md.
 #
 #   scripts/adaptive.sh [SEEDS [REPEATS]]    adaptive runs of the study itself with that many seeds (default 4), and that
 #                                            many simulated runs of each known surface (default 20)

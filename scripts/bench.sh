@@ -16,6 +16,6 @@ mkdir -p bench/results
 new=$(mktemp "$out.XXXXXX")
 trap 'rm -f "$new"' EXIT
 build/release/bench/stylobate_bench --benchmark_out="$new" --benchmark_out_format=json "$@"
-# the processor and the commit are what counts; the machine's name is nobody's business
+# only the processor and the commit are recorded, not the name of the machine
 sed '/"host_name":/d' "$new" >"$out"
 echo "$out"

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# How often the intervals of `stylobate calibrate` hold the friction that a campaign was made with: virtual campaigns of
+# Coverage of the friction intervals of `stylobate calibrate`: virtual campaigns of
 # fresh seeds (tests/hidden), under two contact laws that the engine does not have, whose true friction is 0.4 to 1.2 of
-# the nominal one. An interrupted run goes on where it stopped: campaigns and calibrations that are there are used again.
+# the nominal one. An interrupted run continues: existing campaigns and calibrations are reused.
 #
 #   scripts/calibration.sh A..B C..D     seeds A to B under the law `nonsmooth`, C to D under `compliant`
 #
-# The other contact parameters are held: the friction is judged without them. The table goes to the terminal and to
-# results/calibration/A..B_C..D/coverage.md. Exit status: that of the table; a calibration that fails is said, its message
-# lies in calibrations/SEED.log, and its campaign counts nowhere.
+# The other contact parameters are fixed: only the friction is evaluated. The table goes to the terminal and to
+# results/calibration/A..B_C..D/coverage.md. Exit status: that of the table; a failed calibration is reported, its message
+# is in calibrations/SEED.log, and its campaign is not counted.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the build and the tests do not see, or see too late: the gates before a change goes in.
+# Gates before a change is merged: checks that the build and the tests do not cover, or cover late.
 #
 #   scripts/check.sh [--within SECONDS] [GATE...]       all of them, or some:
 #
@@ -88,19 +88,19 @@ gate_fuzz() { scripts/fuzz.sh "${FUZZ_S:-60}s" "$work/fuzz" 2>&1 | tail -n 20; }
 all=(format headers clang tidy sanitize fuzz)
 within=
 if [[ ${1:-} == --within ]]; then
-    within=${2:?check.sh: --within wants a number of seconds}
+    within=${2:?check.sh: --within needs a number of seconds}
     shift 2
 fi
 gates=("$@")
 [[ $# -gt 0 ]] || gates=("${all[@]}")
 for gate in "${gates[@]}"; do
-    [[ " ${all[*]} " == *" $gate "* ]] || { echo "check.sh: '$gate' is no gate. Gates: ${all[*]}" >&2; exit 2; }
+    [[ " ${all[*]} " == *" $gate "* ]] || { echo "check.sh: '$gate' is not a gate. Gates: ${all[*]}" >&2; exit 2; }
 done
 closed=()
 for gate in "${gates[@]}"; do
     begin=$SECONDS
     if [[ -n $within ]] && ((begin >= within)); then
-        echo "check.sh: $gate left out, $begin s of $within are over"
+        echo "check.sh: $gate skipped, $begin s of $within have passed"
         continue
     fi
     set +e # a function in a condition would run on after an error
@@ -117,4 +117,4 @@ for gate in "${gates[@]}"; do
         echo "check.sh: $gate FAILED, see above" >&2
     fi
 done
-[[ ${#closed[@]} -eq 0 ]] || { echo "check.sh: closed: ${closed[*]}" >&2; exit 1; }
+[[ ${#closed[@]} -eq 0 ]] || { echo "check.sh: failed gates: ${closed[*]}" >&2; exit 1; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures how often the intervals of fragility estimates hold the truth, and writes the tables into
+# Measures the coverage of the intervals of fragility estimates, and writes the tables into
 # docs/fragility_statistics.md.
 #
 #   scripts/coverage.sh [REPEATS]    simulated campaigns of each kind (default 10000: some ten minutes on one core)

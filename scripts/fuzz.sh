@@ -4,9 +4,9 @@
 #   scripts/fuzz.sh           a million inputs, built in build-fuzz
 #   scripts/fuzz.sh 60s       as many as a minute allows
 #
-# Needs clang++. A finding is kept as FOLDER/finding-*; give it to the
-# target as its only argument to see it again. What was found new on the way is kept in FOLDER/found, so that a
-# later run goes on from there.
+# Needs clang++. A finding is kept as FOLDER/finding-*; run the target with it
+# as its only argument to reproduce it. New inputs are kept in FOLDER/found, and a
+# later run continues from them.
 set -eu
 source=$(cd "$(dirname "$0")/.." && pwd)
 case ${1:-1000000} in

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # The hidden-effect tests: makes virtual shake-table campaigns of fresh seeds (tests/hidden), diagnoses each, and scores
-# the diagnoses. An interrupted run goes on where it stopped: campaigns and diagnoses that are there are used again.
+# the diagnoses. An interrupted run continues: existing campaigns and diagnoses are reused.
 #
 #   scripts/hidden.sh A..B                    seeds A to B, in results/hidden/A..B; minutes for each campaign
 #   scripts/hidden.sh A..B -- OPTION...       options for every `stylobate diagnose`
 #
-# The tables go to the terminal and to results/hidden/A..B/score.md. Exit status: that of the score; a diagnosis that
-# fails is said, its message lies in diagnoses/SEED.log, and its campaign counts as not diagnosed.
+# The tables go to the terminal and to results/hidden/A..B/score.md. Exit status: that of the score; a failed
+# diagnosis is reported, its message is in diagnoses/SEED.log, and its campaign counts as not diagnosed.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 

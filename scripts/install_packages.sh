@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that Stylobate is built from, run and tested with: the one list of them.
-# Does nothing where all are there already; needs no more rights than apt does.
+# Does nothing if all are installed; needs the rights of apt only.
 #
 #   scripts/install_packages.sh [PACKAGE...]     instead of that list
 set -euo pipefail
@@ -38,5 +38,5 @@ fi
 apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=120)
 
 echo "Installing ${missing[*]}"
-"${apt[@]}" update || echo "install_packages.sh: apt-get update failed; trying with the lists that are there" >&2
+"${apt[@]}" update || echo "install_packages.sh: apt-get update failed; continuing with the existing lists" >&2
 "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null || fail "apt-get install failed, see above."

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Sets the engine against real measured data and writes docs/measured/*.md with their pictures.
+# Compares the engine with real measured data and writes docs/measured/*.md with their pictures.
 #
 #   scripts/measured.sh [--case NAME] [--threads N]     one page alone; any option of stylobate_measured
-# DATA=DIR: where the measured data lie; a page whose data are absent is skipped with a message and stays as it is.
+# DATA=DIR: folder of the measured data; a page whose data are absent is skipped with a message and not changed.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
 data=${DATA:-../shared/data}
 if [[ ! -d $data ]]; then
-    echo "measured.sh: skipped, there is no folder $data (set DATA to where the measured data lie)"
+    echo "measured.sh: skipped, there is no folder $data (set DATA to the folder of the measured data)"
     exit 0
 fi
 cmake --preset release >/dev/null

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the benchmarks and writes their tables into docs/performance.md. Ten minutes; on an idle machine.
 #
-#   scripts/performance.sh [RESULTS.json]      from results that are there, without running them again
+#   scripts/performance.sh [RESULTS.json]      from existing results, without running the benchmarks
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

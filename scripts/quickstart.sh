@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh clone on Debian 12 to the probability of collapse of a seven-drum column over frequency and PGA.
-# Installs what is needed, builds, computes, draws; continues where it was interrupted.
+# Installs the packages, builds, computes and draws; an interrupted run is continued.
 #
 #   scripts/quickstart.sh
 #   scripts/quickstart.sh --set study.realizations=4     a trial: arguments go to `stylobate run`, and the results

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures how often the intervals of rare events and of Sobol's indices hold the truth, and writes the tables into
+# Measures the coverage of the intervals of rare events and of Sobol's indices, and writes the tables into
 # docs/sensitivity.md.
 #
 #   scripts/sampling_coverage.sh [REPEATS]    estimates of each kind (default 2000: some twenty minutes on one core)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Holds this tree's speed against another commit's: builds both, runs their benchmarks in turns, and says faster, slower,
-# the same, or not decided, each with its interval. Exit status 1 if something has become slower.
+# Compares the speed of this tree with that of another commit: builds both, runs their benchmarks alternately, and reports
+# faster, slower, the same, or undecided, each with its interval. Exit status 1 if a benchmark has become slower.
 #
 #   scripts/speed_guard.sh [COMMIT [OPTION...]]      COMMIT: HEAD by default (changes not committed yet against it);
 #                                                    options of build/release/bench/speed_guard: --pairs 15, --filter

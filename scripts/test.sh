@@ -19,7 +19,7 @@ while [[ $# -gt 0 ]]; do
         break
         ;;
     *)
-        echo "test.sh: '$1' is no option. Usage: scripts/test.sh [--long] [--debug | --asan | --tsan] [-- CTEST ARGUMENTS]" >&2
+        echo "test.sh: '$1' is not an option. Usage: scripts/test.sh [--long] [--debug | --asan | --tsan] [-- CTEST ARGUMENTS]" >&2
         exit 2
         ;;
     esac

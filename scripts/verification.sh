@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and runs the verification cases, and writes their page with its pictures: docs/verification.md.
 #
-#   scripts/verification.sh [CASE...]       some cases alone are run and reported on the terminal; the page stays
+#   scripts/verification.sh [CASE...]       runs and reports only these cases; the page is not changed
 #
 # Exit status: 0 all passed, 1 at least one failed, 2 bad input.
 set -euo pipefail

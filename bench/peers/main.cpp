@@ -36,15 +36,16 @@ void write(const std::string& path, const std::string& text)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Accuracy and speed of the engines that were found, on one thread.");
+    CLI::App app("Accuracy and speed of the available engines, on one thread.");
     std::vector<std::string> names;
     std::string json_path, markdown_path;
     double seconds = 1, patience_s = 10;
-    app.add_option("--engine", names, "only these (repeatable)");
-    app.add_option("--json", json_path, "write all measurements there")->check(in_folder);
-    app.add_option("--markdown", markdown_path, "write the table there")->check(in_folder);
-    app.add_option("--seconds", seconds, "for each timing")->check(CLI::PositiveNumber)->capture_default_str();
-    app.add_option("--patience", patience_s, "a step that takes longer [s] and reaches nothing ends a setting's scan")
+    app.add_option("--engine", names, "engines to run (repeatable; default: all)");
+    app.add_option("--json", json_path, "file for all measurements (JSON)")->check(in_folder);
+    app.add_option("--markdown", markdown_path, "file for the table")->check(in_folder);
+    app.add_option("--seconds", seconds, "seconds for each timing")->check(CLI::PositiveNumber)->capture_default_str();
+    app.add_option("--patience", patience_s,
+                   "a step that takes longer than this [s] without reaching the error ends the scan of a setting")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);

@@ -202,11 +202,12 @@ void shear_and_step(Report& report)
 void limits_of_stiffness(Report& report)
 {
     auto out = std::back_inserter(report.text);
-    fmt::format_to(out, "\n### Cost for a given error\n\nThe step is 0.9 of the bound. *K* is the softest stiffness, in "
-                        "factors of 2, at and above which every stiffness is within the error. The cost is that of all "
-                        "runs of a method together; the gain is relative to one run of the same form with K_T = K_N B. "
-                        "*Exponent*: of the error over K_N from 1.3e8 to 1.3e11 N/m2, for one run. The softest "
-                        "stiffness tested is 1e6 N/m2. Methods without a gain at either error are omitted.\n\n");
+    fmt::format_to(out,
+                   "\n### Cost for a given error\n\nThe step is 0.9 of the bound. *K* is the softest stiffness, in "
+                   "factors of 2, at and above which every stiffness is within the error. The cost is that of all "
+                   "runs of a method together; the gain is relative to one run of the same form with K_T = K_N B. "
+                   "*Exponent*: of the error over K_N from 1.3e8 to 1.3e11 N/m2, for one run. The softest "
+                   "stiffness tested is 1e6 N/m2. Methods without a gain at either error are omitted.\n\n");
     std::string tables[2];
     const char* titles[] = {"Quarter period", "Overturning amplitude"};
     double Errors::*answers[] = {&Errors::quarter, &Errors::overturning};

@@ -95,7 +95,7 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
         if (topology_.model.extended())
-            throw std::invalid_argument("run.precision = \"single\" knows the paper's model alone");
+            throw std::invalid_argument("run.precision = \"single\" supports only the paper's model");
         single_.emplace(topology_, bundle_, kernels_);
     }
     parameters_memory_ = aligned_array<double>(9 * lanes_);

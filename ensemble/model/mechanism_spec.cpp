@@ -18,11 +18,13 @@ using Block_ = BlockExtension;
 constexpr MechanismParameter stribeck[] = {
     // neutral: as much as the friction of [contact] (`neutral_spec`)
     {"dynamic_friction", "", "", 0, 10, true, acting, 1, by_sampler,
-     "friction coefficient of a fast slip; where beds have their own friction, it over that of [contact] is the ratio"},
+     "friction coefficient at high slip velocity; where beds have their own friction, its ratio to that of [contact] "
+     "applies"},
     {"velocity", "_m_s", "m/s", 0, 100, true, needed, 1, &Joint_::stribeck_velocity_m_s,
-     "slip velocity over which the friction falls, by 1/e of the difference"}};
+     "slip velocity at which the difference of the friction has fallen to 1/e"}};
 constexpr MechanismParameter joint_friction[] = {
-    {"ratio", "", "", 0, 10, true, acting, 1, by_sampler, "friction of the joint over what it has without this"}};
+    {"ratio", "", "", 0, 10, true, acting, 1, by_sampler,
+     "ratio of the friction of the joint to its value without this mechanism"}};
 constexpr MechanismParameter drag[] = {{"coefficient", "_n_s2_m2", "N s2/m2", 0, 1e9, false, acting, 0,
                                         &Block_::drag_n_s2_m2, "c in F = -c |v| v, v in the laboratory"}};
 constexpr MechanismParameter corner_loss[] = {
@@ -55,21 +57,21 @@ constexpr MechanismParameter harmonic_distortion[] = {
     {"third_quadrature", "", "", -1, 1, false, acting, 0, &BaseChange::third_quadrature,
      "the same, a quarter of a period ahead"}};
 constexpr MechanismParameter time_offset[] = {{"offset", "_s", "s", -100, 100, false, acting, 0, &BaseChange::offset_s,
-                                               "the base is where the named motion is so much later"}};
-constexpr MechanismParameter sensor_gain[] = {
-    {"gain", "", "", 0, 100, true, acting, 1, &BaseChange::gain, "true motion of the base over the named one"}};
+                                               "delay of the given motion relative to the base"}};
+constexpr MechanismParameter sensor_gain[] = {{"gain", "", "", 0, 100, true, acting, 1, &BaseChange::gain,
+                                               "ratio of the true motion of the base to the given one"}};
 constexpr MechanismParameter dowel[] = {
     {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &Joint_::dowel_stiffness_n_m, "against sliding"},
-    {"yield", "_n", "N", 0, 1e12, true, needed, 0, &Joint_::dowel_yield_n, "the most that it holds"},
+    {"yield", "_n", "N", 0, 1e12, true, needed, 0, &Joint_::dowel_yield_n, "capacity"},
     {"gap", "_m", "m", 0, 1, false, detail, 0, &Joint_::dowel_gap_m, "free play to either side"}};
 constexpr MechanismParameter adhesion[] = {{"force", "_n_m", "N/m", 0, 1e9, false, acting, 0, &Joint_::adhesion_n_m,
                                             "per contact length, until the joint first slips"}};
 constexpr MechanismParameter eccentricity[] = {{"offset", "_m", "m", -10, 10, false, acting, 0, &Block_::eccentricity_m,
                                                 "centre of mass from the geometric centre, to the right"}};
 constexpr MechanismParameter wedge[] = {{"angle", "_rad", "rad", -0.5, 0.5, false, acting, 0, &Joint_::wedge_rad,
-                                         "the lower block's face is turned by it, counter-clockwise"}};
-constexpr MechanismParameter drum_offset[] = {
-    {"offset", "_m", "m", -10, 10, false, acting, 0, by_sampler, "of the block from its place, to the right"}};
+                                         "rotation of the lower block's face, counter-clockwise"}};
+constexpr MechanismParameter drum_offset[] = {{"offset", "_m", "m", -10, 10, false, acting, 0, by_sampler,
+                                               "displacement of the block from its nominal position, to the right"}};
 
 constexpr auto joint = MechanismPlace::joint;
 constexpr auto block = MechanismPlace::block;
@@ -80,7 +82,7 @@ constexpr MechanismRule rules[] = {
     {Mechanism::joint_friction, "joint_friction", joint, "a joint with another friction", joint_friction},
     {Mechanism::drag, "drag", block, "resistance of the air", drag},
     {Mechanism::corner_loss, "corner_loss", joint, "chipped corners: a shorter contact face", corner_loss},
-    {Mechanism::hertz, "hertz", joint, "contact force that is no linear function of the overlap", hertz},
+    {Mechanism::hertz, "hertz", joint, "contact force that is a nonlinear function of the overlap", hertz},
     {Mechanism::rate_damping, "rate_damping", joint, "damping in proportion to the overlap (Hunt and Crossley)",
      rate_damping},
     {Mechanism::face_damping, "face_damping", joint, "normal damping at the ends of the contact", face_damping},
@@ -90,13 +92,13 @@ constexpr MechanismRule rules[] = {
     {Mechanism::vertical_motion, "vertical_motion", base, "a base that moves vertically too", vertical_motion},
     {Mechanism::harmonic_distortion, "harmonic_distortion", base, "overtones of the base motion", harmonic_distortion},
     {Mechanism::time_offset, "time_offset", base, "clocks that differ", time_offset},
-    {Mechanism::sensor_gain, "sensor_gain", base, "a base motion of another size than the one that is named",
+    {Mechanism::sensor_gain, "sensor_gain", base, "a base motion with another amplitude than the given one",
      sensor_gain},
     {Mechanism::dowel, "dowel", joint, "dowels", dowel},
     {Mechanism::adhesion, "adhesion", joint, "adhesion until the first slip", adhesion},
-    {Mechanism::eccentricity, "eccentricity", block, "a centre of mass out of the middle", eccentricity},
+    {Mechanism::eccentricity, "eccentricity", block, "an eccentric centre of mass", eccentricity},
     {Mechanism::wedge, "wedge", joint, "a face that is not square", wedge},
-    {Mechanism::drum_offset, "drum_offset", block, "a block out of its place", drum_offset}};
+    {Mechanism::drum_offset, "drum_offset", block, "a block displaced from its nominal position", drum_offset}};
 static_assert(std::size(rules) == mechanism_count);
 
 constexpr bool in_order()

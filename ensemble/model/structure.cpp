@@ -99,11 +99,12 @@ void check_column(const Layout& layout, int first, int last)
                                          upper.name, lower.name, distance(-bed.length())));
         const double centre = moment / mass;
         if (!bed.contains(centre))
-            throw InputError(fmt::format("structure: what stands on {} falls by itself: its centre of mass, at x = "
-                                         "{:.6g} m, is {} outside the bed between {} and {}, from {:.6g} to {:.6g} m. "
-                                         "Lower the offsets.",
-                                         lower.name, centre, distance(std::max(bed.from - centre, centre - bed.to)),
-                                         lower.name, upper.name, bed.from, bed.to));
+            throw InputError(
+                fmt::format("structure: the blocks on {} are not stable at rest: their centre of mass, at x = "
+                            "{:.6g} m, is {} outside the bed between {} and {}, from {:.6g} to {:.6g} m. "
+                            "Lower the offsets.",
+                            lower.name, centre, distance(std::max(bed.from - centre, centre - bed.to)), lower.name,
+                            upper.name, bed.from, bed.to));
     }
 }
 
@@ -145,18 +146,18 @@ void place_epistyle(const EpistyleSpec& epistyle, int number, const std::vector<
                                          block.name, c, support.top(), distance(level - support.top()), highest));
         const Interval seat = common(support, block);
         if (seat.length() <= rounding * support.width_m)
-            throw InputError(fmt::format("structure: {} has no seat on column {}: it reaches from x = {:.6g} to {:.6g} "
-                                         "m and the column's top from {:.6g} to {:.6g} m, {} apart. Lengthen it, move "
-                                         "it, or leave the column out.",
-                                         block.name, c, block.left(), block.right(), support.left(), support.right(),
-                                         distance(std::max(-seat.length(), 0.0))));
+            throw InputError(fmt::format(
+                "structure: {} has no seat on column {}: it reaches from x = {:.6g} to {:.6g} "
+                "m and the column's top from {:.6g} to {:.6g} m, {} apart. Lengthen it, move it, or omit the column.",
+                block.name, c, block.left(), block.right(), support.left(), support.right(),
+                distance(std::max(-seat.length(), 0.0))));
         seats.from = c == epistyle.first_column ? seat.from : std::min(seats.from, seat.from);
         seats.to = c == epistyle.first_column ? seat.to : std::max(seats.to, seat.to);
         layout.beds.push_back({tops[static_cast<std::size_t>(c)], index, epistyle.bed});
     }
     if (!seats.contains(block.x_m()))
         throw InputError(
-            fmt::format("structure: {} falls by itself: its centre of mass, at x = {:.6g} m, is {} outside its "
+            fmt::format("structure: {} is not stable at rest: its centre of mass, at x = {:.6g} m, is {} outside its "
                         "seats, which reach from {:.6g} to {:.6g} m. Move it.",
                         block.name, block.x_m(), distance(std::max(seats.from - block.x_m(), block.x_m() - seats.to)),
                         seats.from, seats.to));
@@ -199,8 +200,8 @@ Layout lay_out(const StructureSpec& structure)
         throw InputError("structure: there is no column.");
     if (structure.kind == StructureKind::column &&
         (structure.columns.size() > 1 || structure.columns[0].x_m != 0 || !structure.epistyles.empty()))
-        throw InputError(
-            "structure: a column stands alone, at x = 0, without an epistyle. For more, kind = \"colonnade\".");
+        throw InputError("structure: a column stands alone, at x = 0, without an epistyle. For several columns, give "
+                         "kind = \"colonnade\".");
 
     Layout layout;
     std::vector<int> tops;

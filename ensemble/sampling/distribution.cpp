@@ -42,10 +42,10 @@ Distribution::Distribution(const Spread& spread, const std::string& key, double 
 {
     const boost::math::normal_distribution<double> standard;
     const auto none_left = [&] {
-        return InputError(fmt::format("{}: a {} distribution about the nominal value {:g} has no "
-                                      "probability between min = {:g} and max = {:g}. Widen these limits, or leave "
-                                      "them out.",
-                                      key, name(kind_), nominal, min_, max_));
+        return InputError(
+            fmt::format("{}: a {} distribution about the nominal value {:g} has no "
+                        "probability between min = {:g} and max = {:g}. Widen these limits, or omit them.",
+                        key, name(kind_), nominal, min_, max_));
     };
     const auto set_tails = [&](double lower, double upper) {
         // quantities at infinity are taken from the initial values: Boost refuses infinite arguments in some versions
@@ -70,8 +70,8 @@ Distribution::Distribution(const Spread& spread, const std::string& key, double 
         break;
     case DistributionKind::lognormal:
         if (!(nominal > 0))
-            throw InputError(fmt::format("{}: a lognormal distribution needs a nominal value above 0, and "
-                                         "it is {:g}. Use \"normal\" with an sd instead.",
+            throw InputError(fmt::format("{}: a lognormal distribution needs a nominal value above 0; it is {:g}. Use "
+                                         "\"normal\" with an sd instead.",
                                          key, nominal));
         scale_ = spread.sigma_ln;
         if (!(max_ > 0))

@@ -98,17 +98,16 @@ Finding check_pga(const Subject& s)
         const double pgv = extent(f->intensity).high;
         if (f->method == FragilityMethod::cloud || pgv <= fastest_ground_m_s)
             return std::nullopt;
-        return doubt(
-            pgv > no_ground_m_s,
-            fmt::format("The motions have velocities up to {:.4g} m/s, and no record has more than about 4 m/s. "
-                        "Did you mean cm/s ({:.4g} m/s)?",
-                        pgv, pgv / 100));
+        return doubt(pgv > no_ground_m_s,
+                     fmt::format("The motions have velocities up to {:.4g} m/s; the largest recorded velocities are "
+                                 "about 4 m/s. Did you mean cm/s ({:.4g} m/s)?",
+                                 pgv, pgv / 100));
     }
     if (pga <= strongest_record_m_s2)
         return std::nullopt;
     const auto beyond_records = [&](bool refused) {
-        return doubt(refused, fmt::format("The shaking has up to {:.4g} m/s2, and the strongest record of a horizontal "
-                                          "component has 27 m/s2. Did you mean cm/s2 ({:.4g} m/s2)?",
+        return doubt(refused, fmt::format("The shaking has up to {:.4g} m/s2; the largest recorded horizontal "
+                                          "acceleration is 27 m/s2. Did you mean cm/s2 ({:.4g} m/s2)?",
                                           pga, pga / 100));
     };
     if (!is_sine(kind))
@@ -119,8 +118,8 @@ Finding check_pga(const Subject& s)
         return pga > strongest_table_m_s2 ? Finding(beyond_records(false)) : std::nullopt;
     return doubt(
         pga / omega > no_ground_m_s,
-        fmt::format("{:.4g} m/s2 at {:.4g} Hz is a velocity of {:.3g} m/s and an amplitude of {:.3g} m: no ground "
-                    "and no shaking table is faster than about 4 m/s. Did you mean cm/s2 ({:.4g} m/s2)?",
+        fmt::format("{:.4g} m/s2 at {:.4g} Hz corresponds to a velocity of {:.3g} m/s and an amplitude of {:.3g} m; "
+                    "ground motions and shaking tables reach about 4 m/s. Did you mean cm/s2 ({:.4g} m/s2)?",
                     pga, hz, pga / omega, pga / omega / omega, pga / 100));
 }
 
@@ -144,9 +143,9 @@ Finding check_sinkage(const Subject& s)
         return std::nullopt;
     const double K_N = layout.beds[bed].bed.normal_stiffness_n_m2.value_or(s.study.contact.normal_stiffness_n_m2);
     return doubt(worst > absurd,
-                 fmt::format("The own weight presses {} {:.3g} mm into what it stands on, {:.2g} % of its size: "
-                             "normal_stiffness_n_m2 = {:.3g} is {} times softer than what gives 0.01 %. Is it for the "
-                             "whole depth (a bed of stone has 1e9 to 1e10 N/m3, times the depth {:.3g} m)?",
+                 fmt::format("Under its own weight {} overlaps its support by {:.3g} mm, {:.2g} % of its size: "
+                             "normal_stiffness_n_m2 = {:.3g} is {} times softer than the value for 0.01 %. Does it "
+                             "include the depth (a bed of stone has 1e9 to 1e10 N/m3, times the depth {:.3g} m)?",
                              layout.blocks[static_cast<std::size_t>(layout.beds[bed].upper)].name, 1000 * sinkage[bed],
                              100 * worst, K_N, static_cast<long>(std::lround(worst / 1e-4)),
                              s.study.structure.depth_m));
@@ -166,8 +165,8 @@ Finding check_first_frequency(const Subject& s)
         return std::nullopt;
     return doubt(false,
                  fmt::format("The first natural frequency of the structure on its beds is {:.3g} Hz, below {} of the "
-                             "shaking: there the softness of the beds (normal_stiffness_n_m2 = {:.3g}) decides, "
-                             "more than the rocking of rigid blocks.",
+                             "shaking: the compliance of the beds (normal_stiffness_n_m2 = {:.3g}) then governs the "
+                             "response, more than the rocking of rigid blocks.",
                              first,
                              shaking.low == shaking.high
                                  ? fmt::format("the {:.3g} Hz", shaking.low)
@@ -181,7 +180,7 @@ Finding check_shaking_frequency(const Subject& s)
     const Extent hz = shaking_hz(s);
     if (hz.high <= high && (hz.low >= low || hz.high == 0))
         return std::nullopt;
-    return doubt(false, fmt::format("The shaking has {:.4g} Hz, and earthquakes and shaking tables have {} to {} Hz.",
+    return doubt(false, fmt::format("The shaking has {:.4g} Hz; earthquakes and shaking tables have {} to {} Hz.",
                                     hz.high > high ? hz.high : hz.low, low, high));
 }
 
@@ -200,11 +199,11 @@ Finding check_density(const Subject& s)
         const std::string meant = thousand >= lightest && thousand <= heaviest
                                       ? fmt::format(" Did you mean {:.4g} kg/m3 ({:.4g} g/cm3)?", thousand, density)
                                       : " Are mass, width, height and depth_m in kg and m?";
-        found =
-            doubt(refused, fmt::format("{} has {:.4g} kg/m3 ({:.4g} kg in {:.4g} x {:.4g} x {:.4g} m), and stone has "
-                                       "{:.0f} to {:.0f}.{}",
-                                       block.name, density, block.mass_kg, block.width_m, block.height_m, depth,
-                                       lightest, heaviest, meant));
+        found = doubt(
+            refused,
+            fmt::format("{} has {:.4g} kg/m3 ({:.4g} kg in {:.4g} x {:.4g} x {:.4g} m); stone has {:.0f} to {:.0f}.{}",
+                        block.name, density, block.mass_kg, block.width_m, block.height_m, depth, lightest, heaviest,
+                        meant));
     }
     return found;
 }
@@ -226,7 +225,7 @@ Finding check_friction(const Subject& s)
         return std::nullopt;
     const double worst = mu.high > high ? mu.high : mu.low;
     return doubt(worst > absurd,
-                 fmt::format("The friction is {:.4g}, and that of stone on stone is 0.4 to 0.8.{}", worst,
+                 fmt::format("The friction is {:.4g}; that of stone on stone is 0.4 to 0.8.{}", worst,
                              worst > high && worst / 100 >= low ? fmt::format(" Did you mean {:.4g}?", worst / 100)
                                                                 : std::string()));
 }
@@ -250,10 +249,10 @@ Finding check_damping(const Subject& s)
     const double ratio = std::max(normal, tangential);
     if (ratio <= most)
         return std::nullopt;
-    return doubt(false,
-                 fmt::format("The contacts have {:.3g} of their critical damping ({} direction): impacts of stone "
-                             "have 0.05 to 0.5.",
-                             ratio, normal == ratio ? "normal" : "tangential"));
+    return doubt(
+        false,
+        fmt::format("The damping ratio of the contacts is {:.3g} ({} direction); impacts of stone have 0.05 to 0.5.",
+                    ratio, normal == ratio ? "normal" : "tangential"));
 }
 
 Finding check_stiffness(const Subject& s)
@@ -267,8 +266,8 @@ Finding check_stiffness(const Subject& s)
             worst = own;
     if (worst >= softest && worst <= stiffest)
         return std::nullopt;
-    return doubt(false, fmt::format("normal_stiffness_n_m2 over depth_m is {:.3g} N/m3, and beds of stone have 1e9 to "
-                                    "1e10. It is for the whole depth of {:.3g} m.",
+    return doubt(false, fmt::format("normal_stiffness_n_m2 over depth_m is {:.3g} N/m3; beds of stone have 1e9 to "
+                                    "1e10. The stiffness is that of the whole depth of {:.3g} m.",
                                     worst, depth));
 }
 
@@ -280,8 +279,8 @@ Finding check_size(const Subject& s)
     for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
         const double least = std::min({block.width_m, block.height_m, depth});
         if (least < smallest)
-            return doubt(false, fmt::format("{} is {:.4g} x {:.4g} m, {:.4g} m deep: a size below {} m is no block of "
-                                            "stone. Lengths are in metres.",
+            return doubt(false, fmt::format("{} is {:.4g} x {:.4g} m, {:.4g} m deep: a size below {} m is implausible "
+                                            "for a stone block. Lengths are in metres.",
                                             block.name, block.width_m, block.height_m, depth, smallest));
         if (const double ratio = depth / block.width_m; ratio > flattest || 1 / ratio > flattest)
             return doubt(false, fmt::format("{} is {:.4g} m wide and {:.4g} m deep. Is depth_m in metres?", block.name,
@@ -291,7 +290,7 @@ Finding check_size(const Subject& s)
     if (top <= tallest)
         return std::nullopt;
     return doubt(false,
-                 fmt::format("The structure is {:.4g} m high, and the highest ancient columns have 20 m. Lengths are "
+                 fmt::format("The structure is {:.4g} m high; the highest ancient columns have 20 m. Lengths are "
                              "in metres.",
                              top));
 }
@@ -331,22 +330,20 @@ Finding check_spread(const Subject& s)
     for (const Perturbation& p : s.study.perturbations) {
         const double part = spread_of(p, width, height);
         if (part > size_part)
-            return doubt(false,
-                         p.quantity == Quantity::tilt
-                             ? fmt::format("perturbation.tilt spreads by {:.3g} rad: a base that far out of level "
-                                           "is a ramp. Angles are in radians.",
-                                           part / 2)
-                             : fmt::format("perturbation.{} spreads by {:.3g} of a block's size: masons work to "
-                                           "a hundredth. Lengths are in metres.",
-                                           to_string(p.quantity), part));
+            return doubt(false, p.quantity == Quantity::tilt
+                                    ? fmt::format("perturbation.tilt has a spread of {:.3g} rad, which is implausible "
+                                                  "for the level of a base. Angles are in radians.",
+                                                  part / 2)
+                                    : fmt::format("perturbation.{} has a spread of {:.3g} of a block's size; masonry "
+                                                  "tolerances are about 0.01. Lengths are in metres.",
+                                                  to_string(p.quantity), part));
         if (p.distribution == DistributionKind::normal && p.cov > cov)
             return doubt(false, fmt::format("perturbation.{} has a coefficient of variation of {:.3g}: 10 % is 0.1.",
                                             to_string(p.quantity), p.cov));
         if (p.distribution == DistributionKind::lognormal && p.sigma_ln > sigma_ln)
-            return doubt(false,
-                         fmt::format("perturbation.{} has sigma_ln = {:.3g}: one in three realizations is more than "
-                                     "{:.3g} times off.",
-                                     to_string(p.quantity), p.sigma_ln, std::exp(p.sigma_ln)));
+            return doubt(false, fmt::format("perturbation.{} has sigma_ln = {:.3g}: one in three realizations deviates "
+                                            "by more than a factor of {:.3g}.",
+                                            to_string(p.quantity), p.sigma_ln, std::exp(p.sigma_ln)));
     }
     return std::nullopt;
 }
@@ -357,8 +354,8 @@ Finding check_file_size(const Subject& s)
     if (s.facts.file_bytes <= large)
         return std::nullopt;
     return doubt(s.facts.file_bytes > absurd,
-                 fmt::format("The results of {} realizations take {:.3g} GB. Give fewer, or of a surface "
-                             "output.realizations = \"none\": counts alone.",
+                 fmt::format("The results of {} realizations need {:.3g} GB. Reduce their number, or for a surface "
+                             "give output.realizations = \"none\" (counts only).",
                              s.study.total(), s.facts.file_bytes / 1e9));
 }
 

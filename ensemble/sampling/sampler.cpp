@@ -181,8 +181,8 @@ void Sampler::move(const Twin& twin, Realization& realization) const
         const Block& below = realization.blocks[static_cast<std::size_t>(bed.lower)];
         const Block& above = realization.blocks[static_cast<std::size_t>(bed.upper)];
         if (std::abs(above.x_m - below.x_m) >= above.half_width_m + below.half_width_m)
-            throw InputError(fmt::format("twins.moves_m: moved by {:g} m, {} of realization {} does not touch {} any "
-                                         "more. Move it less.",
+            throw InputError(fmt::format("twins.moves_m: displaced by {:g} m, {} of realization {} does not touch {} "
+                                         "any more. Reduce the displacement.",
                                          twin.size, name(moved), study_->original(realization.index),
                                          name(bed.lower == moved ? bed.upper : bed.lower)));
     }
@@ -285,7 +285,7 @@ void Sampler::stack(const Values& values, Realization& realization) const
             if (height < blocks[i].height_m / 2)
                 throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
                                              "{:g} m for {}, less than half of its {:g} m: the columns of a colonnade "
-                                             "stay level. Lower its spread, or limit it with min and max.",
+                                             "have equal heights. Reduce its spread, or limit it with min and max.",
                                              realization.index, blocks[i].column, height, blocks[i].name,
                                              blocks[i].height_m));
         }
@@ -453,8 +453,8 @@ double Sampler::step(const Realization& realization) const
     if (*study_->run.step_s > bound.dt_s && !study_->run.allow_step_above_bound)
         throw InputError(
             fmt::format("run.step_s = {:g} is above {:.6g} s, the safe bound of realization {} (set by the "
-                        "{}); allowed: (0, {:.6g}].\n  Lower it, or leave it out: the step is then chosen "
-                        "for each realization. If it is meant, set run.allow_step_above_bound = true.",
+                        "{}); allowed: (0, {:.6g}].\n  Reduce it, or omit it: the step is then chosen for each "
+                        "realization. If it is intended, set run.allow_step_above_bound = true.",
                         *study_->run.step_s, bound.dt_s, realization.index, to_string(bound.governed_by), bound.dt_s));
     return *study_->run.step_s;
 }

@@ -37,12 +37,12 @@ void check_complete(const Specimen& specimen)
     const std::size_t n = specimen.half_width_m.size();
     const auto need = [&](const std::vector<double>& values, const char* name) {
         if (values.empty() || values.size() != n)
-            refuse(fmt::format("{} is absent, or has not one value for each of the {} blocks.\n  It is needed for "
-                               "simulations.",
-                               name, n));
+            refuse(fmt::format(
+                "{} is absent, or does not have one value for each of the {} blocks.\n  Simulations need it.", name,
+                n));
         for (std::size_t i = 0; i < n; ++i)
             if (!std::isfinite(values[i]))
-                refuse(fmt::format("{} of block {} is no number.", name, i));
+                refuse(fmt::format("{} of block {} is not a number.", name, i));
     };
     need(specimen.half_width_m, "half_width_m");
     need(specimen.half_height_m, "half_height_m");
@@ -53,8 +53,7 @@ void check_complete(const Specimen& specimen)
     if (!specimen.rest_y_m.empty())
         need(specimen.rest_y_m, "rest_y_m");
     if (specimen.joints.empty())
-        refuse(
-            "there are no joints.\n  They say which block stands on which: lower block (-1: the base), upper block.");
+        refuse("there are no joints.\n  A joint gives the lower block (-1: the base) and the upper block.");
     for (std::size_t i = 1; i < n; ++i)
         if (std::abs(specimen.depth_m[i] - specimen.depth_m[0]) > 1e-6 * specimen.depth_m[0])
             refuse(fmt::format("block 0 is {:g} m deep and block {} {:g} m.\n  Simulations are plane: all blocks have "
@@ -182,7 +181,7 @@ SpecimenStructure build_specimen(const Specimen& specimen)
     const bool alone = tree.columns.size() == 1 && tree.epistyles.empty();
     structure.kind = alone ? StructureKind::column : StructureKind::colonnade;
     if (tree.columns.size() > 1 && specimen.rest_x_m.empty())
-        refuse("rest_x_m is absent.\n  It says where the columns stand.");
+        refuse("rest_x_m is absent.\n  It gives the positions of the columns.");
     built.origin_x_m = alone ? rest_x(specimen, tree.columns[0][0]) : 0;
     const bool raised = specimen.base_block_half_width_m.has_value() && specimen.base_block_top_m > 0;
     const bool fixed = raised && !is_ground(specimen, tree);

@@ -66,9 +66,10 @@ double csv_number(const std::string& file, const CsvLine& line, std::size_t fiel
     const std::string_view digits = text.front() == '+' ? text.substr(1) : text;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size() || std::isinf(value))
-        throw InputError(file, line.number,
-                         fmt::format("{} = \"{}\" is no number.\n  Leave the field empty where nothing was measured.",
-                                     column, text.substr(0, 40)));
+        throw InputError(
+            file, line.number,
+            fmt::format("{} = \"{}\" is not a number.\n  Leave the field empty where nothing was measured.", column,
+                        text.substr(0, 40)));
     return value;
 }
 

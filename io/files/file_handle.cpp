@@ -92,14 +92,14 @@ FileHandle FileHandle::claim(const std::filesystem::path& file)
             refuse(folder, "cannot be written: " + reason(errno) + "; choose another output folder");
         FileHandle handle(descriptor, file);
         if (!handle.try_lock() || !handle.is_at(file))
-            refuse(file, "another run is just writing it; wait for its end, or choose another output");
+            refuse(file, "another run is writing it; wait until it ends, or choose another output");
         struct stat status = {};
         if (::fstat(descriptor, &status) == 0 && status.st_nlink == 1)
             return handle;
         // killed between two names for one file: only this name may go, the other one's content must stay
         ::unlink(file.c_str());
     }
-    refuse(file, "cannot be created anew; remove it, or choose another output");
+    refuse(file, "cannot be replaced; remove it, or choose another output");
 }
 
 std::uint64_t FileHandle::size() const
@@ -149,7 +149,8 @@ void FileHandle::reserve(std::uint64_t appended)
 {
     const auto bytes = static_cast<off_t>(size() + appended);
     if (bytes > 0 && ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0 && errno == ENOSPC)
-        refuse(path_, "needs " + std::to_string(bytes) + " bytes and the disk has not so many; choose another output");
+        refuse(path_, "needs " + std::to_string(bytes) +
+                          " bytes, more than the free space of the disk; choose another output");
 }
 
 void FileHandle::sync()

@@ -126,7 +126,7 @@ void write_new(hid_t parent, const std::string& path, hid_t stored, hid_t native
     for (const hsize_t n : dims)
         count *= n;
     if (count != values.size())
-        throw std::invalid_argument(path + " has not as many values as its shape says");
+        throw std::invalid_argument(path + " does not have the number of values of its shape");
     const Handle dataset = create_dataset(parent, path, stored, dims);
     if (count > 0)
         call("cannot write '" + path + "'",
@@ -289,9 +289,9 @@ Handle open_dataset(hid_t parent, const std::string& path, hid_t type, const Dim
         handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
     const Handle stored = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
     if (call("no type of '" + path + "'", [&] { return H5Tequal(stored.id(), type); }) == 0)
-        throw Error("'" + path + "' is not of the type that it should have");
+        throw Error("'" + path + "' does not have the required type");
     if (shape(dataset.id(), path) != dims)
-        throw Error("'" + path + "' has not the shape that it should have");
+        throw Error("'" + path + "' does not have the required shape");
     return dataset;
 }
 
@@ -451,7 +451,7 @@ Numbers read_numbers(hid_t parent, const std::string& path)
     for (const hsize_t n : numbers.dims)
         count *= static_cast<double>(n);
     if (count * static_cast<double>(H5Tget_size(stored.id())) > tightest * bytes)
-        throw Error("'" + path + "' promises more numbers than the file holds");
+        throw Error("'" + path + "' announces more numbers than the file contains");
     numbers.values.resize(static_cast<std::size_t>(count));
     if (count > 0)
         call("cannot read '" + path + "'", [&] {

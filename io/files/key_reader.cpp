@@ -177,9 +177,9 @@ std::vector<double> KeyReader::check_list(std::string_view key, const Range& ran
     std::vector<double> numbers;
     for (const TomlValue& entry : need(key, todo).entries) {
         if (entry.type != TomlValue::Type::number && entry.type != TomlValue::Type::integer)
-            refuse(key, fmt::format("has {} in it, which is {}, not a number", entry.shown(), entry.type_name()), todo);
+            refuse(key, fmt::format("contains {}, which is {}, not a number", entry.shown(), entry.type_name()), todo);
         if (!range.contains(entry.number))
-            refuse(key, fmt::format("has {} in it, which is outside {}", entry.shown(), range.text()), todo);
+            refuse(key, fmt::format("contains {}, which is outside {}", entry.shown(), range.text()), todo);
         numbers.push_back(entry.number + 0.0);
     }
     return numbers;
@@ -255,7 +255,7 @@ std::vector<std::uint64_t> KeyReader::whole_list_or_none(std::string_view key, s
         const bool whole = entry.type == TomlValue::Type::integer && entry.integer >= 0;
         const auto value = static_cast<std::uint64_t>(entry.integer);
         if (!whole || value < low || value > high)
-            refuse(key, fmt::format("has {} in it, which is no whole number in [{}, {}]", entry.shown(), low, high),
+            refuse(key, fmt::format("contains {}, which is not a whole number in [{}, {}]", entry.shown(), low, high),
                    hint);
         all.push_back(value);
     }
@@ -279,11 +279,11 @@ std::string KeyReader::text(std::string_view key) const
     if (value.type != TomlValue::Type::string && !typed)
         refuse(key, fmt::format("is {}, not a string", value.type_name()), "Give a string in double quotes.");
     if (value.text.empty())
-        refuse(key, "is empty", "Give a string, or leave the key out.");
+        refuse(key, "is empty", "Give a string, or omit the key.");
     constexpr std::size_t longest = 2048;
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
     if (value.text.size() > longest || std::any_of(value.text.begin(), value.text.end(), is_control))
-        refuse(key, fmt::format("is longer than {} characters or has control characters in it", longest),
+        refuse(key, fmt::format("is longer than {} characters or contains control characters", longest),
                "In a path write / for a backslash, or use single quotes: 'C:\\folder\\file'.");
     return value.text;
 }

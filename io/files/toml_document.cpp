@@ -51,7 +51,7 @@ toml::table parse(std::string_view text)
         std::replace_if(out.why.begin(), out.why.end(), is_control, ' ');
         throw out;
     } catch (const detail::BrokenAssertion&) {
-        throw NotToml{"the parser cannot make sense of it", 0};
+        throw NotToml{"the parser cannot read it", 0};
     }
 }
 

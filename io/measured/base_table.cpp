@@ -86,11 +86,10 @@ Motion of_columns(const std::filesystem::path& file)
         if (values == nullptr)
             continue;
         if (values->size() < fewest_samples)
-            text.refuse(fmt::format("has {} samples; it takes at least {} to shake a structure.", values->size(),
-                                    fewest_samples));
+            text.refuse(fmt::format("has {} samples; at least {} are required.", values->size(), fewest_samples));
         const auto [least, most] = std::minmax_element(values->begin(), values->end());
         if (*least == *most && (values == displacement || *least == 0))
-            text.refuse(fmt::format("its {} is {} at all times: nothing shakes.", name, *least));
+            text.refuse(fmt::format("its {} is {} at all times: there is no motion.", name, *least));
     }
     if (acceleration && displacement) {
         MeasuredRun run;

@@ -69,10 +69,10 @@ private:
             refuse(fmt::format("run {}: rate_hz = {:g} is outside [0, 1e6].", run.name, run.rate_hz));
         for (const SeriesName& name : series_names())
             if (const auto noise = name.in(run).noise_sd; noise && !(*noise >= 0 && *noise < 1e6))
-                refuse(
-                    fmt::format("run {}: {}: noise_sd = {:g} is no deviation.\n  It is one standard deviation, in the "
-                                "unit of the values.",
-                                run.name, name.path, *noise));
+                refuse(fmt::format(
+                    "run {}: {}: noise_sd = {:g} is not a valid deviation.\n  It is one standard deviation, in the "
+                    "unit of the values.",
+                    run.name, name.path, *noise));
     }
 
     void check_clock(const MeasuredRun& run)
@@ -87,9 +87,9 @@ private:
             if (i == 0)
                 continue;
             if (!(t[i] > t[i - 1]))
-                refuse(fmt::format("run {}: time_s goes from {} s to {} s at sample {}.\n  A clock must grow; put the "
-                                   "rows in order.",
-                                   run.name, t[i - 1], t[i], i));
+                refuse(fmt::format(
+                    "run {}: time_s goes from {} s to {} s at sample {}.\n  A clock must increase; sort the rows.",
+                    run.name, t[i - 1], t[i], i));
             steps.push_back(t[i] - t[i - 1]);
         }
         if (steps.empty())
@@ -115,12 +115,12 @@ private:
                                     "resampled.",
                                     100 * jitter / step, step));
         if (run.rate_hz > 0 && std::abs(run.rate_hz * step - 1) > 0.02)
-            warn(place, fmt::format("rate_hz says {:g} Hz and the clock {:g} Hz: the clock is believed.", run.rate_hz,
+            warn(place, fmt::format("rate_hz is {:g} Hz and the clock has {:g} Hz: the clock is used.", run.rate_hz,
                                     1 / step));
         if (!run.base_clock.empty() && run.base_clock != "cameras")
-            note(at(run, "base"), fmt::format("its clock is another one (\"{}\") than the cameras': the two may be "
-                                              "apart by an offset in time.",
-                                              run.base_clock));
+            note(at(run, "base"),
+                 fmt::format("its clock (\"{}\") differs from that of the cameras: the two may have a time offset.",
+                             run.base_clock));
     }
 
     std::size_t columns(const SeriesName& name, const MeasuredRun& run) const
@@ -135,17 +135,16 @@ private:
             return;
         const auto is_nan = [](double x) { return std::isnan(x); };
         if (std::all_of(values.begin(), values.end(), is_nan))
-            refuse(fmt::format("run {}: {} is NaN everywhere.\n  Leave the data set out where nothing was measured.",
+            refuse(fmt::format("run {}: {} is NaN everywhere.\n  Omit the data set where nothing was measured.",
                                run.name, name.path));
         const double largest = name.dimension == Dimension::acceleration ? 1000
                                : name.dimension == Dimension::angle      ? 1000
                                                                          : 200;
         for (const double value : values)
             if (std::abs(value) > largest)
-                refuse(
-                    fmt::format("run {}: {} has the value {:g}, beyond {:g}.\n  Units are SI; another one is said by "
-                                "the attribute unit. Did you mean {:.4g}?",
-                                run.name, name.path, value, largest, value / 1000));
+                refuse(fmt::format("run {}: {} has the value {:g}, beyond {:g}.\n  Units are SI; another unit is given "
+                                   "by the attribute unit. Did you mean {:.4g}?",
+                                   run.name, name.path, value, largest, value / 1000));
         const std::size_t stride = columns(name, run), times = run.time_s.size();
         std::size_t end = times; // of what should be seen
         if (run.collapse_time_s > 0)
@@ -184,7 +183,7 @@ private:
         const double found = noise_of(std::span(series.values).subspan(column), stride);
         constexpr double factor = 1.5;
         if (found > factor * *series.noise_sd || (found > 0 && found < *series.noise_sd / factor))
-            warn(place, fmt::format("noise_sd says {:.3g}, but from sample to sample the noise is {:.3g}{}.",
+            warn(place, fmt::format("noise_sd is {:.3g}, but the noise from sample to sample is {:.3g}{}.",
                                     *series.noise_sd, found, found < *series.noise_sd ? " (filtered before?)" : ""));
     }
 
@@ -213,7 +212,7 @@ private:
     void check_base(const MeasuredRun& run)
     {
         if (run.base_source == BaseSource::command)
-            note(at(run, "base"), "it is the command, not what the table did.");
+            note(at(run, "base"), "it is the command, not the measured motion of the table.");
         const Series& base = run.base_acceleration_m_s2;
         if (base.empty())
             return;
@@ -397,17 +396,18 @@ private:
                 (horizontal ? 0
                             : 0.01 * *std::max_element(specimen_.half_height_m.begin(), specimen_.half_height_m.end()));
             if (std::abs(common) > tolerance)
-                note(at(run, name), fmt::format("at rest all blocks are seen {} from their planned places alike: the "
-                                                "zero of the cameras{}.",
-                                                distance(common),
-                                                horizontal ? " (or of the table's displacement), or the specimen "
-                                                             "stands elsewhere on the base"
-                                                           : ""));
+                note(at(run, name),
+                     fmt::format("at rest all blocks have the same offset of {} from their nominal positions: the zero "
+                                 "of the cameras{}.",
+                                 distance(common),
+                                 horizontal
+                                     ? " (or of the table's displacement), or the position of the specimen on the base"
+                                     : ""));
             for (std::size_t b = 0; b < n; ++b)
                 if (std::abs(off[b] - common) > tolerance)
                     warn(fmt::format("run {}, {}, block {}", run.name, name, b),
-                         fmt::format("at rest it is {} from its planned place against the others, beyond the tolerance "
-                                     "of {}: put back off its place, a wedge under it, or its marker.",
+                         fmt::format("at rest it is {} from its nominal position relative to the others, beyond the "
+                                     "tolerance of {}: inaccurate placement, a wedge under it, or its marker.",
                                      distance(off[b] - common), distance(tolerance)));
         }
         if (run.blocks.theta_rad.empty())
@@ -418,7 +418,7 @@ private:
             const double sd = run.blocks.theta_rad.noise_sd.value_or(0) / std::sqrt(static_cast<double>(quiet));
             if (std::abs(mean) > level_rad + 5 * sd)
                 warn(fmt::format("run {}, blocks/theta_rad, block {}", run.name, b),
-                     fmt::format("at rest it is turned by {:.3g} rad: a wedge under it, or its camera marker.", mean));
+                     fmt::format("at rest it is rotated by {:.3g} rad: a wedge under it, or its camera marker.", mean));
         }
     }
 
@@ -426,7 +426,7 @@ private:
     {
         const std::string place = at(run, "collapsed");
         if (run.collapsed.has_value() && !*run.collapsed && run.collapse_time_s >= 0)
-            warn(place, fmt::format("it says no collapse, but collapse_time_s = {:g}.", run.collapse_time_s));
+            warn(place, fmt::format("the outcome is no collapse, but collapse_time_s = {:g}.", run.collapse_time_s));
         if (run.collapse_time_s >= 0 && !run.time_s.empty() &&
             (run.collapse_time_s < run.time_s.front() || run.collapse_time_s > run.time_s.back()))
             warn(place, fmt::format("collapse_time_s = {:g} is outside the clock, from {:g} s to {:g} s.",
@@ -451,9 +451,10 @@ private:
                 lost = lost || (i + 1 == times && (std::isnan(turned) || std::isnan(down)));
             }
         if (!*run.collapsed && fell)
-            warn(place, fmt::format("it says no collapse, but block {} lies on its side or has come down.", who));
+            warn(place,
+                 fmt::format("the outcome is no collapse, but block {} lies on its side or has come down.", who));
         if (*run.collapsed && !fell && !lost)
-            warn(place, "it says collapse, but all blocks stay upright and in sight to the end.");
+            warn(place, "the outcome is a collapse, but all blocks stay upright and visible to the end.");
     }
 
     // ---- among runs

@@ -71,7 +71,7 @@ void read_specimen(const KeyReader& table, Campaign& campaign)
     for (const SpecimenList& list : specimen_lists())
         for (const TomlValue& value : entries(table, list.name)) {
             if (!is_number(value))
-                table.refuse(list.name, fmt::format("has the entry {}, which is no number", value.shown()));
+                table.refuse(list.name, fmt::format("has the entry {}, which is not a number", value.shown()));
             (specimen.*list.member).push_back(value.number);
         }
     for (const SpecimenNumber& number : specimen_numbers())
@@ -167,7 +167,7 @@ private:
             }
             for (const Target& other : targets_)
                 if (other.series == target->series && other.block == target->block)
-                    throw InputError(file_, line.number, fmt::format("the column \"{}\" is there twice.", name));
+                    throw InputError(file_, line.number, fmt::format("the column \"{}\" occurs twice.", name));
             if (target->factor != 1)
                 campaign_.findings.push_back({Severity::note, fmt::format("run {}, {}", run_.name, name),
                                               fmt::format("was converted from {} to SI.", target->unit)});
@@ -181,9 +181,10 @@ private:
                     blocks = std::max(blocks, target.block + 1);
         for (std::size_t c = 0; c < targets_.size(); ++c)
             if (targets_[c].series && targets_[c].series->per_block && targets_[c].block >= blocks)
-                throw InputError(file_, line.number,
-                                 fmt::format("the column \"{}\" is of a block that is not there: they are 0 to {}.",
-                                             names_[c], static_cast<long>(blocks) - 1));
+                throw InputError(
+                    file_, line.number,
+                    fmt::format("the column \"{}\" refers to a block that does not exist: the blocks are 0 to {}.",
+                                names_[c], static_cast<long>(blocks) - 1));
         blocks_ = blocks;
     }
 
@@ -241,7 +242,8 @@ void check_run_name(const std::string& name, const KeyReader& table)
                    c == '.';
         });
     if (!plain)
-        table.refuse("name", "is no name of a file", "Letters, digits, '_', '-' and '.'; the run is in runs/NAME.csv.");
+        table.refuse("name", "is not a valid file name",
+                     "Letters, digits, '_', '-' and '.'; the run is in runs/NAME.csv.");
 }
 
 MeasuredRun read_run(const KeyReader& table, const fs::path& folder, Campaign& campaign)
@@ -396,7 +398,7 @@ Campaign read_measured_csv(const fs::path& folder)
         const std::string& name = campaign.runs.back().name;
         for (std::size_t i = 0; i + 1 < campaign.runs.size(); ++i)
             if (campaign.runs[i].name == name)
-                run.refuse("name", "is the name of another run too");
+                run.refuse("name", "is also the name of another run");
     }
     std::sort(campaign.runs.begin(), campaign.runs.end(),
               [](const MeasuredRun& a, const MeasuredRun& b) { return a.name < b.name; });
@@ -414,7 +416,7 @@ void write_measured_csv(const Campaign& campaign, const fs::path& folder)
     };
     const fs::path target = folder.filename().empty() ? folder.parent_path() : folder;
     if (fs::exists(target))
-        throw InputError(folder.string(), 0, "is there already.\n  Name a new folder; nothing was written.");
+        throw InputError(folder.string(), 0, "exists already.\n  Name a new folder; nothing was written.");
     const fs::path making =
         target.parent_path() / fmt::format(".{}.{}.creating", target.filename().string(), ::getpid());
     std::error_code error;

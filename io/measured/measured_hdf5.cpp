@@ -58,7 +58,7 @@ private:
             return std::nullopt;
         const double value = hdf5::read_any_number(object, name);
         if (!std::isfinite(value))
-            refuse(fmt::format("{} = {} is no number.\n  Write one, or leave the attribute out.", at(name), value));
+            refuse(fmt::format("{} = {} is not a number.\n  Write a number, or omit the attribute.", at(name), value));
         return value;
     }
     std::optional<std::string> text(hid_t object, const char* name) const
@@ -72,11 +72,13 @@ private:
     {
         const std::string format = text(file, "format").value_or("");
         if (format == "stylobate")
-            refuse("holds results, not measured data.\n  Give measured data; 'stylobate info' says what a file holds.");
+            refuse("contains results, not measured data.\n  Give measured data; 'stylobate info' prints the content of "
+                   "a file.");
         if (format != format_name)
-            refuse(fmt::format("is no measured data: its attribute format is \"{}\", not \"{}\".\n  io/FORMAT.md has "
-                               "the layout.",
-                               format, format_name));
+            refuse(fmt::format(
+                "is not a file of measured data: its attribute format is \"{}\", not \"{}\".\n  io/FORMAT.md has "
+                "the layout.",
+                format, format_name));
         const double version = number(file, "format_version").value_or(0);
         if (version != format_version)
             refuse(fmt::format("has format_version {}; this program reads {}.", version, format_version));
@@ -89,7 +91,7 @@ private:
             if (std::find(known.begin(), known.end(), name) == known.end()) {
                 const std::string meant = nearest_word(name, known);
                 tell(at(path + name),
-                     "is not known and not read." + (meant.empty() ? "" : " Did you mean " + meant + "?"));
+                     "is unknown and ignored." + (meant.empty() ? "" : " Did you mean " + meant + "?"));
             }
     }
 
@@ -221,7 +223,7 @@ private:
     void take_source(BaseSource source, MeasuredRun& run)
     {
         if (run.base_source == BaseSource::command && source != BaseSource::command)
-            tell(at("base"), "is partly a command and partly measured: all of it is taken as a command.");
+            tell(at("base"), "is partly a command and partly measured: all of it is treated as a command.");
         if (source == BaseSource::command)
             run.base_source = source;
     }
@@ -288,7 +290,7 @@ void try_in_child(const std::filesystem::path& path, std::uint64_t size)
         refusal.append(part, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     ::close(pipe[0]);
     if (child < 0)
-        throw std::system_error(errno, std::generic_category(), "cannot start a process to try the file");
+        throw std::system_error(errno, std::generic_category(), "cannot start a process to test the file");
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
@@ -296,7 +298,7 @@ void try_in_child(const std::filesystem::path& path, std::uint64_t size)
         throw InputError(refusal);
     if (status != 0)
         throw InputError(path.string(), 0,
-                         "is damaged: the HDF5 library breaks on it.\n  Take another copy of the file.");
+                         "is damaged: the HDF5 library crashes on it.\n  Use another copy of the file.");
 }
 
 void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)

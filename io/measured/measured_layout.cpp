@@ -149,8 +149,8 @@ BaseSource base_source(const Campaign& campaign, const std::string& what, const 
         if (text == to_string(source))
             return source;
     throw InputError(campaign.source, 0,
-                     fmt::format("{} = \"{}\" says nowhere that a base motion comes from.\n  Write \"table sensor\" "
-                                 "where it was measured on the table, \"command\" where it is what the table was told.",
+                     fmt::format("{} = \"{}\" is not a known source of a base motion.\n  Write \"table sensor\" if it "
+                                 "was measured on the table, \"command\" if it is the command to the table.",
                                  what, text));
 }
 
@@ -194,15 +194,15 @@ void check_shapes(Campaign& campaign)
                     counted = name.path;
                 }
             if (count > 0 && !(run.rate_hz > 0))
-                refuse(fmt::format("run {}: there is neither time_s nor rate_hz, so that the times of {} are "
-                                   "unknown.\n  Add one of them.",
-                                   run.name, counted));
+                refuse(fmt::format(
+                    "run {}: there is neither time_s nor rate_hz, so the times of {} are unknown.\n  Add one of them.",
+                    run.name, counted));
             for (std::size_t i = 0; i < count; ++i)
                 run.time_s.push_back(static_cast<double>(i) / run.rate_hz);
             if (count > 0)
                 campaign.findings.push_back(
                     {Severity::note, fmt::format("run {}, time_s", run.name),
-                     fmt::format("there is no clock: times from 0 at {:g} Hz are taken.", run.rate_hz)});
+                     fmt::format("there is no clock: times from 0 at {:g} Hz are assumed.", run.rate_hz)});
         }
         for (const SeriesName& name : series_names()) {
             const std::size_t n = name.in(run).values.size();

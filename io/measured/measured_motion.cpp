@@ -28,7 +28,7 @@ double spacing(const MeasuredRun& run)
     std::vector<double> steps;
     for (std::size_t i = 1; i < t.size(); ++i) {
         if (!(t[i] > t[i - 1]))
-            throw InputError(fmt::format("run {}: the clock goes from {} s to {} s at sample {}: it must grow.",
+            throw InputError(fmt::format("run {}: the clock goes from {} s to {} s at sample {}: it must increase.",
                                          run.name, t[i - 1], t[i], i));
         steps.push_back(t[i] - t[i - 1]);
     }
@@ -38,8 +38,8 @@ double spacing(const MeasuredRun& run)
     const double intervals = std::max(std::round(span / *middle), 1.0);
     constexpr double most_intervals = 1e7;
     if (intervals > most_intervals)
-        throw InputError(fmt::format("run {}: the clock spans {} s at steps of {} s: it has a gap beyond sense.",
-                                     run.name, span, *middle));
+        throw InputError(fmt::format("run {}: the clock spans {} s at steps of {} s: its gap is too large.", run.name,
+                                     span, *middle));
     return span / intervals;
 }
 

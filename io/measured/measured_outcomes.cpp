@@ -75,20 +75,20 @@ public:
                 const std::string meant = meant_key(name, names);
                 table_.findings.push_back(
                     {Severity::note, fmt::format("column \"{}\"", name.substr(0, 60)),
-                     "is not known and not read." + (meant.empty() ? "" : " Did you mean " + meant + "?")});
+                     "is unknown and ignored." + (meant.empty() ? "" : " Did you mean " + meant + "?")});
             } else if (std::count_if(columns_.begin(), columns_.end(),
                                      [&](const Known& k) { return k.column == known->column; }) > 1) {
                 throw InputError(table_.source, line.number,
-                                 fmt::format("the column \"{}\" says what another one says too.\n  Leave one.", name));
+                                 fmt::format("the column \"{}\" duplicates another one.\n  Keep one of them.", name));
             }
         }
         if (!has(Column::fell))
             throw InputError(table_.source, line.number,
-                             "no column says whether the specimen fell.\n  Name it fell, collapsed, overturned or "
+                             "no column gives the outcome.\n  Name it fell, collapsed, overturned or "
                              "toppled; io/FORMAT.md has the layout.");
         if (!has(Column::motion_file) && !has(Column::pga) && !(has(Column::amplitude) && has(Column::frequency)))
             throw InputError(table_.source, line.number,
-                             "no column says what shook the specimen.\n  Give motion_file, or amplitude_m and "
+                             "no column gives the motion.\n  Give motion_file, or amplitude_m and "
                              "frequency_hz, or pga_m_s2 and pgv_over_pga_s.");
     }
 
@@ -114,11 +114,10 @@ public:
                 if (const auto fell = fell_of(field))
                     outcome.fell = *fell;
                 else if (known_outcome)
-                    throw InputError(
-                        table_.source, line.number,
-                        fmt::format("{} = \"{}\" says neither that it fell nor that it stood.\n  Write 1 or "
-                                    "0, yes or no, fell or stood; leave it empty where it is not known.",
-                                    names_[c], field.substr(0, 40)));
+                    throw InputError(table_.source, line.number,
+                                     fmt::format("{} = \"{}\" is neither a fall nor a stand.\n  Write 1 or "
+                                                 "0, yes or no, fell or stood; leave it empty where it is not known.",
+                                                 names_[c], field.substr(0, 40)));
                 break;
             case Column::motion_file:
                 outcome.motion_file = field;
@@ -148,11 +147,11 @@ public:
         }
         const std::string place = fmt::format("line {}", line.number);
         if (!known_outcome) {
-            table_.findings.push_back({Severity::warning, place, "has no outcome and is left out."});
+            table_.findings.push_back({Severity::warning, place, "has no outcome and is omitted."});
             return;
         }
         if (outcome.motion_file.empty() && !outcome.pga_m_s2 && !(outcome.amplitude_m && outcome.frequency_hz)) {
-            table_.findings.push_back({Severity::warning, place, "does not say what shook it and is left out."});
+            table_.findings.push_back({Severity::warning, place, "has no motion and is omitted."});
             return;
         }
         if (pgv && outcome.pga_m_s2 && !outcome.pgv_over_pga_s)

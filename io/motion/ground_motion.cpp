@@ -105,19 +105,19 @@ Motion make_motion(const Record& record, bool correct_baseline, const std::optio
     const std::vector<double>& recorded = record.acceleration_m_s2;
     if (recorded.size() < fewest_samples)
         throw InputError(record.file, 0,
-                         fmt::format("{}: the record has {} samples; it takes at least {} to shake a structure.",
-                                     record.component, recorded.size(), fewest_samples));
+                         fmt::format("{}: the record has {} samples; at least {} are required.", record.component,
+                                     recorded.size(), fewest_samples));
     const auto [least, most] = std::minmax_element(recorded.begin(), recorded.end());
     const bool still = correct_baseline ? *least == *most : *least == 0 && *most == 0;
     if (still)
         throw InputError(record.file, 0,
-                         fmt::format("{}: the acceleration is {} m/s2 at all times: nothing shakes. Take another "
+                         fmt::format("{}: the acceleration is {} m/s2 at all times: there is no motion. Take another "
                                      "component.",
                                      record.component, *least));
     if (filter && !(filter->high_hz < 0.5 / record.dt_s))
         throw InputError(record.file, 0,
                          fmt::format("{}: a band-pass up to {} Hz needs more than {} samples a second; the record has "
-                                     "{}. Lower excitation.band_pass_hz.",
+                                     "{}. Reduce excitation.band_pass_hz.",
                                      record.component, filter->high_hz, 2 * filter->high_hz, 1 / record.dt_s));
     Motion motion;
     motion.corrected = correct_baseline;

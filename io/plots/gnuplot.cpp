@@ -95,7 +95,7 @@ void check_fonts(const TemporaryFolder& folder)
         return;
     const fs::path log = folder / "fonts.log";
     if (run_program(*lister, {}, folder.path(), log) == 0 && content_of(log).empty())
-        throw InputError("no picture can be drawn: this machine has no fonts, its texts would be missing.\n"
+        throw InputError("no picture can be drawn: this machine has no fonts, so the text would be missing.\n"
                          "  Install some: apt install fonts-dejavu-core.");
 }
 
@@ -133,10 +133,9 @@ fs::path find_gnuplot()
     if (named != nullptr && *named != '\0') {
         if (is_program(named))
             return fs::absolute(named);
-        throw InputError(
-            fmt::format("STYLOBATE_GNUPLOT = '{}' is no program that can be run.\n  Unset it, or set it to "
-                        "the path of gnuplot.",
-                        named));
+        throw InputError(fmt::format("STYLOBATE_GNUPLOT = '{}' is not an executable program.\n  Unset it, or set it to "
+                                     "the path of gnuplot.",
+                                     named));
     }
     if (const std::optional<fs::path> found = find_program("gnuplot"))
         return *found;
@@ -200,7 +199,7 @@ void run_gnuplot(const std::string& script, PictureSize size, const fs::path& fi
             said.pop_back();
         throw InputError(fmt::format("gnuplot could not draw '{}' (exit status {}): {}\n  Check that '{}' is a working "
                                      "gnuplot 5.4 or newer: apt install gnuplot-nox.",
-                                     file.string(), status, said.empty() ? "it said nothing" : said.substr(0, 600),
+                                     file.string(), status, said.empty() ? "no message" : said.substr(0, 600),
                                      gnuplot.string()));
     }
     target.write(picture);

@@ -67,7 +67,7 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
         script += fmt::format("set arrow from screen {}, screen {} to screen {}, screen {} nohead linewidth 1.2 "
                               "linecolor rgb '#b0b0b0'\n",
                               at.line, y, at.line + 0.024, y);
-        script += cell(fmt::format("{} others, more seldom", others), at.name, y, "left", font);
+        script += cell(fmt::format("{} others, less frequent", others), at.name, y, "left", font);
     }
     return script;
 }
@@ -128,8 +128,8 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
 {
     std::vector<std::size_t> shown = order_of_falls(order);
     if (shown.empty())
-        throw InputError(fmt::format("no block fell in {} valid realizations: there is no order of falls to draw.\n"
-                                     "  Draw the strip of one realization (--picture strip), or shake harder.",
+        throw InputError(fmt::format("no block fell in {} valid realizations: there is no order of falls to draw.\n  "
+                                     "Draw the strip of one realization (--picture strip), or increase the shaking.",
                                      order.trials));
     double last = 0;
     for (const std::size_t block : shown)
@@ -171,14 +171,14 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
     if (!note.empty())
         script += fmt::format("set label {} at screen 0.5, screen 0.873 center font ',19' textcolor rgb '#505050'\n",
                               gnuplot_text(note));
-    script += fmt::format("set lmargin at screen 0.085\nset rmargin at screen 0.55\n"
-                          "set bmargin at screen 0.1\nset tmargin at screen 0.845\nunset key\n"
-                          "set border 3 linewidth 0.8\nset tics out nomirror\n"
-                          "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
-                          "set xrange [0:{}]\nset yrange [0:{}]\nset format y '%g'\n"
-                          "set xlabel 'time [s]' offset 0,-0.1\nset ylabel 'share of realizations in which it has "
-                          "fallen' offset 0.6,0\n",
-                          end_s, 1.01 * top);
+    script += fmt::format(
+        "set lmargin at screen 0.085\nset rmargin at screen 0.55\n"
+        "set bmargin at screen 0.1\nset tmargin at screen 0.845\nunset key\n"
+        "set border 3 linewidth 0.8\nset tics out nomirror\n"
+        "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
+        "set xrange [0:{}]\nset yrange [0:{}]\nset format y '%g'\n"
+        "set xlabel 'time [s]' offset 0,-0.1\nset ylabel 'share of realizations with the block fallen' offset 0.6,0\n",
+        end_s, 1.01 * top);
     run_gnuplot(script + "plot " + curves, PictureSize{}, png);
 }
 

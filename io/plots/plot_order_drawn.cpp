@@ -136,11 +136,11 @@ void plot_order_drawn(const FallOrder& order, const std::vector<std::size_t>& sh
         "at screen {:.5f}\nunset key\nset border 3 linewidth 0.8\nset tics out nomirror\n"
         "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
         "set xrange [0:{}]\nset yrange [0:{}]\nset format y '%g'\n"
-        "set xlabel 'time [s]' offset 0,-0.1\nset ylabel 'share in which it has fallen' offset 0.6,0\n",
+        "set xlabel 'time [s]' offset 0,-0.1\nset ylabel 'share of realizations with the block fallen' offset 0.6,0\n",
         1 - (drawing_bottom + 80) / size.height, end_s, 1.01 * std::min(1.0, 1.1 * fallen_share(order, most)));
     script +=
         "set palette defined (" + palette + ")\n" +
-        fmt::format("set cbrange [{}:{}]\nset cblabel 'median time of its fall [s]' offset 0.6,0\nset cbtics font "
+        fmt::format("set cbrange [{}:{}]\nset cblabel 'median time of fall [s]' offset 0.6,0\nset cbtics font "
                     "',18'\nset colorbox user origin screen 0.885, screen {:.5f} size screen 0.018, screen {:.5f}\n",
                     scale.from, scale.to > scale.from ? scale.to : scale.from + 1, 1 - drawing_bottom / size.height,
                     (drawing_bottom - drawing_top) / size.height);

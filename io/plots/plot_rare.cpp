@@ -41,7 +41,7 @@ double decade_below(double p)
 
 std::string subtitle(const RareTable& table, std::size_t none)
 {
-    std::string text = "no repeat came to a collapse";
+    std::string text = "no repeat reached a collapse";
     if (std::isfinite(table.probability))
         text =
             fmt::format("probability of collapse {:.3g}{}", table.probability,
@@ -72,7 +72,7 @@ std::string chains_panel(const std::vector<Chain>& chains, double per_metre, dou
     }
     script += fmt::format("set lmargin at screen 0.125\nset rmargin at screen 0.745\nset border 3 linewidth 0.8\n"
                           "set xrange [0:{}]\nset xlabel 'largest displacement of the centre of the top block [{}]'\n"
-                          "set ylabel 'probability to exceed it' offset 0.5,0\nplot {}\nunset label\n",
+                          "set ylabel 'probability of exceedance' offset 0.5,0\nplot {}\nunset label\n",
                           1.05 * most_m * per_metre, per_metre > 1 ? "mm" : "m", plot.empty() ? "1/0" : plot);
     return script;
 }

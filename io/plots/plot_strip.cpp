@@ -70,10 +70,9 @@ std::size_t finite_samples(const Trajectory& t)
     while (good < samples && finite(good))
         ++good;
     if (good == 0 || blocks == 0)
-        throw InputError(
-            fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the realization, "
-                        "and see that output.trajectory_rate_hz is high enough.",
-                        t.index));
+        throw InputError(fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the "
+                                     "realization with a sufficiently high output.trajectory_rate_hz.",
+                                     t.index));
     return good;
 }
 
@@ -107,7 +106,7 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
     }
     if (drawn.blocks.empty())
         throw InputError(fmt::format("the trajectory of realization {} has no block above its base (y = 0).\n"
-                                     "  Heights are to be counted from the top of the base, in metres.",
+                                     "  Heights are measured from the top of the base, in metres.",
                                      t.index));
     // In a structure where nothing moves nothing can be told.
     if (std::all_of(drawn.fixed.begin(), drawn.fixed.end(), [](bool f) { return f; })) {

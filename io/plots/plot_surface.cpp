@@ -147,7 +147,7 @@ std::string describe_interval(const std::string& interval)
         return interval;
     std::string name = interval.substr(0, blank);
     if (name == "motions")
-        return fmt::format("{:.6g} % interval by the motions", 100 * level);
+        return fmt::format("{:.6g} % interval, clustered by motion", 100 * level);
     if (name != "adaptive" && name != "bootstrap" && name != "resampling") // the others are people
         name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     return fmt::format("{:.6g} % {} interval", 100 * level, name);
@@ -161,8 +161,8 @@ std::string describe_realizations(const SurfaceTable& surface)
     if (cells == 0 || surface.trials.size() != cells || surface.collapses.size() != cells ||
         surface.probability.size() != cells || surface.lower.size() != cells || surface.upper.size() != cells)
         throw InputError(
-            fmt::format("the surface of {} x {} cells has tables of other sizes: the results are damaged, "
-                        "or no surface's.\n  Draw the finished results of a study with kind = \"surface\".",
+            fmt::format("the surface of {} x {} cells has tables of other sizes: the results are damaged, or not those "
+                        "of a surface.\n  Draw the finished results of a study with kind = \"surface\".",
                         nf, np));
     const std::uint64_t all = std::accumulate(surface.trials.begin(), surface.trials.end(), std::uint64_t{0});
     const auto [least, most] = std::minmax_element(surface.trials.begin(), surface.trials.end());

@@ -37,7 +37,7 @@ std::vector<Record> parse(std::string_view content, const std::string& file, con
             return parser->parse(text, given);
         formats += fmt::format("{}{}", formats.empty() ? "" : ", ", parser->format);
     }
-    text.refuse(fmt::format("is of no known format ({}). Give a PEER .AT2 file, or a table with the time in s in its "
+    text.refuse(fmt::format("has an unknown format ({}). Give a PEER .AT2 file, or a table with the time in s in its "
                             "first column, the acceleration in the others, and at most one line of names above.",
                             formats));
 }
@@ -91,9 +91,9 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
     if (component.empty()) {
         if (records.size() == 1)
             return 0;
-        throw InputError(
-            records.front().file, 0,
-            fmt::format("has {} components and none was named. Give one as the component: {}.", records.size(), names));
+        throw InputError(records.front().file, 0,
+                         fmt::format("has {} components and none was selected. Give one as the component: {}.",
+                                     records.size(), names));
     }
     const std::string wanted = lower_case(trimmed(component));
     for (std::size_t i = 0; i < records.size(); ++i)
@@ -109,7 +109,7 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
             return static_cast<std::size_t>(*column - first);
     }
     throw InputError(records.front().file, 0,
-                     fmt::format("component = \"{}\" is not in it. It has: {}.", component, names));
+                     fmt::format("component = \"{}\" is not in it. Available: {}.", component, names));
 }
 
 } // namespace
@@ -120,14 +120,14 @@ std::string content_of(const std::filesystem::path& path, const std::string& wha
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
-        throw InputError(file, 0, fmt::format("there is no such file. Give the path of {}.", what));
+        throw InputError(file, 0, fmt::format("no such file. Give the path of {}.", what));
     if (!std::filesystem::is_regular_file(status))
         throw InputError(file, 0, fmt::format("is not a file. Give the path of {}.", what));
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (!error && size > largest_file)
         throw InputError(file, 0,
-                         fmt::format("has {} bytes, more than the {} that a record may have. Give the path of {}.",
-                                     size, largest_file, what));
+                         fmt::format("has {} bytes, more than the {} allowed for a record. Give the path of {}.", size,
+                                     largest_file, what));
     std::ifstream in(path, std::ios::binary);
     std::string content(error ? 0 : static_cast<std::size_t>(size), '\0');
     if (!in || error || !in.read(content.data(), static_cast<std::streamsize>(content.size())))
@@ -216,9 +216,9 @@ std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view
         text.refuse(
             i, fmt::format("the unit \"{}\" is not one of acceleration: g, g/10, m/s2, cm/s2, gal, mm/s2.", spelling));
     if (!given.empty() && given != unit)
-        text.refuse(i, fmt::format("the file says that its unit is {}, and the unit given is {}. Leave the unit out, "
-                                   "or correct it.",
-                                   unit, given));
+        text.refuse(i,
+                    fmt::format("the unit in the file is {}, but the unit given is {}. Omit the unit, or correct it.",
+                                unit, given));
     return unit;
 }
 
@@ -348,8 +348,8 @@ void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t la
         return;
     if ((aligned && cut.column != above->column) ||
         (alike && (cut.decimals != above->decimals || cut.exponent != above->exponent)))
-        text.refuse(last, fmt::format("the file stops inside its last number, \"{}\", which is shorter than those "
-                                      "above it. Get the whole file.",
+        text.refuse(last, fmt::format("the file ends inside its last number, \"{}\", which is shorter than those "
+                                      "above it. Obtain the complete file.",
                                       last_parts[place]));
 }
 

@@ -144,9 +144,11 @@ void refuse_other_series(const RecordText& text, std::size_t header_lines)
         for (const char* other : {"velocity", "displacement"})
             for (const char* series : {" time", " series", " history", " in units"})
                 if (line.find(std::string(other) + series) != std::string::npos)
-                    text.refuse(i, fmt::format("the file holds a {} and is no acceleration. Give the file with the "
-                                               "acceleration (.AT2).",
-                                               other));
+                    text.refuse(
+                        i,
+                        fmt::format(
+                            "the file holds a {} and not an acceleration. Give the file with the acceleration (.AT2).",
+                            other));
     }
 }
 
@@ -156,7 +158,7 @@ std::string read_unit(const RecordText& text, std::size_t header_lines, const st
         if (const std::string spelling = stated_unit(text.lines[i]); !spelling.empty())
             return unit_of_file(text, i, spelling, given);
     if (given.empty())
-        text.refuse("does not say the unit of its acceleration. Give it (excitation.unit, or --unit): \"m/s2\", "
+        text.refuse("does not contain the unit of its acceleration. Give it (excitation.unit, or --unit): \"m/s2\", "
                     "\"cm/s2\", \"gal\", \"mm/s2\" or \"g\".");
     return given;
 }
@@ -210,8 +212,8 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     }
     if (record.acceleration_m_s2.size() != size.samples)
         text.refuse(header,
-                    fmt::format("NPTS is {} and the file has {} values: it is {}. Get the whole file.", size.samples,
-                                record.acceleration_m_s2.size(),
+                    fmt::format("NPTS is {} and the file has {} values: it is {}. Obtain the complete file.",
+                                size.samples, record.acceleration_m_s2.size(),
                                 record.acceleration_m_s2.size() < size.samples ? "truncated or damaged" : "damaged"));
     refuse_cut_number(text, header + 1, last, false);
     return {record};

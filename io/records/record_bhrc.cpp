@@ -80,10 +80,10 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     record.dt_s = 1 / rate;
     check_dt(text, reals + 1, record.dt_s);
     if (std::fabs(static_cast<double>(count) * record.dt_s - duration_s) > 2 * record.dt_s)
-        text.refuse(points,
-                    fmt::format("{} samples at the {} in a second of line {} last {} s, and the duration is said "
-                                "to be {} s.",
-                                count, rate, reals + 2, static_cast<double>(count) * record.dt_s, duration_s));
+        text.refuse(
+            points,
+            fmt::format("{} samples at the {} per second of line {} last {} s, but the stated duration is {} s.", count,
+                        rate, reals + 2, static_cast<double>(count) * record.dt_s, duration_s));
 
     record.acceleration_m_s2 = fixed_width_numbers(text, first_value, count, width, per_line);
     for (double& a : record.acceleration_m_s2)
@@ -92,7 +92,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     if (line >= text.lines.size() || !trimmed(text.lines[line]).starts_with("/&"))
         text.refuse(std::min(line, text.lines.size() - 1),
                     "a line \"/&\" should end the component: the file is truncated, or the count in its header is "
-                    "wrong. Get the whole file.");
+                    "wrong. Obtain the complete file.");
     ++line;
     return record;
 }

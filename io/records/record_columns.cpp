@@ -103,11 +103,11 @@ double uniform_dt(const RecordText& text, const std::vector<double>& time_s, con
     const double median = *middle;
     const char* todo = "Times are in the first column, in seconds, and uniform.";
     if (!(median > 0))
-        text.refuse(line.front(), fmt::format("the first column does not grow from row to row. {}", todo));
+        text.refuse(line.front(), fmt::format("the first column does not increase from row to row. {}", todo));
     for (std::size_t i = 0; i + 1 < n; ++i)
         if (std::fabs(time_s[i + 1] - time_s[i] - median) > time_tolerance * median)
             text.refuse(line[i + 1], fmt::format("the time goes from {} s to {} s where steps are {:.6g} s: a row is "
-                                                 "missing, doubled or damaged. {}",
+                                                 "missing, duplicated or damaged. {}",
                                                  time_s[i], time_s[i + 1], median, todo));
     const double dt = (time_s.back() - time_s.front()) / static_cast<double>(n - 1);
     for (std::size_t i = 0; i < n; ++i)
@@ -186,12 +186,12 @@ ColumnTable read_rows(const RecordText& text, std::size_t first_row)
 std::vector<Record> parse(const RecordText& text, const std::string& unit)
 {
     if (unit.empty())
-        text.refuse("plain columns do not say the unit of the acceleration. Give it (excitation.unit, or --unit): "
+        text.refuse("plain columns do not contain the unit of the acceleration. Give it (excitation.unit, or --unit): "
                     "\"m/s2\", \"cm/s2\", \"gal\", \"mm/s2\" or \"g\".");
     const ColumnTable table = read_columns(text);
     const std::size_t columns = table.columns.size();
     if (columns == 1 && !table.stated_dt_s)
-        text.refuse(table.line.front(), "a single column says no time. Put the time in s into a first column, or a "
+        text.refuse(table.line.front(), "a single column contains no time. Put the time in s into a first column, or a "
                                         "line \"# dt = 0.01\" above the values.");
     std::vector<Record> records;
     for (std::size_t c = columns == 1 ? 0 : 1; c < columns; ++c) {
@@ -220,8 +220,9 @@ ColumnTable read_columns(const RecordText& text)
     if (table.columns.size() > 1) {
         table.dt_s = uniform_dt(text, table.columns.front(), table.line);
         if (table.stated_dt_s && std::fabs(*table.stated_dt_s - table.dt_s) > 0.01 * table.dt_s)
-            text.refuse(top.first_row, fmt::format("the comment says dt = {} s and the first column {} s. Correct one.",
-                                                   *table.stated_dt_s, table.dt_s));
+            text.refuse(top.first_row,
+                        fmt::format("the comment has dt = {} s and the first column {} s. Correct one of them.",
+                                    *table.stated_dt_s, table.dt_s));
     }
     table.names = names_of(text, top, table.columns.size());
     if (top.first_comment) {

@@ -46,7 +46,8 @@ bool recognise(const RecordText& text)
 std::string_view line_at(const RecordText& text, std::size_t i)
 {
     if (i >= text.lines.size())
-        text.refuse(text.lines.size() - 1, "the file ends inside a channel: it is truncated. Get the whole file.");
+        text.refuse(text.lines.size() - 1,
+                    "the file ends inside a channel: it is truncated. Obtain the complete file.");
     return text.lines[i];
 }
 
@@ -157,9 +158,11 @@ std::string unit_of(const RecordText& text, std::size_t i, const Header& header,
 {
     const double code = header.integers[2];
     if (header.integers[1] != 1)
-        text.refuse(header.integer_line + 1, fmt::format("integer 2 says that the quantity has code {}, and line {} "
-                                                         "that it is an acceleration (1). One of them is wrong.",
-                                                         header.integers[1], i + 1));
+        text.refuse(
+            header.integer_line + 1,
+            fmt::format(
+                "integer 2 gives the quantity code {}, but line {} gives an acceleration (1). One of them is wrong.",
+                header.integers[1], i + 1));
     if (!block.code.empty() && number(text, i, block.code) != code)
         text.refuse(i, fmt::format("the unit's code is {} here and {} in line {}. One of them is wrong.", block.code,
                                    code, header.integer_line + 2));
@@ -224,16 +227,16 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
 
     const double step_ms = header.reals[61], duration_s = header.reals[62], peak = header.reals[63];
     if (step_ms == header.unknown)
-        text.refuse(header.real_line, "the header does not know the sampling interval (real 62).");
+        text.refuse(header.real_line, "the header does not contain the sampling interval (real 62).");
     record.dt_s = step_ms / 1000;
     check_dt(text, header.real_line, record.dt_s);
     const double lasts = static_cast<double>(block.count) * record.dt_s;
     // n or n - 1 steps; the seconds of the line above the values are whole
     if (duration_s != header.unknown && std::fabs(lasts - duration_s) > 2 * record.dt_s)
-        text.refuse(header.real_line, fmt::format("{} samples every {} s last {} s, and real 63 says {} s.",
+        text.refuse(header.real_line, fmt::format("{} samples every {} s last {} s, but real 63 gives {} s.",
                                                   block.count, record.dt_s, lasts, duration_s));
     if (std::fabs(lasts - block.seconds) > 1 + 2 * record.dt_s)
-        text.refuse(i, fmt::format("{} samples every {} s (real 62) last {} s, and this line says {} s.", block.count,
+        text.refuse(i, fmt::format("{} samples every {} s (real 62) last {} s, but this line gives {} s.", block.count,
                                    record.dt_s, lasts, block.seconds));
     const double factor = unit_m_s2(record.unit);
     if (peak != header.unknown)
@@ -241,7 +244,7 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
     const auto per_line = static_cast<std::size_t>(block.format.per_line);
     for (std::size_t k = 0; k < values.size(); ++k)
         if (values[k] == header.unknown)
-            text.refuse(i + 1 + k / per_line, fmt::format("value {} is {}, by which the header means \"unknown\".",
+            text.refuse(i + 1 + k / per_line, fmt::format("value {} is {}, the header's code for \"unknown\".",
                                                           k % per_line + 1, header.unknown));
     for (double& a : values)
         a *= factor;
@@ -279,7 +282,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         ++line;
     }
     if (records.empty())
-        text.refuse(fmt::format("holds \"{}\" and no acceleration. Give the file with the acceleration.", others));
+        text.refuse(fmt::format("contains \"{}\" and no acceleration. Give the file with the acceleration.", others));
     return records;
 }
 

@@ -96,7 +96,7 @@ std::size_t acceleration_line(const RecordText& text, std::size_t top)
             return i;
     for (const char* other : {"points of veloc", "points of displ"})
         if (const std::size_t i = find_line(text, top, end, other); i < end)
-            text.refuse(i, fmt::format("the channel's first values are \"{}\": it is no acceleration.",
+            text.refuse(i, fmt::format("the channel's first values are \"{}\": it is not an acceleration.",
                                        squeezed(text.lines[i]).substr(0, 40)));
     text.refuse(top, "the channel has no line like \"3251 POINTS OF ACCEL DATA EQUALLY SPACED AT .020 SEC.\" or "
                      "\"13200 Accelerogram points at 200 pts/sec\" above its values: it is truncated, or of spectra, "
@@ -134,7 +134,7 @@ Record read_channel(const RecordText& text, std::size_t& line, const std::string
     const Block block = read_block(text, data);
     const std::size_t stated = find_line(text, top, data, "no. of points");
     if (stated < data && sample_count(text, stated, word_after(text.lines[stated], "no. of points")) != block.count)
-        text.refuse(data, fmt::format("{} values follow, and line {} says: {}. One of them is wrong.", block.count,
+        text.refuse(data, fmt::format("{} values follow, but line {} states: {}. One of them is wrong.", block.count,
                                       stated + 1, squeezed(text.lines[stated])));
     Record record;
     record.file = text.file;
@@ -167,7 +167,7 @@ Record read_channel(const RecordText& text, std::size_t& line, const std::string
     if (!follows("/&"))
         text.refuse(std::min(line, text.lines.size() - 1),
                     "a line that begins with \"/&\" should end the channel: the file is truncated, or a count in its "
-                    "headers is wrong. Get the whole file.");
+                    "headers is wrong. Obtain the complete file.");
     ++line;
     return record;
 }

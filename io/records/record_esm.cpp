@@ -78,9 +78,10 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const std::size_t header = header_lines(text);
     const std::size_t type = needed(text, header, "DATA_TYPE");
     if (lower_case(value_of(text.lines[type])) != "acceleration")
-        text.refuse(type, fmt::format("the file holds \"{}\" and is no acceleration. Give the file with the "
-                                      "acceleration (.ACC.ASC).",
-                                      value_of(text.lines[type])));
+        text.refuse(
+            type, fmt::format(
+                      "the file holds \"{}\" and not an acceleration. Give the file with the acceleration (.ACC.ASC).",
+                      value_of(text.lines[type])));
     Record record;
     record.file = text.file;
     record.format = esm_parser.format;
@@ -103,7 +104,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     if (duration < header && !value_of(text.lines[duration]).empty()) {
         const double duration_s = number(text, duration, value_of(text.lines[duration]));
         if (std::fabs(n * record.dt_s - duration_s) > 2 * record.dt_s)
-            text.refuse(duration, fmt::format("{} samples every {} s last {} s, and the duration is said to be {} s.",
+            text.refuse(duration, fmt::format("{} samples every {} s last {} s, but the stated duration is {} s.",
                                               count, record.dt_s, n * record.dt_s, duration_s));
     }
     const std::size_t peak = line_of(text, header, "PGA_CM/S^2");

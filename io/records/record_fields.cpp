@@ -17,8 +17,8 @@ namespace {
 [[noreturn]] void refuse_end(const RecordText& text, std::size_t first_line, std::size_t found, std::size_t count)
 {
     text.refuse(std::min(first_line, text.lines.size() - 1),
-                fmt::format("{} values should stand from here on and the file ends after {}: it is truncated, or its "
-                            "header is wrong. Get the whole file.",
+                fmt::format("{} values should follow, but the file ends after {}: it is truncated, or its header is "
+                            "wrong. Obtain the complete file.",
                             count, found));
 }
 

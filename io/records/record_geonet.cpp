@@ -50,8 +50,8 @@ std::string unit_of(const RecordText& text, std::size_t top, const std::string& 
     const std::string scale = word_after(text.lines[readings], "readings in units of ");
     if (!scale.empty() && (number(text, readings, scale) != 1 ||
                            canonical_unit(word_after(text.lines[readings], scale + " ")) != defined))
-        text.refuse(readings, fmt::format("the values are in units other than 1.00 mm/s/s (\"{}\"): they are no "
-                                          "accelerations yet. Give the corrected file (V2A).",
+        text.refuse(readings, fmt::format("the values are in units other than 1.00 mm/s/s (\"{}\"): they are not "
+                                          "accelerations. Give the corrected file (V2A).",
                                           squeezed(text.lines[readings])));
     return unit_of_file(text, peak, defined, given);
 }
@@ -93,9 +93,8 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     check_dt(text, first_real + 2, record.dt_s);
     const double n = static_cast<double>(count);
     if (std::fabs((n - 1) * record.dt_s - duration_s) > 2 * record.dt_s + 0.01) // n or n - 1 steps, in two decimals
-        text.refuse(first_real + 2,
-                    fmt::format("{} samples every {} s last {:.2f} s, and the duration is said to be {} s.", count,
-                                record.dt_s, n * record.dt_s, duration_s));
+        text.refuse(first_real + 2, fmt::format("{} samples every {} s last {:.2f} s, but the stated duration is {} s.",
+                                                count, record.dt_s, n * record.dt_s, duration_s));
 
     line = first_real + real_lines;
     for (const std::size_t which : {34u, 35u, 36u}) {

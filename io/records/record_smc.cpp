@@ -40,7 +40,7 @@ bool recognise(const RecordText& text)
 std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
     if (kind_of(text).find("accelerogram") == std::string::npos)
-        text.refuse(0, fmt::format("the file holds \"{}\" and is no acceleration. Give the file that begins with \"2 "
+        text.refuse(0, fmt::format("the file holds \"{}\" and not an acceleration. Give the file that begins with \"2 "
                                    "CORRECTED ACCELEROGRAM\".",
                                    squeezed(text.lines.front())));
     constexpr std::size_t first_real = text_lines + integer_lines, first_comment = first_real + real_lines;
@@ -53,7 +53,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const double comments = integers[15];
     if (!(comments >= 0 && comments < static_cast<double>(text.lines.size())) || comments != std::floor(comments))
         text.refuse(text_lines + 1,
-                    fmt::format("the number of comment lines, {}, is none that the file can have.", counted(15)));
+                    fmt::format("the number of comment lines, {}, is impossible for this file.", counted(15)));
     const std::size_t first_value = first_comment + static_cast<std::size_t>(comments);
     for (std::size_t i = first_comment; i < std::min(first_value, text.lines.size()); ++i)
         if (!text.lines[i].starts_with('|'))
@@ -77,7 +77,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const double unknown = reals[0];
     constexpr std::size_t rate_line = first_real;
     if (reals[1] == unknown || !(reals[1] > 0))
-        text.refuse(rate_line, fmt::format("the sampling rate is {}: the header does not know it.", reals[1]));
+        text.refuse(rate_line, fmt::format("the sampling rate is {}: unknown in the header.", reals[1]));
     record.dt_s = 1 / reals[1];
     check_dt(text, rate_line, record.dt_s);
     for (const std::size_t which : {29u, 31u})

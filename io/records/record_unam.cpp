@@ -106,8 +106,8 @@ std::size_t padding_rows(const RecordText& text, std::size_t last, std::size_t c
     for (std::size_t i = last + 1; i < text.lines.size(); ++i) {
         const std::string row = squeezed(text.lines[i]);
         if (!row.empty() && row != padding)
-            text.refuse(i, fmt::format("\"{}\" stands below the {} rows that the header counts, and is no copy of the "
-                                       "last of them: the count is wrong, or the file is damaged.",
+            text.refuse(i, fmt::format("\"{}\" stands below the {} rows that the header counts, and is not a copy of "
+                                       "the last of them: the count is wrong, or the file is damaged.",
                                        row.substr(0, 40), count));
         rows += row.empty() ? 0 : 1;
     }
@@ -142,7 +142,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const std::size_t count = sample_count(text, samples.lines[0], samples.values[0]);
     if (count > text.lines.size()) // before the product of a damaged count overflows
         text.refuse(samples.lines[0], fmt::format("{} samples are counted and the whole file has {} lines: it is "
-                                                  "truncated. Get the whole file.",
+                                                  "truncated. Obtain the complete file.",
                                                   count, text.lines.size()));
     std::vector<Record> records(channels);
     for (std::size_t c = 0; c < channels; ++c) {
@@ -161,13 +161,13 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         check_dt(text, interval.lines[c], record.dt_s);
         record.header_pga_m_s2 = stated_peak_m_s2(number(text, peak.lines[c], peak.values[c]), "cm/s2");
         if (samples.values[c] != samples.values[0])
-            text.refuse(samples.lines[c], "the channels differ in their number of samples: which rows are whose is "
-                                          "not known.");
+            text.refuse(samples.lines[c],
+                        "the channels differ in their number of samples, so the rows cannot be assigned to channels.");
         const double duration_s = number(text, duration.lines[c], duration.values[c]);
         const double lasts = static_cast<double>(count) * record.dt_s;
         if (std::fabs(lasts - duration_s) > 2 * record.dt_s + 0.01) // in two decimals
             text.refuse(duration.lines[c],
-                        fmt::format("{} samples every {} s last {} s, and the duration is said to be {} s.", count,
+                        fmt::format("{} samples every {} s last {} s, but the stated duration is {} s.", count,
                                     record.dt_s, lasts, duration_s));
     }
 

@@ -63,8 +63,9 @@ std::vector<long> times_of(const RecordText& text, std::size_t first_value, cons
                         fmt::format("the time {} s is not a whole number of milliseconds below 1000 s.", pairs[i]));
         const long time = static_cast<long>(ms);
         if (!times_ms.empty() && time <= times_ms.back())
-            text.refuse(line, fmt::format("the time {} s follows {} s: times must grow. A value is missing or doubled.",
-                                          pairs[i], pairs[i - 2]));
+            text.refuse(
+                line, fmt::format("the time {} s follows {} s: times must increase. A value is missing or duplicated.",
+                                  pairs[i], pairs[i - 2]));
         if (!times_ms.empty() && static_cast<double>(time - times_ms.back()) * time_unit_s > longest_dt_s)
             text.refuse(line, fmt::format("the time goes from {} s to {} s, more than {} s: values are missing.",
                                           pairs[i - 2], pairs[i], longest_dt_s));
@@ -100,7 +101,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
 
     const std::size_t first_value = top + text_lines + integer_lines + real_lines;
     if (count > text.lines.size() * per_line)
-        text.refuse(points, fmt::format("{} samples are said to follow, more than the file has room for: it is "
+        text.refuse(points, fmt::format("the header announces {} samples, more than the size of the file allows: it is "
                                         "truncated, or its header is wrong.",
                                         count));
     const auto pairs = fixed_width_numbers(text, first_value, 2 * count, width, per_line, 1);
@@ -108,8 +109,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     const std::vector<long> times_ms = times_of(text, first_value, pairs);
     const double last_s = static_cast<double>(times_ms.back()) * time_unit_s;
     if (!(std::fabs(last_s - duration_s) < 0.02))
-        text.refuse(points,
-                    fmt::format("the duration is said to be {} s and the last time is {} s.", duration_s, last_s));
+        text.refuse(points, fmt::format("the stated duration is {} s, but the last time is {} s.", duration_s, last_s));
 
     long step_ms = 0, longest_ms = 0;
     for (std::size_t i = 1; i < count; ++i) {

@@ -190,7 +190,7 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
     if (other.empty() && found.total != asked.total && !fewer)
         other = "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
     if (other.empty() && found.selected != asked.selected)
-        other = "its rows are chosen in another way";
+        other = "its rows are selected by another method";
     if (other.empty() && found.limit_states != asked.limit_states)
         other = found.has_rows() == asked.has_rows() ? "it counts other limit states"
                 : found.has_rows()                   ? "it keeps a row of each realization"
@@ -210,7 +210,7 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
         refuse("holds the results of another study: " + other + ". Choose another output.");
     if (found.code_version != asked.code_version)
         refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
-               ", whose results may have other bits. " +
+               ", whose results may differ bitwise. " +
                (file.complete ? "It is complete; choose another output to run the study again."
                               : "Finish it with the old version, or choose another output."));
 }
@@ -219,8 +219,7 @@ void check_unfinished(const ResultFile& file, const ResultHeader& asked)
 {
     check_same_study(file, asked);
     if (file.complete)
-        throw InputError(file.path.string(), 0,
-                         "is complete already: nothing is left to run. Choose another output to run the study again.");
+        throw InputError(file.path.string(), 0, "is already complete. Choose another output to run the study again.");
 }
 
 std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
@@ -385,7 +384,7 @@ void ResultFile::read_journal(
 void ResultFile::refuse_damaged(const std::string& text) const
 {
     throw InputError(path.string(), 0,
-                     "is damaged: " + text + ". Take a copy, or run the study again into another file.");
+                     "is damaged: " + text + ". Use a backup copy, or run the study again into another file.");
 }
 
 namespace {
@@ -413,19 +412,19 @@ std::optional<ResultFile> try_to_open(const std::filesystem::path& path, bool wr
         result.complete = hdf5::read_number(file, "complete") != 0;
         if (!result.header.has_rows()) {
             if (!extents.empty())
-                result.refuse_damaged("it has no rows, and yet a place for them");
+                result.refuse_damaged("it has no rows, but a data set for them");
             return result;
         }
         // a row has some bytes in the file, so that a larger number is wrong before anything is allocated for it
         if ((result.complete && result.header.total > result.handle.size()) ||
             result.header.block_names.size() > result.handle.size())
-            result.refuse_damaged("it cannot hold the rows that it promises");
+            result.refuse_damaged("it is too small for the rows that it announces");
         result.layout = ResultLayout(result.header);
         if (result.complete) {
             result.places = find_rows(file, result.layout);
         } else {
             if (extents.size() != 1 || extents[0].size != 0)
-                result.refuse_damaged("it is not complete, and yet has no room for rows");
+                result.refuse_damaged("it is not complete, but has no space for rows");
             result.journal = RowJournal(extents[0].offset);
             return result;
         }
@@ -435,7 +434,7 @@ std::optional<ResultFile> try_to_open(const std::filesystem::path& path, bool wr
         result.refuse_damaged(error.what());
     }
     if (result.places.extents(result.layout) != extents)
-        result.refuse_damaged("its rows are not where they should be");
+        result.refuse_damaged("its rows are not at their expected position");
     return result;
 }
 
@@ -448,7 +447,7 @@ ResultFile open_result(const std::filesystem::path& path, bool writable)
     for (int i = 0; i < patience; ++i)
         if (std::optional<ResultFile> opened = try_to_open(path, writable))
             return std::move(*opened);
-    throw InputError(path.string(), 0, "was replaced again and again while it was opened; try again");
+    throw InputError(path.string(), 0, "was replaced repeatedly while it was opened; try again");
 }
 
 } // namespace stylobate

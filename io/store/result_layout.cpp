@@ -189,7 +189,8 @@ ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes
         take(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
     const bool here = selected_ || (row.index >= first_index_ && row.index - first_index_ < rows_);
     if (!here || row.outcome.state > State::invalid || row.outcome.invalid_reason > InvalidReason::energy)
-        throw std::invalid_argument("a row of realization " + std::to_string(row.index) + " holds what no run writes");
+        throw std::invalid_argument("a row of realization " + std::to_string(row.index) +
+                                    " contains values that no run writes");
     return row;
 }
 

@@ -139,14 +139,14 @@ ResultRow ResultReader::row(std::uint64_t index) const
     const ResultHeader& of = header();
     if (!of.has_rows())
         throw InputError(impl_->file.path.string(), 0,
-                         "keeps no rows of its realizations (output.realizations = \"none\"). Replay realization " +
+                         "has no rows of realizations (output.realizations = \"none\"). Replay realization " +
                              std::to_string(index) + " instead.");
     const auto number = impl_->numbers.of(index);
     if (!number && of.selected)
         throw InputError(impl_->file.path.string(), 0,
                          "does not hold realization " + std::to_string(index) +
-                             ": an adaptive run takes of each cell as many as it needs. The index column of "
-                             "'export --to csv' says which there are.");
+                             ": an adaptive run computes a variable number in each cell. The index column of 'export "
+                             "--to csv' lists them.");
     if (index < of.first || (!of.selected && index - of.first >= of.total))
         throw InputError(impl_->file.path.string(), 0,
                          "has no realization " + std::to_string(index) + "; it has those from " +
@@ -201,7 +201,7 @@ SurfaceTable ResultReader::surface() const
             return table;
         for (const std::uint8_t method : hdf5::read_bytes(file, group + "method", method_type().id(), dims)) {
             if (method > static_cast<std::uint8_t>(IntervalMethod::surface))
-                throw hdf5::Error("'" + group + "method' holds what no run writes");
+                throw hdf5::Error("'" + group + "method' contains values that no run writes");
             table.method.push_back(static_cast<IntervalMethod>(method));
         }
         table.half_width = hdf5::read_any_number(opened.id(), "half_width");
@@ -238,7 +238,7 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
     const auto indices = trajectory_indices();
     if (!std::binary_search(indices.begin(), indices.end(), index))
         throw InputError(impl_->file.path.string(), 0,
-                         "has no trajectory of realization " + std::to_string(index) + "; 'replay' makes one");
+                         "has no trajectory of realization " + std::to_string(index) + "; 'replay' computes one");
     if (!complete())
         return trajectory_of(RowJournal::content(impl_->file.handle, impl_->trajectories.at(index)));
     return impl_->guarded([index](hid_t file) {
@@ -259,14 +259,14 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
         trajectory.half_height_m = hdf5::read_doubles(file, group + "half_height_m", {both[1]});
         for (const std::uint8_t role : hdf5::read_bytes(file, group + "role", role_type().id(), {both[1]})) {
             if (role > static_cast<std::uint8_t>(BlockRole::ground))
-                throw hdf5::Error("'" + group + "role' holds what no run writes");
+                throw hdf5::Error("'" + group + "role' contains values that no run writes");
             trajectory.role.push_back(static_cast<BlockRole>(role));
         }
         trajectory.column = hdf5::read_integers(file, group + "column", {both[1]});
         const hdf5::Handle opened = hdf5::open_group(file, group);
         trajectory.name = split_names(hdf5::read_text(opened.id(), names::blocks));
         if (trajectory.name.size() != both[1])
-            throw hdf5::Error("'" + group + "' has not a name for each block");
+            throw hdf5::Error("'" + group + "' does not have a name for each block");
         return trajectory;
     });
 }

@@ -31,8 +31,8 @@ constexpr std::array<char, 16> magic = {'s', 't', 'y', 'l', 'o', 'b', 'a',  't',
 constexpr std::array<unsigned char, 8> hdf5_signature = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint64_t smallest_block = 512;
 constexpr std::uint64_t largest_block = 1 << 20;
-constexpr char damaged[] = "is damaged: its bytes are not those that were written. Take a copy, or run the study again "
-                           "into another file.";
+constexpr char damaged[] =
+    "is damaged: its checksum is wrong. Use a backup copy, or run the study again into another file.";
 
 std::uint32_t crc_outside(const FileHandle& file, std::uint64_t from, std::uint64_t end,
                           const std::vector<Extent>& extents)

@@ -40,7 +40,7 @@ void check_trajectory(const Trajectory& trajectory)
         trajectory.base_x_m.size() != times || trajectory.half_height_m.size() != blocks ||
         trajectory.rest_x_m.size() != blocks || trajectory.rest_y_m.size() != blocks ||
         trajectory.role.size() != blocks || trajectory.column.size() != blocks || trajectory.name.size() != blocks)
-        throw std::invalid_argument("the arrays of a trajectory do not fit together");
+        throw std::invalid_argument("the arrays of a trajectory have inconsistent sizes");
     joined_names(trajectory.name); // for its refusals
 }
 

@@ -42,7 +42,7 @@ TimeCounts read_times(hid_t file, const std::string& name, std::uint64_t most)
         total += count[i];
         const bool in_order = counts.empty() || time[i] > counts.back().first;
         if (!(time[i] >= 0) || !in_order || count[i] == 0 || count[i] > most || total > most)
-            throw hdf5::Error("'" + name + "' holds what no run writes");
+            throw hdf5::Error("'" + name + "' contains values that no run writes");
         counts.emplace_back(time[i], count[i]);
     }
     return {std::move(counts), hdf5::read_number(group.id(), "exact") != 0};
@@ -126,7 +126,7 @@ TallyFile read_tally(hid_t file, const ResultHeader& header)
             wrong("the list of what is done");
     const DoneSet::Part all = counted.done.all();
     if (tally.added() != all.end || tally.all_invalid() != all.invalid)
-        wrong("they are not as many as the realizations that were counted");
+        wrong("their number differs from that of the counted realizations");
     return counted;
 }
 

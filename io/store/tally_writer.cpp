@@ -63,7 +63,7 @@ struct TallyWriter::Impl {
             write(surface, false);
         } catch (const hdf5::Error& error) {
             throw std::runtime_error(path.string() + ": cannot be written: " + error.what() +
-                                     "; it stays as it was written last");
+                                     "; it stays in its last written state");
         }
     }
 

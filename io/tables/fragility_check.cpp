@@ -24,10 +24,9 @@ void check_value(const FragilityFunction& function, const std::string& what, con
                  double most)
 {
     if (!(value.value >= least && value.value <= most && std::isfinite(value.value)))
-        refuse(function,
-               fmt::format("{} = {} is outside [{}, {}].\n  Where an estimate has no curve, pass its bounds on "
-                           "as a discrete function.",
-                           what, value.value, least, most));
+        refuse(function, fmt::format("{} = {} is outside [{}, {}].\n  Where an estimate has no curve, export its "
+                                     "bounds as a discrete function.",
+                                     what, value.value, least, most));
     if (!(value.lower <= value.value && value.value <= value.upper))
         refuse(function,
                fmt::format("{} = {} is outside its interval [{}, {}].", what, value.value, value.lower, value.upper));
@@ -44,8 +43,8 @@ void check_order(const FragilityModel& model, const FragilityFunction& function)
     const auto refuse_order = [&](std::size_t state, double intensity, double before, double here) {
         refuse(function,
                fmt::format("limit states in the wrong order: at intensity {:.4g} '{}' has probability {:.4g}, "
-                           "but '{}' before it {:.4g}.\n  Order them from the first to be reached, narrow "
-                           "the range, or pass on shares by stripe.",
+                           "but '{}' before it {:.4g}.\n  Order them from the first to be reached, narrow the range, "
+                           "or export shares by stripe.",
                            intensity, model.limit_states[state], here, model.limit_states[state - 1], before));
     };
     for (std::size_t s = 1; s < function.states.size(); ++s) {
@@ -80,10 +79,9 @@ double per_si_unit(const std::string& measure)
         if (error == std::errc() && rest == end && period > 0)
             return 1 / standard_gravity;
     }
-    throw InputError(
-        fmt::format("fragility: '{}' is no intensity measure of OpenQuake that is known here.\n  Known: PGA, "
-                    "PGV, PGD, SA(period), IA, CAV.",
-                    measure));
+    throw InputError(fmt::format("fragility: '{}' is not a known intensity measure of OpenQuake.\n  Known: PGA, "
+                                 "PGV, PGD, SA(period), IA, CAV.",
+                                 measure));
 }
 
 void check_fragility_model(const FragilityModel& model)

@@ -209,7 +209,7 @@ private:
                 const double mean = number(child, attribute(child, "mean"), "mean");
                 const double stddev = number(child, attribute(child, "stddev"), "stddev");
                 if (!(mean > 0))
-                    refuse(child, "mean = 0 is no lognormal capacity.");
+                    refuse(child, "mean = 0 is not a valid lognormal capacity.");
                 const double square = std::log1p(stddev / mean * (stddev / mean));
                 state.median = {mean / scale * std::exp(-square / 2)};
                 state.dispersion = {std::sqrt(square)};

@@ -48,7 +48,8 @@ const Table::Column* Table::find(const std::string& column) const
 
 void Table::refuse(const std::string& what) const
 {
-    throw InputError(file_, 0, "is damaged: " + what + ". Take a copy, or run the study again into another file.");
+    throw InputError(file_, 0,
+                     "is damaged: " + what + ". Use a backup copy, or run the study again into another file.");
 }
 
 const Table::Shape& Table::shape(const std::string& column) const
@@ -63,11 +64,11 @@ template <class T>
 const std::vector<T>& Table::values(const std::string& column, const Shape* shape) const
 {
     if (shape && this->shape(column) != *shape)
-        refuse("'" + name_ + "/" + column + "' does not have the shape that it should have");
+        refuse("'" + name_ + "/" + column + "' does not have the required shape");
     const Column* found = find(column);
     const auto* list = found ? std::get_if<std::vector<T>>(&found->values) : nullptr;
     if (!list)
-        refuse("'" + name_ + "/" + column + "' is missing, or not of the type that it should have");
+        refuse("'" + name_ + "/" + column + "' is missing, or does not have the required type");
     return *list;
 }
 

@@ -100,7 +100,7 @@ std::vector<FitKey> keys_of(const Study& study, const CalibrateOptions& wanted)
             for (const FitKey& key : keys)
                 known += (known.empty() ? "" : ", ") + key.key;
             throw InputError(
-                fmt::format("--hold {}: it is not fitted, so it cannot be held; fitted are {}", hold, known));
+                fmt::format("--hold {}: it is not fitted, so it cannot be held; fitted parameters: {}", hold, known));
         }
         keys.erase(found);
     }
@@ -208,12 +208,12 @@ void print_form(const FormCalibration& form, bool from_outcomes)
     std::size_t units = 0;
     for (const RunScore& run : form.runs)
         units += run.units;
-    fmt::print(
-        "  on motions left out: score {:+.1f} nats over the start's in {} {} (95 % from {:+.1f} to {:+.1f}): {}\n",
-        form.held_out.total, units, from_outcomes ? "runs" : "windows", form.held_out.low, form.held_out.high,
-        form.held_out.low > 0    ? "it predicts better"
-        : form.held_out.high < 0 ? "it predicts worse"
-                                 : "no difference that these data show");
+    fmt::print("  on held-out motions: score {:+.1f} nats above that of the start study in {} {} (95 % from {:+.1f} to "
+               "{:+.1f}): {}\n",
+               form.held_out.total, units, from_outcomes ? "runs" : "windows", form.held_out.low, form.held_out.high,
+               form.held_out.low > 0    ? "better prediction"
+               : form.held_out.high < 0 ? "worse prediction"
+                                        : "no significant difference");
 }
 
 void print_text(const Calibration& c, const std::string& results, const std::string& study)
@@ -221,13 +221,13 @@ void print_text(const Calibration& c, const std::string& results, const std::str
     for (const FormCalibration& form : c.forms)
         print_form(form, c.from_outcomes);
     if (c.forms.size() > 1)
-        fmt::print("best on motions left out: {}\n", form_name(c.forms[c.best].form));
+        fmt::print("best on held-out motions: {}\n", form_name(c.forms[c.best].form));
     for (const std::string& note : c.notes)
         fmt::print("note: {}\n", note);
     fmt::print("{}: {} parameter sets{}, {} runs and {} windows simulated in {}\n{}: the calibrated study\n", results,
                c.parameter_sets,
-               c.restored_sets > 0 ? fmt::format(" ({} of them kept from before)", c.restored_sets) : "", c.simulations,
-               c.window_simulations, duration_text(c.seconds), study);
+               c.restored_sets > 0 ? fmt::format(" ({} of them from an earlier run)", c.restored_sets) : "",
+               c.simulations, c.window_simulations, duration_text(c.seconds), study);
 }
 
 } // namespace
@@ -252,11 +252,11 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     Study start;
     if (wanted.study.empty() && table) {
         throw InputError(measured, 0,
-                         "a table of outcomes does not say what stood on the base.\n  Give its structure, and what the "
-                         "table leaves open of the shaking, by --study STUDY.toml.");
+                         "a table of outcomes does not describe the structure.\n  Give the structure, and the "
+                         "parameters of the shaking that the table omits, by --study STUDY.toml.");
     } else if (wanted.study.empty()) {
         start = default_study(campaign);
-        start = parse_study(start.text, "the study that a campaign is calibrated from by default", options.set);
+        start = parse_study(start.text, "the default start study of a calibration", options.set);
     } else {
         start = read_study(wanted.study, options.set);
     }
@@ -279,10 +279,10 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
         table ? calibrate(*table, start, search, run, console) : calibrate(campaign, start, search, run, console);
     if (!found.complete) {
         if (!options.quiet)
-            fmt::print(stderr,
-                       "Interrupted: {} of at most {} parameter sets are kept in {}. The same command goes on from "
-                       "there.\n",
-                       found.kept_sets, console.planned(), search.kept.string());
+            fmt::print(
+                stderr,
+                "Interrupted: {} of at most {} parameter sets are kept in {}. The same command continues from there.\n",
+                found.kept_sets, console.planned(), search.kept.string());
         return exit_interrupted;
     }
     const std::string text = calibrated_text(found, measured);

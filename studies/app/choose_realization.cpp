@@ -16,15 +16,15 @@ void check_asked(const RealizationChoice& choice)
     const bool by_property = choice.cells.frequency_hz || choice.cells.pga_m_s2 || !choice.cells.motion.empty() ||
                              choice.cells.intensity || choice.fallen || choice.stood || choice.nth;
     if (choice.index && by_property)
-        throw InputError(fmt::format("--realization {}: names one realization; leave out what chooses among them "
+        throw InputError(fmt::format("--realization {}: names one realization; omit the options that select among them "
                                      "(--frequency, --pga, --motion, --intensity, --fallen, --stood, --nth)",
                                      *choice.index));
     if (!choice.index && !by_property)
-        throw InputError("no realization is named.\n  Give its index by --realization I, or choose one: --frequency HZ "
+        throw InputError("no realization is given.\n  Give its index by --realization I, or select one: --frequency HZ "
                          "--pga M_S2 of a surface, --motion NAME --intensity X of a fragility study, --fallen or "
                          "--stood, --nth N.");
     if (choice.fallen && choice.stood)
-        throw InputError("--fallen --stood: no realization did both; give one of them");
+        throw InputError("--fallen --stood: these options exclude each other; give one of them");
     if (choice.nth && *choice.nth < 1)
         throw InputError(fmt::format("--nth {}: counts from 1", *choice.nth));
 }
@@ -61,8 +61,8 @@ ChosenRealization choose_realization(const Results& of, const RealizationChoice&
     if (header.has_rows())
         reader.for_each_row([&](const ResultRow& row) { consider(row.index, row.cell, row.outcome.state); });
     else if (by_outcome)
-        throw InputError(fmt::format("--{}: {} keeps no rows (output.realizations = \"none\"), and so not which "
-                                     "realization fell. Choose by --frequency, --pga and --nth.",
+        throw InputError(fmt::format("--{}: {} has no rows of realizations (output.realizations = \"none\"), so it "
+                                     "does not record which realization fell. Select by --frequency, --pga and --nth.",
                                      choice.fallen ? "fallen" : "stood", results));
     else
         for (std::uint64_t i = header.first; i < header.first + header.total; ++i)

@@ -49,7 +49,7 @@ struct CalibrateOptions {
     std::vector<std::string> fit;   ///< "KEY" or "KEY=FROM:TO", beside the contact's or instead of them
     std::vector<std::string> hold;  ///< keys of the contact that keep the study's value
     std::vector<std::string> forms; ///< contact forms, or "all"; empty: the study's
-    bool outcomes = false;          ///< use who fell and who stood even where there are histories
+    bool outcomes = false;          ///< use the outcomes (fell or stood) even where histories are available
     bool held_out = true;           ///< predict each motion by what the others say
 };
 

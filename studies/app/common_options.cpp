@@ -21,7 +21,7 @@ Isa CommonOptions::isa() const
     std::string names;
     for (const Isa other : usable)
         names += std::string(names.empty() ? "" : ", ") + to_string(other);
-    throw InputError(fmt::format("--simd {}: not on this machine; it has {}", simd, names));
+    throw InputError(fmt::format("--simd {}: not available on this machine; available: {}", simd, names));
 }
 
 int CommonOptions::thread_count() const

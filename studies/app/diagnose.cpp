@@ -46,10 +46,9 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     check_kind(measured, "diagnose");
     check_option_kind(study_file, FileKind::study, "--study");
     const Campaign campaign = read_campaign(measured);
-    const Study study = study_file.empty()
-                            ? parse_study(default_study(campaign).text,
-                                          "the study that a diagnosis begins with by default", options.set)
-                            : read_study(study_file, options.set);
+    const Study study = study_file.empty() ? parse_study(default_study(campaign).text,
+                                                         "the default start study of a diagnosis", options.set)
+                                           : read_study(study_file, options.set);
     demand_double(study, study_file.empty() ? "--set" : study_file, "a diagnosis");
     if (output.empty())
         output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
@@ -84,7 +83,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     } observer(console);
     std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
     if (!diagnosis) {
-        tell("Interrupted. The same command goes on: what chance gives is kept in " + how.cache.string() + ".");
+        tell("Interrupted. The same command continues: the null distribution is kept in " + how.cache.string() + ".");
         return exit_interrupted;
     }
     diagnosis->measured_fingerprint = fingerprint(measured);

@@ -38,28 +38,28 @@ std::string format_of(const ExportOptions& wanted)
     std::string ending = fs::path(wanted.output).extension().string();
     ending.erase(0, ending.empty() ? 0 : 1);
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string of_picture = "A picture's ending is .png, .svg or .pdf.";
+    const std::string of_picture = "The file extension of a picture is .png, .svg or .pdf.";
     if (wanted.format.empty() && !is_picture_format(ending))
         throw InputError(
             wanted.output.empty()
-                ? "what to write is not said: give --to png, svg, pdf, csv, nrml or json.\n  Or name a "
-                  "picture by -o: its ending says the format."
-                : fmt::format("-o {}: its ending says no format.\n  {} Tables need --to csv, nrml or json.",
-                              wanted.output, of_picture));
+                ? "no output format is given: give --to png, svg, pdf, csv, nrml or json.\n  Or name a picture by -o: "
+                  "its file extension selects the format."
+                : fmt::format(
+                      "-o {}: its file extension is not a known format.\n  {} Tables need --to csv, nrml or json.",
+                      wanted.output, of_picture));
     if (wanted.format.empty())
         return ending;
     if (wanted.output.empty())
         return wanted.format;
     if (is_picture_format(wanted.format) && ending != wanted.format)
-        throw InputError(
-            fmt::format("--to {} and -o {}: the ending of the file does not say {}.\n  {} It decides: leave "
-                        "out --to.",
-                        wanted.format, wanted.output, wanted.format, of_picture));
+        throw InputError(fmt::format(
+            "--to {} and -o {}: the file extension is not that of {}.\n  {} It selects the format: omit --to.",
+            wanted.format, wanted.output, wanted.format, of_picture));
     const auto files = {"png", "svg", "pdf", "csv", "xml", "nrml", "json", "html", "h5"};
     if (!is_picture_format(wanted.format) && std::find(files.begin(), files.end(), ending) != files.end())
-        throw InputError(fmt::format("--to {} and -o {}: these are several files, in a folder.\n  Name a folder, "
-                                     "without the ending of a file.",
-                                     wanted.format, wanted.output));
+        throw InputError(fmt::format(
+            "--to {} and -o {}: these are several files, in a folder.\n  Name a folder, without a file extension.",
+            wanted.format, wanted.output));
     return wanted.format;
 }
 
@@ -96,17 +96,16 @@ PictureKind picture_of(const Results& results, const ExportOptions& wanted)
                                 : !wanted.frequencies.empty() && of_slices != own.end() ? *of_slices
                                                                                         : own.front();
     if (!wanted.limit.empty() && !picture.limit)
-        throw InputError(
-            fmt::format("--limit {}: the picture '{}' shows no limit state; surface, slice and fragility do",
-                        wanted.limit, picture.name));
+        throw InputError(fmt::format(
+            "--limit {}: the picture '{}' shows no limit state; limit states are shown by surface, slice and fragility",
+            wanted.limit, picture.name));
     if (wanted.cell >= 0 && picture.name != order.name)
-        throw InputError(fmt::format("--cell {}: only --picture order is of one cell", wanted.cell));
+        throw InputError(fmt::format("--cell {}: applies to --picture order only", wanted.cell));
     if (wanted.realization >= 0 && picture.name != strip.name)
-        throw InputError(
-            fmt::format("--realization {}: only --picture strip is of one realization", wanted.realization));
+        throw InputError(fmt::format("--realization {}: applies to --picture strip only", wanted.realization));
     if (!wanted.frequencies.empty() && !picture.slices)
-        throw InputError(fmt::format("--frequency {}: only --picture slice is of some frequencies",
-                                     fmt::join(wanted.frequencies, ",")));
+        throw InputError(
+            fmt::format("--frequency {}: applies to --picture slice only", fmt::join(wanted.frequencies, ",")));
     return picture;
 }
 
@@ -150,7 +149,7 @@ void write_files(const std::vector<std::pair<std::string, std::string>>& files, 
     std::error_code error;
     fs::create_directory(folder, error);
     if (!fs::is_directory(folder))
-        throw InputError(folder.string(), 0, "cannot be made a folder: " + error.message());
+        throw InputError(folder.string(), 0, "the folder cannot be created: " + error.message());
     for (const auto& [name, text] : files)
         write_whole(folder / name, text);
 }
@@ -185,8 +184,9 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
                                        ? fmt::format("--frequency {}", fmt::join(wanted.frequencies, ","))
                                        : "";
     if (!of_picture.empty())
-        throw InputError(of_picture +
-                         ": is for --to png, svg or pdf; the tables hold every realization and every limit state");
+        throw InputError(
+            of_picture +
+            ": applies to --to png, svg or pdf; the tables contain every realization and every limit state");
     const Results results(file, options.set);
     const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
     check_output_folder(file, folder, options.force);

@@ -27,7 +27,7 @@ struct KindWords {
     const char* taken; ///< what a verb takes: "the results of a study"
 };
 constexpr KindWords kind_words[] = {
-    {FileKind::unknown, "none of stylobate's files", ""},
+    {FileKind::unknown, "not a file of stylobate", ""},
     {FileKind::study, "a study file", "a study file (TOML)"},
     {FileKind::results, "the results of a study", "the results of a study (HDF5)"},
     {FileKind::diagnosis, "a diagnosis", "a diagnosis"},
@@ -56,15 +56,15 @@ struct Use {
 constexpr Use uses[] = {
     {FileKind::study, "run", "stylobate run {}", "runs it, or continues an unfinished result of it"},
     {FileKind::results, "export", "stylobate export {} --to png", "draws it; --to csv: its tables"},
-    {FileKind::results, "report", "stylobate report {}", "makes a page of it"},
+    {FileKind::results, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::results, "replay", "stylobate replay {} --realization I",
      "runs one realization again, with its trajectory"},
-    {FileKind::diagnosis, "report", "stylobate report {}", "makes a page of it"},
-    {FileKind::calibration, "report", "stylobate report {}", "makes a page of it"},
-    {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds what the simulation gets wrong, and why"},
-    {FileKind::campaign, "calibrate", "stylobate calibrate {}", "finds contact parameters with intervals"},
+    {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
+    {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},
+    {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds the errors of the simulation and their causes"},
+    {FileKind::campaign, "calibrate", "stylobate calibrate {}", "estimates contact parameters with intervals"},
     {FileKind::outcomes, "calibrate", "stylobate calibrate {} --study STUDY.toml",
-     "finds contact parameters with intervals"},
+     "estimates contact parameters with intervals"},
     {FileKind::record, "record", "stylobate record {}", "its intensity measures and spectrum"},
 };
 
@@ -231,8 +231,8 @@ void check_kind(const std::string& file, std::string_view verb)
     for (const FileUse& use : uses_of(found, file))
         instead += fmt::format("\n  {}: {}", use.command, use.purpose);
     throw InputError(file, 0,
-                     fmt::format("is {}; stylobate {} takes {}.{}\n  stylobate info {}: what it holds", describe(found),
-                                 verb, takes, instead, file));
+                     fmt::format("is {}; stylobate {} takes {}.{}\n  stylobate info {}: prints its content",
+                                 describe(found), verb, takes, instead, file));
 }
 
 void check_option_kind(const std::string& file, FileKind wanted, const std::string& option)
@@ -244,8 +244,8 @@ void check_option_kind(const std::string& file, FileKind wanted, const std::stri
         return;
     }
     if (found.kind != wanted && found.kind != FileKind::unknown)
-        throw InputError(fmt::format("{} {}: is {}; it takes {}.\n  stylobate info {}: what it holds", option, file,
-                                     describe(found), words_of(wanted).taken, file));
+        throw InputError(fmt::format("{} {}: is {}; it takes {}.\n  stylobate info {}: prints its content", option,
+                                     file, describe(found), words_of(wanted).taken, file));
 }
 
 } // namespace stylobate

@@ -38,7 +38,7 @@ std::string describe(const RecognisedFile& file);
 struct FileUse {
     std::string verb;    ///< that takes the file as its own
     std::string command; ///< "stylobate report FILE"
-    std::string purpose; ///< "makes a page of it"
+    std::string purpose; ///< "writes a page of it"
 };
 std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name);
 

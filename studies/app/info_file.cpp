@@ -132,8 +132,7 @@ void tell_result(const std::string& file, Told& told)
                             header.code_version, done, header.total, reader.complete() ? "complete" : "unfinished");
     told.unfinished = !reader.complete();
     if (told.unfinished)
-        told.text +=
-            fmt::format("stylobate run STUDY.toml -o {}: continues it, with the study that it was begun with\n", file);
+        told.text += fmt::format("stylobate run STUDY.toml -o {}: continues it with the study stored in it\n", file);
     add_warnings(header.warnings, told);
 }
 
@@ -231,7 +230,7 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
                                  record.acceleration_m_s2.size(), record.dt_s, pga);
     }
     told.json.member("components", components);
-    told.text += "A study is shaken by it with excitation.kind = \"record\" and excitation.file.\n";
+    told.text += "To use it in a study: excitation.kind = \"record\" and excitation.file.\n";
 }
 
 } // namespace
@@ -276,7 +275,7 @@ void print_file(const CommonOptions& options, const std::string& file)
         if (!std::filesystem::exists(file))
             throw InputError(file, 0, "there is no such file");
         throw InputError(file, 0,
-                         "is none of the files that stylobate reads: a study (TOML), results, a diagnosis or a "
+                         "is not a file that stylobate reads: a study (TOML), results, a diagnosis or a "
                          "calibration (HDF5), a measured campaign (HDF5 or a folder with campaign.toml), measured "
                          "outcomes (CSV with a column 'fell'), or a record of ground motion.\n  io/FORMAT.md has the "
                          "layouts.");

@@ -22,7 +22,7 @@ namespace {
 
 void add_set(CLI::App& verb, CommonOptions& options)
 {
-    verb.add_option("--set", options.set, "KEY=VALUE: any key of the study file; may be given several times")
+    verb.add_option("--set", options.set, "KEY=VALUE: overrides any key of the study file; may be given several times")
         ->type_name("KEY=VALUE")
         ->take_all()
         ->allow_extra_args(false);
@@ -36,16 +36,16 @@ void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::s
     verb.add_option("--simd", options.simd, "instruction set")
         ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512", "neon"}))
         ->capture_default_str();
-    verb.add_option("--backend", options.backend, "where to compute")
+    verb.add_option("--backend", options.backend, "device that computes")
         ->check(CLI::IsMember(backends))
         ->capture_default_str();
-    verb.add_flag("--quiet", options.quiet, "no progress, no words: only results and errors");
+    verb.add_flag("--quiet", options.quiet, "prints only results and errors, no progress");
     verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
 }
 
 void add_force(CLI::App& verb, CommonOptions& options)
 {
-    verb.add_flag("--force", options.force, "replace what is there under the names of the outputs");
+    verb.add_flag("--force", options.force, "overwrite existing output files");
 }
 
 /// CLI11 would say of an unknown verb only that one is missing.
@@ -62,16 +62,16 @@ void check_verb(const CLI::App& app, int argc, char** argv)
     if (word.starts_with('-') || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
         return;
     const std::string meant = nearest_word(word, verbs);
-    throw InputError(fmt::format("{}; the verbs are {}.\n  {}",
-                                 word.empty() ? "no verb is given" : "'" + word + "' is no verb", list,
-                                 meant.empty() ? "stylobate --help says more." : "Did you mean " + meant + "?"));
+    throw InputError(fmt::format("{}; the commands are {}.\n  {}",
+                                 word.empty() ? "no command is given" : "'" + word + "' is not a command", list,
+                                 meant.empty() ? "Run stylobate --help." : "Did you mean " + meant + "?"));
 }
 
 /// One message in the manner of all others.
 std::string usage_message(const CLI::App* app, const CLI::Error& error)
 {
     const auto verbs = app->get_subcommands();
-    return fmt::format("stylobate: {}\n  stylobate {}--help says more.\n", error.what(),
+    return fmt::format("stylobate: {}\n  stylobate {}--help lists the options.\n", error.what(),
                        verbs.empty() ? "" : verbs.front()->get_name() + " ");
 }
 
@@ -120,19 +120,19 @@ private:
 
     void add_replay()
     {
-        auto* replay = app_.add_subcommand("replay", "run one realization of a result again, with its trajectory");
+        auto* replay = app_.add_subcommand("replay", "repeat one realization of a result and compute its trajectory");
         replay->add_option("RESULTS", file_, "results file (HDF5)")->required();
         replay->add_option("--realization", choice_.index, "its index");
         replay->add_option("--frequency", choice_.cells.frequency_hz,
-                           "instead, of a surface: the cell nearest to it [Hz]");
-        replay->add_option("--pga", choice_.cells.pga_m_s2, "of a surface: the cell nearest to it [m/s2]");
-        replay->add_option("--motion", choice_.cells.motion,
-                           "of a fragility study: name or number (from 0) of its motion");
-        replay->add_option("--intensity", choice_.cells.intensity, "of a fragility study: the level nearest to it");
-        replay->add_flag("--fallen", choice_.fallen, "one that fell");
-        replay->add_flag("--stood", choice_.stood, "one that did not fall");
-        replay->add_option("--nth", choice_.nth, "which of those, in the order of their indices, from 1 (default: 1)");
-        replay->add_option("-o,--output", output_, "results file for the trajectory (default: none is kept)");
+                           "surface: frequency of the cell, nearest value [Hz]");
+        replay->add_option("--pga", choice_.cells.pga_m_s2, "surface: PGA of the cell, nearest value [m/s2]");
+        replay->add_option("--motion", choice_.cells.motion, "fragility study: name or number (from 0) of the motion");
+        replay->add_option("--intensity", choice_.cells.intensity, "fragility study: intensity level, nearest value");
+        replay->add_flag("--fallen", choice_.fallen, "select a realization that fell");
+        replay->add_flag("--stood", choice_.stood, "select a realization that did not fall");
+        replay->add_option("--nth", choice_.nth,
+                           "which of the selected ones, in the order of their indices, from 1 (default: 1)");
+        replay->add_option("-o,--output", output_, "results file for the trajectory (default: not kept)");
         add_force(*replay, options_);
         add_set(*replay, options_);
         add_common(*replay, options_);
@@ -144,9 +144,9 @@ private:
         auto* record = app_.add_subcommand("record", "read ground motions: format, PGA, duration, frequencies, ...");
         record->add_option("FILE", files_, "records of any known format")->required();
         record->add_option("--unit", unit_,
-                           "unit of the acceleration where the file does not say it: m/s2, cm/s2, mm/s2, g, g/10");
+                           "unit of the acceleration if the file does not give it: m/s2, cm/s2, mm/s2, g, g/10");
         record->add_option("--component", component_,
-                           "one component: its name, its orientation, or its column counted from 1");
+                           "component to read: its name, its orientation, or its column counted from 1");
         record->add_option("--block", block_,
                            "WIDTHxHEIGHT of a rigid block in metres, such as 1x4.4: adds the measures of its rocking");
         add_common(*record, options_);
@@ -161,18 +161,20 @@ private:
                          "measured campaign (HDF5, or a folder of CSV files), or a table of outcomes (CSV)")
             ->required();
         calibrate->add_option("--study", calibration_.study,
-                              "study file to begin from (default: the specimen, nominal friction, a bed of 2e9 N/m3; a "
-                              "table of outcomes needs one)");
+                              "start study (default: the specimen, nominal friction, a bed of 2e9 N/m3; required for a "
+                              "table of outcomes)");
         calibrate->add_option("-o,--output", calibration_.output,
-                              "results (HDF5); the calibrated study lies beside it");
+                              "results (HDF5); the calibrated study is written beside it");
         calibrate
-            ->add_option("--fit", calibration_.fit,
-                         "KEY or KEY=FROM:TO: a number of the study file to fit too; several times")
+            ->add_option(
+                "--fit", calibration_.fit,
+                "KEY or KEY=FROM:TO: an additional number of the study file to fit; may be given several times")
             ->type_name("KEY")
             ->take_all()
             ->allow_extra_args(false);
         calibrate
-            ->add_option("--hold", calibration_.hold, "KEY: a contact parameter that keeps its value; several times")
+            ->add_option("--hold", calibration_.hold,
+                         "KEY: a contact parameter to keep fixed; may be given several times")
             ->type_name("KEY")
             ->take_all()
             ->allow_extra_args(false);
@@ -186,8 +188,8 @@ private:
             ->delimiter(',')
             ->check(CLI::IsMember(with_all));
         calibrate->add_flag("--outcomes", calibration_.outcomes,
-                            "use who fell and who stood even where there are histories");
-        calibrate->add_flag("--no-held-out", keep_all_, "do not predict each motion by what the others say");
+                            "use the outcomes (fell or stood) even where histories are available");
+        calibrate->add_flag("--no-held-out", keep_all_, "omit the cross-validation over motions");
         add_force(*calibrate, options_);
         add_set(*calibrate, options_);
         add_common(*calibrate, options_);
@@ -199,26 +201,24 @@ private:
 
     void add_diagnose()
     {
-        auto* diagnosing =
-            app_.add_subcommand("diagnose", "what the simulation gets wrong of measured data, the cause, the "
-                                            "extended model, the gain");
+        auto* diagnosing = app_.add_subcommand(
+            "diagnose",
+            "find the errors of the simulation of measured data, their cause, an extended model and its gain");
         diagnosing->add_option("MEASURED", file_, "measured campaign (HDF5, or a folder of CSV files)")->required();
-        diagnosing->add_option("--study", study_,
-                               "study file with the contacts to begin with (default: a bed of stone)");
+        diagnosing->add_option("--study", study_, "study file with the initial contacts (default: a bed of stone)");
         diagnosing->add_option("-o,--output", output_,
                                "file of the diagnosis (default: the campaign's name with _diagnosis.h5)");
         diagnosing
             ->add_option("--nulls", diagnosis_.nulls,
-                         "campaigns with nothing hidden that are simulated to learn what chance gives")
+                         "number of simulated null campaigns (without a hidden effect) for the null distribution")
             ->check(CLI::Range(0LL, 10000LL))
             ->capture_default_str();
-        diagnosing->add_option("--seed", diagnosis_.seed, "of what is drawn in them")
+        diagnosing->add_option("--seed", diagnosis_.seed, "seed of the null campaigns")
             ->check(CLI::Range(0LL, 999999999999LL))
             ->capture_default_str();
         diagnosing->add_flag(
             "--windows", diagnosis_.windows,
-            "let free windows of the simulation judge causes too: slow, and less sure than the balance of "
-            "forces");
+            "also test causes by free windows of the simulation: slow, and less reliable than the balance of forces");
         add_force(*diagnosing, options_);
         add_set(*diagnosing, options_);
         add_common(*diagnosing, options_);
@@ -231,10 +231,9 @@ private:
         auto* exporting = app_.add_subcommand("export", "write a result in other formats");
         exporting->add_option("RESULTS", file_, "results file (HDF5)")->required();
         exporting
-            ->add_option(
-                "--to", export_.format,
-                "a picture: png, svg or pdf; tables: csv, or of fragility studies nrml or json (default: by the "
-                "ending of -o)")
+            ->add_option("--to", export_.format,
+                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json (default: by "
+                         "the file extension of -o)")
             ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json"}));
         exporting
             ->add_option("--picture", export_.picture,
@@ -244,18 +243,20 @@ private:
             "--limit", export_.limit,
             "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
             "state of the study (default: peaks and collapse)");
-        exporting->add_option("--realization", export_.realization, "strip: which one (default: 0)")
+        exporting->add_option("--realization", export_.realization, "strip: index of the realization (default: 0)")
             ->check(CLI::Range(0LL, 999999999999LL));
-        exporting->add_option("--cell", export_.cell, "order: one cell of a surface (default: all of them)")
+        exporting->add_option("--cell", export_.cell, "order: one cell of a surface (default: all cells)")
             ->check(CLI::Range(0LL, 999999999999LL));
         exporting
-            ->add_option("--frequency", export_.frequencies,
-                         "slice: frequencies in Hz, within the axis; the nearest ones of it are drawn (default: three)")
+            ->add_option(
+                "--frequency", export_.frequencies,
+                "slice: frequencies in Hz, within the axis; the nearest ones of the axis are drawn (default: three)")
             ->delimiter(',');
-        exporting->add_option("--title", export_.title, "of the picture (default: by study.title, or the file's name)");
+        exporting->add_option("--title", export_.title,
+                              "title of the picture (default: study.title, or the file's name)");
         exporting->add_option(
             "-o,--output", export_.output,
-            "the picture, whose ending says its format (.png, .svg, .pdf), or the folder of the tables");
+            "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of the tables");
         add_force(*exporting, options_);
         add_set(*exporting, options_);
         add_common(*exporting, options_);
@@ -267,8 +268,8 @@ private:
         auto* report =
             app_.add_subcommand("report", "one self-contained page of a result, a diagnosis or a calibration");
         report->add_option("FILE", file_, "results file, diagnosis or calibration (HDF5)")->required();
-        report->add_option("-o,--output", output_, "the page, .html (default: the file's name with that ending)");
-        report->add_option("--title", title_, "of the page (default: by study.title, or the file's name)");
+        report->add_option("-o,--output", output_, "the page, .html (default: the file's name with that extension)");
+        report->add_option("--title", title_, "title of the page (default: study.title, or the file's name)");
         add_force(*report, options_);
         add_set(*report, options_);
         add_common(*report, options_);
@@ -277,7 +278,8 @@ private:
 
     void add_info()
     {
-        auto* info = app_.add_subcommand("info", "version, instruction sets, threads; or what a file holds");
+        auto* info =
+            app_.add_subcommand("info", "print version, instruction sets and threads, or the content of a file");
         info->add_option("FILE", file_,
                          "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, "
                          "measured data (HDF5, "

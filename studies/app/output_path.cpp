@@ -18,7 +18,7 @@ void check_not_input(const std::string& input, const fs::path& output)
 {
     std::error_code none;
     if (fs::equivalent(input, output, none))
-        throw InputError(fmt::format("-o {}: is the file that is read; choose another output", output.string()));
+        throw InputError(fmt::format("-o {}: is the input file; choose another output", output.string()));
 }
 
 void check_output(const std::string& input, const fs::path& output, bool force)

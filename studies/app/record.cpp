@@ -46,7 +46,7 @@ std::optional<BlockSize> block_size(const std::string& text)
     };
     if (cross == std::string::npos || !length(std::string_view(text).substr(0, cross), size.width) ||
         !length(std::string_view(text).substr(cross + 1), size.height))
-        throw InputError(fmt::format("--block {}: is no WIDTHxHEIGHT with lengths in (0, 100] m. Give the full width "
+        throw InputError(fmt::format("--block {}: is not WIDTHxHEIGHT with lengths in (0, 100] m. Give the full width "
                                      "and height of a block in metres, such as --block 1x4.4",
                                      text));
     return size;
@@ -138,11 +138,10 @@ void print(const Described& d)
     }
     fmt::print("  PGV, PGD     {:.4f} m/s, {:.4f} m (after the baseline correction)\n", im.pgv_m_s, im.pgd_m);
     fmt::print("  PGV/PGA      {:.4f} s\n", im.pgv_per_pga_s);
-    fmt::print(
-        "  baseline     {:+.4f} m/s and {:+.4f} m are left at the end of the record as it stands; the correction "
-        "changes the PGA by {:+.2f} %\n",
-        d.baseline.residual_velocity_before_m_s, d.baseline.residual_displacement_before_m,
-        100 * d.baseline.pga_change());
+    fmt::print("  baseline     {:+.4f} m/s and {:+.4f} m remain at the end of the uncorrected record; the correction "
+               "changes the PGA by {:+.2f} %\n",
+               d.baseline.residual_velocity_before_m_s, d.baseline.residual_displacement_before_m,
+               100 * d.baseline.pga_change());
     fmt::print("  Arias        {:.4f} m/s, 5 to 95 % in {:.2f} s; CAV {:.3f} m/s\n", im.arias_m_s, im.d5_95_s,
                im.cav_m_s);
     fmt::print("  frequency    {:.3f} Hz predominant, {:.3f} Hz mean\n", im.predominant_frequency_hz,

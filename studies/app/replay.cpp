@@ -163,12 +163,12 @@ void print_text(const Replayed& r)
     if (r.total_s >= 0)
         fmt::print("  total collapse at {:.4f} s: every column and every epistyle has fallen\n", r.total_s);
     else if (std::isnan(r.total_s))
-        fmt::print("  followed until the first fall only (outcome.follow = \"collapse\")\n");
-    fmt::print("  {}\n", !r.keeps_rows ? "the results keep no rows: there is nothing to compare it with"
+        fmt::print("  computed only until the first fall (outcome.follow = \"collapse\")\n");
+    fmt::print("  {}\n", !r.keeps_rows ? "the results have no rows of realizations: no comparison is possible"
                          : !r.known
-                             ? (r.complete ? "not in the results: the run did not need it" : "not in the results yet")
-                         : r.same ? "the same bits as in the results"
-                                  : "NOT the bits of the results");
+                             ? (r.complete ? "not in the results: not needed by the run" : "not in the results yet")
+                         : r.same ? "bitwise identical to the results"
+                                  : "NOT bitwise identical to the results");
     if (!r.trajectory.empty())
         fmt::print("  trajectory in {}\n", r.trajectory);
 }
@@ -218,10 +218,10 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     else if (!options.quiet)
         print_text(replayed);
     if (known && !same) {
-        fmt::print(stderr,
-                   "stylobate: realization {} came out otherwise than in {}, which was made by version {} (this "
-                   "is {})\n",
-                   index, results, header.code_version, code_version());
+        fmt::print(
+            stderr,
+            "stylobate: realization {} differs from the one in {}, which was computed by version {} (this is {})\n",
+            index, results, header.code_version, code_version());
         return exit_failed;
     }
     return exit_done;

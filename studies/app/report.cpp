@@ -25,9 +25,9 @@ void check_ending(const std::string& output)
 {
     const std::string ending = std::filesystem::path(output).extension().string();
     if (!ending.empty() && ending != ".html" && ending != ".htm")
-        throw InputError(fmt::format("-o {}: a page is HTML, and nothing else is written.\n  Name it with .html; a "
-                                     "browser prints it to PDF.",
-                                     output));
+        throw InputError(fmt::format(
+            "-o {}: a page is written as HTML only.\n  Give a name with .html; a browser can print it to PDF.",
+            output));
 }
 
 } // namespace
@@ -43,7 +43,8 @@ int report_command(const CommonOptions& options, const std::string& file, std::s
     std::vector<std::string> warnings;
     const FileKind kind = recognise(file).kind;
     if ((kind == FileKind::diagnosis || kind == FileKind::calibration) && !options.set.empty())
-        throw InputError(fmt::format("--set {}: {} holds a {}, which has no study to be set", options.set.front(), file,
+        throw InputError(fmt::format("--set {}: {} is a {} and contains no study whose keys could be set",
+                                     options.set.front(), file,
                                      kind == FileKind::diagnosis ? "diagnosis" : "calibration"));
     if (kind == FileKind::diagnosis) {
         page = diagnosis_page(read_diagnosis(file), file, title).text();

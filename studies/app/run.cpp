@@ -67,7 +67,7 @@ int report_finished(const CommonOptions& options, const std::string& results, co
     kind.restore(reader);
     kind.share(progress);
     if (!options.json && !options.quiet)
-        fmt::print("{}: complete already, nothing is left to run. (Remove it to run the study again.)\n", results);
+        fmt::print("{}: already complete. (Remove the file to run the study again.)\n", results);
     return report_run(options, {results, study, kind, progress, run, true});
 }
 

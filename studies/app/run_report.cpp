@@ -57,7 +57,7 @@ void print_text(const RunReport& r)
     if (!std::isnan(p.share)) // without those that have not ended because they take long
         fmt::print("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
                    100 * p.share_lower, 100 * p.share_upper);
-    fmt::print("Interrupted; {} realizations are kept. The same command continues where this one stopped.\n", p.done);
+    fmt::print("Interrupted; {} realizations are kept. The same command continues the run.\n", p.done);
 }
 
 } // namespace
@@ -75,7 +75,7 @@ int report_run(const CommonOptions& options, const RunReport& r)
         return exit_done;
     fmt::print(stderr,
                "stylobate: {} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
-               "`stylobate replay {} --realization I` runs one again; a smaller run.step_fraction may help.\n",
+               "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.\n",
                p.invalid, p.total, r.study.run.max_invalid_fraction, r.results);
     return exit_invalid;
 }

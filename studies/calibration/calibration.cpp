@@ -36,7 +36,7 @@ constexpr std::size_t most_keys = 12;
 void check(const Study& study, const FitKey& key)
 {
     if (!(std::isfinite(key.from) && std::isfinite(key.to) && key.from < key.to))
-        throw InputError(fmt::format("--fit {}: the range from {} to {} is none; give KEY=FROM:TO with FROM below TO",
+        throw InputError(fmt::format("--fit {}: the range from {} to {} is empty; give KEY=FROM:TO with FROM below TO",
                                      key.key, key.from, key.to));
     with_values(study, {key.key}, {key.from});
     with_values(study, {key.key}, {key.to});
@@ -64,8 +64,8 @@ std::vector<std::size_t> folds_of(const std::vector<CalibrationRun>& all, const 
 void refuse_vertical_record(const Study& study)
 {
     if (study.vertical)
-        throw InputError("mechanisms.vertical_motion.file: a calibration has no vertical record of each test. Leave it "
-                         "out, or give mechanisms.vertical_motion.ratio.");
+        throw InputError("mechanisms.vertical_motion.file: a calibration has no vertical record of each test. Omit it, "
+                         "or give mechanisms.vertical_motion.ratio.");
 }
 
 /// Progress of the whole calibration, from that of its parts.
@@ -130,8 +130,8 @@ double number_in(const Study& study, const std::string& key)
         begin = end + 1;
     }
     if (value == nullptr || (value->type != TomlValue::Type::number && value->type != TomlValue::Type::integer))
-        throw InputError(fmt::format("--fit {}: the study has no number of that name. Say it in the study file, or by "
-                                     "--set {}=VALUE, so that there is a value to start from.",
+        throw InputError(fmt::format("--fit {}: the study has no number of that name. Give a start value in the study "
+                                     "file, or by --set {}=VALUE.",
                                      key, key));
     return value->number;
 }
@@ -171,7 +171,7 @@ FitKey fit_key(const Study& study, const std::string& text)
     const double start = number_in(study, key.key);
     if (equals == std::string::npos) {
         if (!(start > 0))
-            throw InputError(fmt::format("--fit {}: the study has {} there, about which there is no range; give "
+            throw InputError(fmt::format("--fit {}: the start value is {}, for which there is no default range; give "
                                          "--fit {}=FROM:TO",
                                          key.key, start, key.key));
         key.from = start / 5;
@@ -186,7 +186,7 @@ FitKey fit_key(const Study& study, const std::string& text)
                 read = 0;
             }
             if (read == 0 || read != word.size())
-                throw InputError(fmt::format("--fit {}: '{}' is no number; give KEY=FROM:TO, such as "
+                throw InputError(fmt::format("--fit {}: '{}' is not a number; give KEY=FROM:TO, such as "
                                              "contact.friction=0.3:0.9",
                                              text, word));
             return value;
@@ -267,10 +267,9 @@ void mark_effective(FormCalibration& form)
         if (!p.determined)
             continue;
         p.determined = false;
-        p.note =
-            fmt::format("effective: of this model with the contact form {}, not of the specimen; its interval does "
-                        "not hold for another contact law",
-                        word_for(contact_form_names, form.form));
+        p.note = fmt::format("effective: a value of this model with the contact form {}, not of the specimen; its "
+                             "interval is not valid for another contact law",
+                             word_for(contact_form_names, form.form));
     }
 }
 
@@ -313,7 +312,7 @@ void search_forms(Calibration& result, Begin begin, const CalibrationOptions& op
     std::size_t folds = 0;
     const std::vector<std::size_t> fold = folds_of(all, evidence.runs(), folds);
     if (folds < 2)
-        result.notes.emplace_back("all runs are of one motion: no motion can be left out and predicted by the others");
+        result.notes.emplace_back("all runs are of one motion: cross-validation over motions is not possible");
 
     Counting counting(observer, forms.size() * CalibrationSearch::planned(begin.keys.size(), options, folds), options,
                       evidence);
@@ -415,10 +414,11 @@ Calibration calibrate(const Campaign& campaign, const Study& start, const Calibr
         result.from_outcomes = true;
     }
     if (!evidence)
-        throw InputError(fmt::format("{}: no run has both a base motion and either histories of the blocks or an "
-                                     "outcome (collapsed): nothing can be calibrated. Give base/acceleration_m_s2 and "
-                                     "blocks/x_m, blocks/theta_rad, or collapsed.",
-                                     campaign.source));
+        throw InputError(
+            fmt::format("{}: no run has both a base motion and either histories of the blocks or an "
+                        "outcome (collapsed): a calibration is not possible. Give base/acceleration_m_s2 and "
+                        "blocks/x_m, blocks/theta_rad, or collapsed.",
+                        campaign.source));
     const std::set<std::size_t> used(evidence->runs().begin(), evidence->runs().end());
     if (used.size() < campaign.runs.size() && options.runs.empty())
         result.notes.push_back(fmt::format("{} of {} runs are used: the others lack a base motion, or {}", used.size(),
@@ -452,8 +452,8 @@ Calibration calibrate(const OutcomeTable& table, const Study& start, const Calib
                          start.perturbations.empty() ? tolerances(Specimen{}) : start.perturbations, options.ensemble);
     if (!evidence)
         throw InputError(table.source, 0,
-                         "has no test that says what shook the specimen and whether it fell: nothing can be "
-                         "calibrated.\n  io/FORMAT.md has the layout.");
+                         "has no test with both a motion and an outcome: a calibration is not possible.\n  "
+                         "io/FORMAT.md has the layout.");
     std::vector<CalibrationRun> all;
     std::size_t fell = 0;
     for (const MeasuredOutcome& row : table.rows) {
@@ -461,9 +461,9 @@ Calibration calibrate(const OutcomeTable& table, const Study& start, const Calib
         fell += row.fell;
     }
     if (fell == 0 || fell == all.size())
-        result.notes.push_back(fmt::format("all tests ended alike (all {}): they can bound a parameter to one side "
-                                           "alone",
-                                           fell == 0 ? "stood" : "fell"));
+        result.notes.push_back(
+            fmt::format("all tests had the same outcome (all {}): they bound a parameter on one side only",
+                        fell == 0 ? "stood" : "fell"));
     search_and_keep(result, std::move(begin), options, std::move(evidence), all, run, observer);
     return result;
 }

@@ -185,7 +185,7 @@ StoredCalibration read_calibration(const std::filesystem::path& file)
         const hdf5::Handle open = hdf5::open_file(file, false);
         const hid_t root = open.id();
         if (!hdf5::has_attribute(root, "format") || hdf5::read_any_text(root, "format") != format_name)
-            throw InputError(file.string(), 0, "holds no calibration");
+            throw InputError(file.string(), 0, "contains no calibration");
         if (const std::uint64_t version = hdf5::read_number(root, "format_version"); version != format_version)
             throw InputError(
                 file.string(), 0,

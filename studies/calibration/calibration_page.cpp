@@ -41,9 +41,9 @@ std::string interval(const FittedParameter& p)
 /// "better", "worse", or that it cannot be told.
 std::string held_out_words(const PairedGain& gain)
 {
-    return gain.low > 0    ? "it predicts them better than the study that the calibration began from"
-           : gain.high < 0 ? "it predicts them worse than the study that the calibration began from"
-                           : "these data show no difference from the study that the calibration began from";
+    return gain.low > 0    ? "it predicts them better than the start study"
+           : gain.high < 0 ? "it predicts them worse than the start study"
+                           : "these data show no difference from the start study";
 }
 
 std::string gain_text(const PairedGain& gain)
@@ -100,8 +100,8 @@ private:
             : known == 0 ? std::string("These data determine none of the fitted parameters.")
                          : fmt::format("These data determine {} of {} fitted parameters.", known, all);
         page_.box(tone, heading,
-                  gain.groups == 0 ? Html("The calibrated study was not tried on motions that it was not fitted to.")
-                                   : fmt::format("On motions that were left out, {}.", held_out_words(gain)));
+                  gain.groups == 0 ? Html("The calibrated study was not tested on held-out motions.")
+                                   : fmt::format("On held-out motions, {}.", held_out_words(gain)));
         std::vector<std::pair<std::string, Html>> facts;
         for (const FittedParameter& p : best_.parameters)
             if (p.determined)
@@ -115,11 +115,11 @@ private:
         if (!open.empty())
             facts.emplace_back("Not determined", list_words(open));
         facts.emplace_back("Contact form", best_.name);
-        facts.emplace_back("Gain on motions left out", gain_text(gain) + (gain.groups > 0 ? " nats" : ""));
+        facts.emplace_back("Gain on held-out motions", gain_text(gain) + (gain.groups > 0 ? " nats" : ""));
         page_.facts(facts);
-        page_.note("Scores are logarithms of how likely a study makes the data, in nats: 1 nat more means 2.7 times as "
-                   "likely. A gain on motions left out is the score of each motion by the parameters that the other "
-                   "motions give, less its score by the study that the calibration began from.");
+        page_.note("Scores are log likelihoods of the data, in nats: 1 nat more means 2.7 times as likely. The gain on "
+                   "held-out motions is the score of each motion with the parameters fitted to the other motions, "
+                   "minus its score with the start study.");
     }
 
     void parameters()
@@ -141,12 +141,12 @@ private:
                     pairs.push_back(
                         fmt::format("{} and {} ({:+.2f})", best_.parameters[i].key, best_.parameters[j].key, r));
         if (!pairs.empty())
-            page_.note("Strongly correlated, so that one can stand in for the other: " + list_words(pairs) + ".");
+            page_.note("Strongly correlated and therefore partly interchangeable: " + list_words(pairs) + ".");
     }
 
     void undetermined()
     {
-        page_.section("What these data do not determine");
+        page_.section("Parameters that these data do not determine");
         if (determined() == best_.parameters.size()) {
             page_.paragraph("All fitted parameters are determined.");
             return;
@@ -157,9 +157,9 @@ private:
                 table.rows.push_back({code(p.key), interval(p), p.note.empty() ? "–" : p.note});
         page_.table(table);
         page_.note(
-            "The value of such a parameter is no measurement. An effective one belongs to this model with its "
+            "The value of such a parameter is not a measurement. An effective parameter belongs to this model with its "
             "contact form: its interval is that of the model's value, and an interval that reaches an end of the "
-            "searched range may go on beyond it. One without an interval keeps the value of the study.");
+            "searched range may extend beyond it. A parameter without an interval keeps the value of the study.");
     }
 
     void profiles()
@@ -168,10 +168,9 @@ private:
                         [](const FittedParameter& p) { return p.profile.empty(); }))
             return;
         page_.section("Profiles");
-        page_.paragraph("The best score that is left where one parameter is held at a value and all others are free, "
-                        "less the score of the calibrated study. Where a curve is flat the data say nothing of the "
-                        "parameter. Scores are rough: a point above 0 is a parameter set that scored higher by chance "
-                        "than the smooth law through all of them allows.");
+        page_.paragraph("The best score with one parameter held at a value and all others free, minus the score of the "
+                        "calibrated study. Where a curve is flat the data do not constrain the parameter. Scores are "
+                        "noisy: a point above 0 is a parameter set whose score lies above the smooth fit by chance.");
         for (const FittedParameter& p : best_.parameters) {
             if (p.profile.empty())
                 continue;
@@ -211,15 +210,17 @@ private:
     {
         page_.section("Contact forms");
         HtmlTable table{
-            "lrrl", {"form", "score over the start's, all runs [nat]", "on motions left out [nat] (95 %)", ""}, {}, ""};
+            "lrrl",
+            {"form", "score minus that of the start study, all runs [nat]", "on held-out motions [nat] (95 %)", ""},
+            {},
+            ""};
         for (const StoredForm& form : c_.forms)
             table.rows.push_back({form.name, signed_number(form.score - form.nominal_score), gain_text(form.held_out),
                                   &form == &best_ && c_.forms.size() > 1 ? tag("good", "best") : Html()});
         page_.table(table);
-        page_.note(c_.forms.size() > 1
-                       ? "The best form is the one that predicts motions best that were left out; intervals that "
-                         "overlap widely mean that these data do not tell the forms apart."
-                       : "Only this form was fitted; --form all compares them.");
+        page_.note(c_.forms.size() > 1 ? "The best form is the one with the best prediction of held-out motions. If "
+                                         "the intervals overlap widely, these data do not distinguish the forms."
+                                       : "Only this form was fitted; --form all compares them.");
     }
 
     void runs()
@@ -233,18 +234,18 @@ private:
                                   signed_number(run.calibrated - run.nominal)});
         }
         page_.table(table);
-        page_.note(
-            fmt::format("Each run is scored by the parameters that its own motion did not help to find.{}",
-                        best_.runs.size() > most_runs
-                            ? fmt::format(" The first {} of {} runs; the file has all.", most_runs, best_.runs.size())
-                            : ""));
+        page_.note(fmt::format(
+            "Each run is scored with parameters that were fitted without its own motion.{}",
+            best_.runs.size() > most_runs
+                ? fmt::format(" The first {} of {} runs; the file contains all of them.", most_runs, best_.runs.size())
+                : ""));
     }
 
     void notes()
     {
-        page_.section("What could not be used or judged");
+        page_.section("Data that could not be used");
         if (c_.notes.empty())
-            page_.paragraph("The calibration noted nothing that it could not use or judge.");
+            page_.paragraph("All data could be used.");
         else
             page_.list({c_.notes.begin(), c_.notes.end()});
     }
@@ -253,13 +254,11 @@ private:
     {
         page_.section("Method and cost");
         page_.paragraph(c_.evidence == "outcomes"
-                            ? "Evidence: which tests fell and which stood, each against the share of falls in a small "
-                              "ensemble of realizations."
+                            ? "Evidence: the outcome of each test (fell or stood), compared with the share of falls in "
+                              "a small ensemble of realizations."
                             : "Evidence: the measured histories, window by window: each window is simulated from its "
-                              "measured state and compared with what was measured.");
-        page_.paragraph(fmt::format("The score of one parameter set differs from the next by about {:.2g} nats for "
-                                    "reasons that no smooth law explains.",
-                                    best_.roughness));
+                              "measured state and compared with the measurement.");
+        page_.paragraph(fmt::format("The scores scatter about the smooth fit by {:.2g} nats.", best_.roughness));
         page_.paragraph(fmt::format("{} parameter sets, {} runs and {} windows simulated, {:.3g} block-steps, in {}.",
                                     c_.parameter_sets, c_.simulations, c_.window_simulations,
                                     static_cast<double>(c_.block_steps), duration_text(c_.seconds)));
@@ -275,7 +274,7 @@ private:
         for (const StoredForm& form : c_.forms)
             forms += (forms.empty() ? "" : ",") + form.name;
         page_.block(fmt::format("stylobate calibrate {} --study START.toml --form {}\n", c_.measured, forms));
-        page_.heading("The study that it began from");
+        page_.heading("The start study");
         page_.block(c_.start_toml);
         page_.heading("The calibrated study");
         page_.block(best_.study_toml);

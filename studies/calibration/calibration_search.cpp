@@ -111,7 +111,7 @@ std::size_t CalibrationSearch::best_tried() const
 /// as good as each other, or no longer become better.
 bool CalibrationSearch::refine()
 {
-    progress_.stage("rounds about the best");
+    progress_.stage("refinement about the optimum");
     const std::size_t d = keys_.size(), best = 3 * d;
     double last_mean = -std::numeric_limits<double>::infinity();
     for (std::size_t round = 0;; ++round) {
@@ -171,7 +171,7 @@ std::vector<ScoredPoint> CalibrationSearch::scored(const std::vector<std::size_t
 /// there, whatever round they are from.
 bool CalibrationSearch::fit()
 {
-    progress_.stage("the form of the score about the best");
+    progress_.stage("the shape of the score about the optimum");
     const std::size_t d = keys_.size();
     std::vector<double> most(d, prior_deviation);
     for (int round = 0; round < 2; ++round) {
@@ -311,7 +311,7 @@ void CalibrationSearch::judge(FittedParameter& p, std::size_t i) const
 /// Each motion is predicted by the parameters that the others give, and by the study as it was.
 bool CalibrationSearch::hold_out(FormCalibration& result, const std::vector<std::size_t>& fold, std::size_t folds)
 {
-    progress_.stage("motions left out, predicted by the others");
+    progress_.stage("cross-validation over motions");
     const std::vector<std::size_t>& runs = evidence_.runs();
     const std::vector<ScoredPoint> near = scored(near_);
     std::vector<UnitPoint> points;
@@ -355,7 +355,7 @@ bool CalibrationSearch::hold_out(FormCalibration& result, const std::vector<std:
 bool CalibrationSearch::begin(FormCalibration& result)
 {
     nominal_candidate_ = evidence_.candidates();
-    progress_.stage("the study as it is");
+    progress_.stage("the start study");
     if (!evidence_.add({nominal_}, run_, observer_))
         return false;
     progress_.advance(1);
@@ -397,8 +397,7 @@ void CalibrationSearch::conclude(FormCalibration& result) const
             if (i == j || !p.determined || !wide || std::fabs(result.correlation[i * d + j]) < tied)
                 continue;
             p.determined = false;
-            p.note =
-                fmt::format("not determined by these data by itself: only together with {}", result.parameters[j].key);
+            p.note = fmt::format("not determined by these data alone: only together with {}", result.parameters[j].key);
         }
 }
 

@@ -139,7 +139,7 @@ private:
     TestShaking of_peak(const MeasuredOutcome& row)
     {
         if (study_.kind == ExcitationKind::none)
-            refuse(row, "a peak acceleration does not say how the base moved, and the study has excitation.kind = "
+            refuse(row, "a peak acceleration does not define the base motion, and the study has excitation.kind = "
                         "\"none\".\n  Give it the motion of the tests, such as kind = \"full_sine\".");
         TestShaking s{study_, nullptr};
         ExcitationSpec& e = s.excitation;

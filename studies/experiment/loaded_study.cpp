@@ -85,8 +85,8 @@ void check_settings(const Study& study, const std::string& file, const std::vect
     for (const std::string& setting : settings) {
         const bool record = setting.starts_with(of_record);
         if (!record && !setting.starts_with(of_vertical))
-            throw InputError(fmt::format("--set {}: the study of {} is fixed; only excitation.file may be set, to say "
-                                         "where its record lies now (and mechanisms.vertical_motion.file)",
+            throw InputError(fmt::format("--set {}: the study of {} is fixed; only excitation.file may be set, the "
+                                         "present path of its record (and mechanisms.vertical_motion.file)",
                                          setting, file));
         if (record ? !has_record : !study.vertical)
             throw InputError(fmt::format("--set {}: the study of {} is not driven by a record", setting, file));
@@ -114,7 +114,7 @@ LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeade
     const Study& study = loaded.study();
     const auto check = [&](const std::string& record, const std::string& setting, const std::string& print) {
         if (header.study_toml.find(print) == std::string::npos)
-            throw InputError(fmt::format("{} is not the record that {} was made with: its samples differ. Give the "
+            throw InputError(fmt::format("{} is not the record that {} was computed with: its samples differ. Give the "
                                          "right one by --set {}PATH",
                                          record, file, setting));
     };

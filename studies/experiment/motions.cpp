@@ -51,10 +51,11 @@ void check_differ(const Study& study, const MotionSet& set)
         if (motion->acceleration_m_s2 != set.motions.front()->acceleration_m_s2 ||
             motion->dt_s != set.motions.front()->dt_s)
             return;
-    throw InputError(fmt::format("fragility.motions = {}: all motions are the same, for nothing of the excitation is "
-                                 "drawn.\n  Perturb pulse_frequency, pulse_gamma or phase in [perturbation], or give "
-                                 "excitation.kind = \"noise\".",
-                                 study.fragility->motions));
+    throw InputError(
+        fmt::format("fragility.motions = {}: all motions are identical because no parameter of the excitation is "
+                    "random.\n  Perturb pulse_frequency, pulse_gamma or phase in [perturbation], or give "
+                    "excitation.kind = \"noise\".",
+                    study.fragility->motions));
 }
 
 void measure(const FragilitySpec& fragility, MotionSet& set)
@@ -102,9 +103,10 @@ MotionSet load_motions(const Study& study)
         set = read_motions(study);
     }
     if (!study.fragility->records.empty() && study.fragility->shakings > study.fragility->motions)
-        throw InputError(fmt::format("fragility.shakings = {}: there are {} records, and no sequence has one twice.\n  "
-                                     "Give fewer shakings or more records.",
-                                     study.fragility->shakings, study.fragility->motions));
+        throw InputError(fmt::format(
+            "fragility.shakings = {}: there are {} records, and a sequence contains each record at most once.\n  "
+            "Give fewer shakings or more records.",
+            study.fragility->shakings, study.fragility->motions));
     measure(*study.fragility, set);
     return study.fragility->shakings > 1 ? in_sequence(study, set) : set;
 }

@@ -85,7 +85,7 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
     if (first.size() > most)
         list += fmt::format(" and {} others", first.size() - most);
     if (counts.first_together() > 0)
-        list += fmt::format("{}several at the same step: {}", list.empty() ? "" : "; ",
+        list += fmt::format("{}several in the same step: {}", list.empty() ? "" : "; ",
                             share_text(counts.share_first_together()));
     if (!list.empty())
         text += fmt::format("  first to fall: {}\n", list);

@@ -119,7 +119,7 @@ public:
 private:
     static std::string subtitle(const ResultHeader& header)
     {
-        return fmt::format("Kind of study: {}. Realizations: {}. Seed {}. Made by stylobate {}.", header.kind,
+        return fmt::format("Kind of study: {}. Realizations: {}. Seed {}. Computed by stylobate {}.", header.kind,
                            header.total, header.seed, header.code_version);
     }
 
@@ -127,7 +127,7 @@ private:
     {
         switch (state) {
         case State::stood:
-            return "stood and hardly moved";
+            return "stood with negligible motion";
         case State::rocked:
             return "did not collapse; it rocked more than it slid";
         case State::slid:
@@ -153,11 +153,11 @@ private:
                          : "",
                 percent(collapsed.probability), describe_interval(counts_.interval()), interval_text(collapsed));
         if (surface_)
-            text += " The cells differ in their shaking, so that this share describes the choice of cells too; the "
-                    "probability of each is below.";
+            text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
+                    "probability of each cell is given below.";
         if (header_.selected)
-            text += " So it does of how many realizations each cell was given: the more, the nearer its probability "
-                    "is to 1/2.";
+            text += " It also depends on the number of realizations in each cell, which is larger where the "
+                    "probability is near 1/2.";
         if (collapsed.count > 0)
             text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
         page_.paragraph(text);
@@ -166,14 +166,14 @@ private:
             for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)
                 list += fmt::format("{}{} ({})", i > 0 ? ", " : "", invalid_[i].first, to_string(invalid_[i].second));
             page_.box("warn", fmt::format("{} of {} realizations invalid", invalid_count_, header_.total),
-                      "They were set aside and are no trials. Realizations " + list +
+                      "They are excluded from all statistics. Realizations " + list +
                           (invalid_count_ > 10 ? " and others." : "."));
         }
     }
 
     void studied()
     {
-        page_.section("What was run");
+        page_.section("The study");
         const bool replayed = header_.kind == "replay" && rows_.size() == 1;
         const auto facts = study_facts(study_, replayed ? &rows_.front() : nullptr, header_.input_names);
         page_.facts({facts.begin(), facts.end()});
@@ -202,7 +202,7 @@ private:
         if (to_rest && counts_.share(LimitState::total).count > 0)
             page_.note(
                 fmt::format("Median time of the total collapse: {:.3g} s.", counts_.median_total_collapse_time_s()));
-        page_.note("Rocking or sliding without collapse: by whichever of the two moved it more.");
+        page_.note("Rocking or sliding without collapse: classified by the larger of the two motions.");
     }
 
     /// One realization over time.
@@ -232,7 +232,7 @@ private:
             return;
         page_.section("Order of falls");
         if (falls.trials > 1)
-            picture("The share of the realizations in which a block had fallen by then.",
+            picture("The share of the realizations in which a block has fallen, over time.",
                     [&](const fs::path& png) { order_picture(results_, -1, "", png); });
         HtmlTable table{"lrrrrr",
                         {"block", "fell", "share", describe_interval(falls.interval), "median time [s]", "fell first"},
@@ -250,7 +250,7 @@ private:
         page_.table(table);
         together();
         if (study_.outcome.follow != Follow::rest)
-            page_.note("Each realization was followed until its first fall only.");
+            page_.note("Each realization was computed only until its first fall.");
     }
 
     /// What the order of falls comes to without rows.
@@ -273,8 +273,8 @@ private:
     void together()
     {
         if (counts_.first_together() > 0)
-            page_.note(fmt::format("In {} realizations several blocks fell first, at the same time step: together. "
-                                   "There none of them counts as the first.",
+            page_.note(fmt::format("In {} realizations several blocks fell first in the same time step. None of them "
+                                   "counts as the first there.",
                                    counts_.first_together()));
     }
 
@@ -286,7 +286,7 @@ private:
                 upright.push_back(row);
         if (upright.empty())
             return;
-        page_.section("How far it moved");
+        page_.section("Displacements");
         page_.table(quantiles(upright, {{"largest displacement of the centre of the top block, from upright", "m",
                                          &Outcome::peak_top_displacement_m},
                                         {"residual displacement of the centre of the top block, with its sign", "m",
@@ -311,8 +311,8 @@ private:
         page_.section("Energy audit");
         page_.table(quantiles(valid_, {{"work of the base", "J", &Outcome::energy_base_work_j},
                                        {"kinetic, at the end", "J", &Outcome::energy_kinetic_j},
-                                       {"potential, against the start", "J", &Outcome::energy_potential_j},
-                                       {"contact springs, against the start", "J", &Outcome::energy_spring_j},
+                                       {"potential, relative to the start", "J", &Outcome::energy_potential_j},
+                                       {"contact springs, relative to the start", "J", &Outcome::energy_spring_j},
                                        {"dissipated by friction", "J", &Outcome::energy_friction_j},
                                        {"dissipated by damping", "J", &Outcome::energy_damping_j}}));
         const auto worst = std::max_element(valid_.begin(), valid_.end(), [](const ResultRow* a, const ResultRow* b) {
@@ -323,13 +323,14 @@ private:
 
     static std::string worst_balance(double residual, std::uint64_t index)
     {
-        return fmt::format("What the balance lacks is at most {:.2g} of the energy of the run (realization {}).",
-                           std::abs(residual), index);
+        return fmt::format(
+            "The residual of the energy balance is at most {:.2g} of the energy of the run (realization {}).",
+            std::abs(residual), index);
     }
 
     void again()
     {
-        page_.section("How to do it again");
+        page_.section("Reproduction");
         page_.paragraph(fmt::format("With stylobate {} and the study below as STUDY.toml:", header_.code_version));
         const std::string name = fs::path(results_.file()).filename().string();
         std::string commands;
@@ -341,12 +342,11 @@ private:
                             "{}\n",
                             header_.first, name);
         else
-            commands =
-                fmt::format("stylobate run STUDY.toml -o {0}\nstylobate replay {0} --realization I    # any one of "
-                            "them, bit by bit\n",
-                            name);
+            commands = fmt::format("stylobate run STUDY.toml -o {0}\nstylobate replay {0} --realization I    # any "
+                                   "realization, bitwise identical\n",
+                                   name);
         page_.block(commands);
-        page_.heading("The study, every default filled in");
+        page_.heading("The study with all defaults");
         page_.block(header_.study_toml);
     }
 

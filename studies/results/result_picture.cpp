@@ -63,8 +63,8 @@ void order_picture(const Results& results, long long cell, const std::string& gi
     check_complete(results.reader(), results.file());
     if (!header.has_rows())
         throw InputError(
-            fmt::format("{}: keeps no rows of its realizations (output.realizations = \"none\"), and so not "
-                        "when each block fell; which fell first is in counts.csv of 'export --to csv'",
+            fmt::format("{}: has no rows of realizations (output.realizations = \"none\"), so it does not record when "
+                        "each block fell; counts.csv of 'export --to csv' contains the first block to fall",
                         results.file()));
     std::vector<ResultRow> rows = results.trials();
     std::string title = "Falls: " + results.title();
@@ -74,7 +74,7 @@ void order_picture(const Results& results, long long cell, const std::string& gi
         const auto wanted = static_cast<std::size_t>(cell);
         if (cells == 0)
             throw InputError(
-                fmt::format("--cell {}: a result of kind '{}' has no cells; leave --cell out", cell, header.kind));
+                fmt::format("--cell {}: a result of kind '{}' has no cells; omit --cell", cell, header.kind));
         if (wanted >= cells)
             throw InputError(fmt::format("--cell {}: {} has the cells 0 to {} (frequency number x {} + PGA number)",
                                          cell, results.file(), cells - 1, np));
@@ -89,9 +89,9 @@ void order_picture(const Results& results, long long cell, const std::string& gi
     for (const PlacedBlock& block : lay_out(study.structure).blocks)
         falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
     std::string note =
-        study.outcome.follow == Follow::rest ? "" : "each realization was followed until its first fall only";
+        study.outcome.follow == Follow::rest ? "" : "each realization was computed only until its first fall";
     if (falls.together > 0)
-        note += fmt::format("{}in {} several fell first, together", note.empty() ? "" : " · ", falls.together);
+        note += fmt::format("{}in {} several fell first, simultaneously", note.empty() ? "" : " · ", falls.together);
     plot_order(falls, given_title.empty() ? title : given_title, note, file);
 }
 

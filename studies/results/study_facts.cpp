@@ -122,7 +122,7 @@ std::string excitation_text(const Study& study, const ResultRow* one)
         if (e.frequency_hz > 0)
             text += fmt::format(" about {:.4g} Hz", e.frequency_hz);
         return text + (f->method == FragilityMethod::cloud
-                           ? fmt::format(", each {:.4g} times as strong as it stands", f->scale)
+                           ? fmt::format(", each scaled by {:.4g}", f->scale)
                            : "; " + measure_name(f->measure, f->period_s) + ": " + axis_text(f->intensity, ""));
     }
     if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)

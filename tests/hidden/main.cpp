@@ -55,7 +55,7 @@ void check_effect(const std::string& name)
         return;
     const std::string meant = nearest_word(name, names);
     throw InputError("--effect", 0,
-                     fmt::format("'{}' is no effect.\n  {}", name,
+                     fmt::format("'{}' is not an effect.\n  {}", name,
                                  meant.empty() ? fmt::format("They are {}.", fmt::join(names, ", "))
                                                : "Did you mean " + meant + "?"));
 }
@@ -94,7 +94,7 @@ void generate(const Seeds& seeds, const fs::path& out, const Wish& wish)
     std::error_code error;
     fs::create_directories(out / "answers", error);
     if (error)
-        throw InputError(out.string(), 0, "cannot be made a folder: " + error.message() + ". Give another one.");
+        throw InputError(out.string(), 0, "the folder cannot be created: " + error.message() + ". Give another one.");
     for (std::uint64_t seed = seeds.first; seed <= seeds.last; ++seed) {
         const fs::path answer = out / "answers" / fmt::format("{}.toml", seed);
         if (fs::exists(answer))
@@ -112,13 +112,14 @@ void generate(const Seeds& seeds, const fs::path& out, const Wish& wish)
 std::vector<Answer> answers_of(const fs::path& answers)
 {
     if (!fs::is_directory(answers))
-        throw InputError(answers.string(), 0, "is no folder. Give that of the answers, DIR/answers of 'generate'.");
+        throw InputError(answers.string(), 0,
+                         "is not a folder. Give the folder of the answers, DIR/answers of 'generate'.");
     std::vector<Answer> known;
     for (const auto& entry : fs::directory_iterator(answers))
         if (entry.path().extension() == ".toml")
             known.push_back(read_answer(entry.path()));
     if (known.empty())
-        throw InputError(answers.string(), 0, "holds no answers (SEED.toml). Give DIR/answers of 'generate'.");
+        throw InputError(answers.string(), 0, "contains no answers (SEED.toml). Give DIR/answers of 'generate'.");
     std::sort(known.begin(), known.end(), [](const Answer& a, const Answer& b) { return a.seed < b.seed; });
     return known;
 }
@@ -164,15 +165,15 @@ int main(int argc, char** argv)
     std::string seeds, out, law;
     std::vector<std::string> effects;
     bool nothing = false, brief = false;
-    auto* make =
-        app.add_subcommand("generate", "makes campaign_SEED.h5, its study and answers/SEED.toml; goes on where it was");
+    auto* make = app.add_subcommand(
+        "generate", "writes campaign_SEED.h5, its study and answers/SEED.toml; continues an interrupted run");
     make->add_option("--seeds", seeds, "A..B")->required();
     make->add_option("--out", out, "folder")->required();
-    make->add_option("--effect", effects, "what is hidden, instead of what the seed says; twice for a pair")
+    make->add_option("--effect", effects, "the hidden effect, instead of that of the seed; given twice for a pair")
         ->allow_extra_args(false);
-    make->add_flag("--nothing", nothing, "nothing is hidden, whatever the seed says")->excludes("--effect");
+    make->add_flag("--nothing", nothing, "no hidden effect, for any seed")->excludes("--effect");
     make->add_flag("--short", brief, "two runs without repeats, for tests");
-    make->add_option("--law", law, "healthy contact law, instead of the seed's")
+    make->add_option("--law", law, "baseline contact law, instead of that of the seed")
         ->check(CLI::IsMember({"nonsmooth", "compliant"}));
 
     std::pair<double, double> friction;
@@ -186,14 +187,14 @@ int main(int argc, char** argv)
     judge_them->add_option("--answers", answers, "folder of SEED.toml")->required();
     judge_them->add_option("--diagnoses", diagnoses, "folder of SEED.json, as 'diagnose --json' prints them")
         ->required();
-    judge_them->add_option("--markdown", page, "file for the tables, too");
+    judge_them->add_option("--markdown", page, "file for a copy of the tables");
 
     std::string calibrations;
-    auto* cover = app.add_subcommand("coverage", "how often the intervals of calibrations hold the true friction");
+    auto* cover = app.add_subcommand("coverage", "coverage of the intervals of the friction in calibrations");
     cover->add_option("--answers", answers, "folder of SEED.toml")->required();
     cover->add_option("--calibrations", calibrations, "folder of SEED.json, as 'calibrate --json' prints them")
         ->required();
-    cover->add_option("--markdown", page, "file for the table, too");
+    cover->add_option("--markdown", page, "file for a copy of the table");
 
     try {
         app.parse(argc, argv);
@@ -212,10 +213,9 @@ int main(int argc, char** argv)
                 check_effect(name);
             for (const std::string& name : effects)
                 if (wish.law && !applies(name, *wish.law))
-                    throw InputError("--effect", 0,
-                                     fmt::format("{} means nothing under the law {}.\n  Take the other "
-                                                 "law.",
-                                                 name, law));
+                    throw InputError(
+                        "--effect", 0,
+                        fmt::format("{} is not defined under the law {}.\n  Choose the other law.", name, law));
             if (nothing || !effects.empty())
                 wish.effects = effects;
             generate(parse_seeds(seeds), out, wish);

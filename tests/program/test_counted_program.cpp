@@ -187,7 +187,7 @@ TEST_F(Counted, WhatIsLeftToDoWithoutRows)
     const std::string page = read_bytes(folder / "counts.html");
     for (const char* part : {"128", "Probability of collapse", "First to fall", "Energy audit", "valid realizations"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
-    for (const char* part : {"How far it moved", "Order of falls", ">nan"})
+    for (const char* part : {"Displacements", "Order of falls", ">nan"})
         EXPECT_EQ(page.find(part), std::string::npos) << part;
 }
 

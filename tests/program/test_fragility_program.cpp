@@ -139,9 +139,9 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     EXPECT_EQ(run(std::vector<std::string>{"report", "f.h5", "-o", "f.html"}).status, 0);
     const std::string page = bytes("f.html");
     const std::string summary = page.substr(page.find(">1&ensp;Summary"), 1000);
-    EXPECT_NE(summary.find("95 % interval by the motions"), std::string::npos) << summary;
+    EXPECT_NE(summary.find("95 % interval, clustered by motion"), std::string::npos) << summary;
     EXPECT_EQ(page.find("Jeffreys"), std::string::npos) << "an interval as if runs of one motion were independent";
-    for (const char* words : {"Where the scatter comes from", "Which measure tells most", "by the motions"})
+    for (const char* words : {"Variance components", "Intensity measures ranked", "clustered by motion"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 

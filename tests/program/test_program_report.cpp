@@ -38,7 +38,7 @@ TEST_F(Report, OfASurface)
     EXPECT_EQ(ended.err, "");
     EXPECT_EQ(names(), (Words{"surface.h5", "surface.html"}));
     const std::string html = page("surface.html");
-    expect_has(html, {"Results: surface", "valid realizations over 2 × 2 cells", "What was run", "7 drums (1 fixed)",
+    expect_has(html, {"Results: surface", "valid realizations over 2 × 2 cells", "The study", "7 drums (1 fixed)",
                       "Outcomes", "of 8</td>", "Probability of collapse", "Order of falls", "Energy audit",
                       "stylobate run STUDY.toml", "[perturbation"});
     // its axes say how strong the shaking is, and a fall is what the engine takes for one
@@ -57,7 +57,7 @@ TEST_F(Report, OfASingleRealizationAndOfAReplay)
     expect_done({"report", "one.h5", "-o", "page.html", "--quiet"});
     std::string html = page("page.html");
     expect_has(html, {"Results: one", "Realization 0 did not collapse; it rocked more than it slid", "1 drum: width",
-                      "Motion", "How far it moved", "Energy audit", "drum_height_m"});
+                      "Motion", "Displacements", "Energy audit", "drum_height_m"});
     EXPECT_EQ(count_of(html, "<img"), 1U);
     EXPECT_EQ(html.find("Order of falls"), std::string::npos);
 

@@ -177,7 +177,7 @@ TEST_F(Sensitivity, TellsWhatItsRowsSay)
     ASSERT_EQ(run({"export", "factors.h5", "--to", "png", "--quiet"}).status, 0);
     EXPECT_GT(fs::file_size(folder / "factors_sensitivity.png"), 20000U);
     ASSERT_EQ(run({"report", "factors.h5", "--quiet"}).status, 0);
-    EXPECT_NE(bytes("factors.html").find("What it depends on"), std::string::npos);
+    EXPECT_NE(bytes("factors.html").find("Sensitivity to the factors"), std::string::npos);
     const Ended replayed = run({"replay", "factors.h5", "--realization", "1234", "--json"});
     EXPECT_EQ(replayed.status, 0) << testing::PrintToString(replayed);
 }

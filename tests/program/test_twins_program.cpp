@@ -95,7 +95,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
     }
     ASSERT_EQ(run({"report", "t.h5", "-o", "t.html"}).status, 0);
     const std::string page = bytes("t.html");
-    EXPECT_NE(page.find("How sure the verdict is"), std::string::npos);
+    EXPECT_NE(page.find("Predictability of the verdict"), std::string::npos);
     EXPECT_NE(page.find("moved by 1e-09 m"), std::string::npos);
     EXPECT_NE(page.find(std::to_string(originals) + " valid realizations"), std::string::npos);
 

@@ -178,7 +178,7 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
             if (start.size() > 0) // too steep there for information in most points: start from the beginning
                 return fit_binomial(link, predictors, counts, offset);
             throw InputError("fragility: the predictors of a regression are not independent.\n  Give at least as many "
-                             "different intensities as coefficients, and no measure that follows from others.");
+                             "different intensities as coefficients, and no measure that depends on others.");
         }
         if (slope.dot(step) < 1e-16 * (1 + std::abs(fit.log_likelihood)))
             return found();

@@ -113,8 +113,8 @@ CapacityCurve capacity_curve(std::span<const RecordCapacity> capacities, double 
         curve.unreached += std::isinf(capacity.at) ? 1 : 0;
     }
     if (curve.resurrected > 0)
-        curve.says.push_back(fmt::format("{} of {} records reached the limit state, and at a stronger shaking did not: "
-                                         "the curve from lowest intensities does not know of that.",
+        curve.says.push_back(fmt::format("{} of {} records reached the limit state, but not at a stronger shaking: the "
+                                         "curve from the lowest intensities ignores this.",
                                          curve.resurrected, curve.records));
     const Normal normal = normal_from(capacities, curve.records);
     curve.found = normal.found;
@@ -133,8 +133,8 @@ CapacityCurve capacity_curve(std::span<const RecordCapacity> capacities, double 
         without.emplace_back(rest.mean, std::log(rest.deviation));
     }
     if (without.size() < curve.records) {
-        curve.says.push_back(fmt::format("{} records, or one on which the curve hangs, give no interval: this curve "
-                                         "must not be used alone.",
+        curve.says.push_back(fmt::format("{} records, or a curve that depends on a single record, give no interval: "
+                                         "this curve must not be used alone.",
                                          curve.records));
         return curve;
     }

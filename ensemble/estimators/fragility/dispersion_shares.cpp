@@ -182,8 +182,8 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
         throw InputError(fmt::format("dispersion: level = {} is outside (0.5, 1).", level));
     for (const NestedRun& run : runs)
         if (!std::isfinite(run.response))
-            throw InputError(fmt::format("dispersion: a response of record {} is not finite.\n  Leave out runs without "
-                                         "a response, or count what was reached.",
+            throw InputError(fmt::format("dispersion: a response of record {} is not finite.\n  Omit runs without a "
+                                         "response, or count the limit states reached.",
                                          run.record));
     const Parts parts(runs);
     const std::size_t records = parts.records();
@@ -233,7 +233,7 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
         share.variance = all[l];
         share.share = all[l] / shares.total;
         if (!known[l]) {
-            shares.says.push_back(fmt::format("No two runs differ in {} alone: its share is part of the level above.",
+            shares.says.push_back(fmt::format("No two runs differ only in {}: its share is part of the level above.",
                                               to_string(static_cast<DispersionLevel>(l))));
             continue;
         }
@@ -248,7 +248,7 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
                                           "intervals (at least {}).",
                                           records, least_records));
     if (!(shares.total > 0))
-        shares.says.push_back("All runs responded alike: there is no dispersion to share out.");
+        shares.says.push_back("All runs have the same response: there is no dispersion to divide.");
     return shares;
 }
 

@@ -114,9 +114,9 @@ void check(const FragilityData& data, const CurveOptions& options)
     for (const auto& intensity : options.at)
         if (intensity.size() != data.measures ||
             std::any_of(intensity.begin(), intensity.end(), [](double im) { return !(im > 0); }))
-            throw InputError(fmt::format("fragility: a probability is wanted at an intensity that is not {} numbers "
-                                         "above 0.",
-                                         data.measures));
+            throw InputError(
+                fmt::format("fragility: a probability is requested at an intensity that is not {} numbers above 0.",
+                            data.measures));
     if (data.points() < data.measures + 1)
         throw InputError(fmt::format("fragility: {} different intensities are too few for {} coefficients.\n  Run "
                                      "more intensities.",
@@ -141,17 +141,17 @@ void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptio
         data.measures == 1 && std::isfinite(curve.median.records.upper) && curve.median.records.lower > 0
             ? fmt::format("The median lies between {:.4g} and {:.4g}.", curve.median.records.lower,
                           curve.median.records.upper)
-            : std::string("The bounds of the probabilities are what can be said.");
+            : std::string("Only bounds of the probabilities can be given.");
     if (curve.maximum == Maximum::none)
-        curve.says.push_back(fmt::format("None of {} runs of {} records reached the limit state: there is no curve. "
-                                         "Shake harder.",
-                                         curve.trials, curve.records));
+        curve.says.push_back(fmt::format(
+            "None of {} runs of {} records reached the limit state: there is no curve. Increase the intensities.",
+            curve.trials, curve.records));
     else if (curve.maximum == Maximum::all)
-        curve.says.push_back(fmt::format("All {} runs of {} records reached the limit state: there is no curve. Shake "
-                                         "less.",
-                                         curve.trials, curve.records));
+        curve.says.push_back(
+            fmt::format("All {} runs of {} records reached the limit state: there is no curve. Reduce the intensities.",
+                        curve.trials, curve.records));
     else
-        curve.says.push_back("One intensity parts all runs that reached the limit state from all that did not: the "
+        curve.says.push_back("One intensity separates all runs that reached the limit state from all that did not: the "
                              "likelihood has no maximum, so there is no curve. " +
                              bounds + " Run more intensities between them.");
 }
@@ -221,15 +221,16 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
         curve.says.push_back("The share that reaches the limit state does not grow with the intensity: there is no "
                              "median and no dispersion.");
     if (intervals && without.coefficients.empty())
-        curve.says.push_back("The curve hangs on one record: without it, nothing bounds the likelihood. There is no "
+        curve.says.push_back("The curve depends on one record: without it, the likelihood is unbounded. There is no "
                              "interval; add records or intensities.");
     if (!intervals)
         curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
                                          "and must not be used alone.",
                                          data.records, least_records));
     else if (data.records < enough_records)
-        curve.says.push_back(fmt::format("With {} records, fewer than {}, the intervals may cover less than they say.",
-                                         data.records, enough_records));
+        curve.says.push_back(
+            fmt::format("With {} records, fewer than {}, the coverage of the intervals may be below the nominal level.",
+                        data.records, enough_records));
     return curve;
 }
 
@@ -237,11 +238,11 @@ void check_fragility_design(std::size_t records, std::size_t intensities, std::s
 {
     if (records < least_records)
         throw InputError(fmt::format("fragility: {} records are too few for a curve with an interval, at least {}.\n  "
-                                     "The record decides more than all else: add records, not runs of each.",
+                                     "The record has the largest effect: add records, not runs of each record.",
                                      records, least_records));
     if (intensities < measures + 1)
-        throw InputError(fmt::format("fragility: {} intensities are too few for {} coefficients.\n  Give at least "
-                                     "{}, from where nothing to where everything falls.",
+        throw InputError(fmt::format("fragility: {} intensities are too few for {} coefficients.\n  Give at least {}, "
+                                     "between an intensity where nothing falls and one where everything falls.",
                                      intensities, measures + 1, measures + 1));
 }
 
@@ -253,9 +254,9 @@ std::vector<std::string> order_of_limit_states(const std::vector<std::string>& n
         const auto against = std::count_if(reached.begin(), reached.end(),
                                            [&](const auto& run) { return run[s] != 0 && run[s - 1] == 0; });
         if (against > 0)
-            says.push_back(fmt::format("Limit states in the wrong order: {} of {} runs reached '{}' without '{}', "
-                                       "which stands before it.",
-                                       against, reached.size(), names[s], names[s - 1]));
+            says.push_back(fmt::format(
+                "Limit states in the wrong order: {} of {} runs reached '{}' without '{}', which precedes it.", against,
+                reached.size(), names[s], names[s - 1]));
     }
     return says;
 }

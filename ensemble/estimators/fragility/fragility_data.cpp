@@ -22,8 +22,8 @@ void check(const FragilityRun& run, std::size_t number, std::size_t measures)
                            run.intensity.size(), measures));
     for (const double value : run.intensity)
         if (!(value > 0 && std::isfinite(value)))
-            refuse(fmt::format("intensity = {} is outside (0, infinity).\n  Curves are fitted to its logarithm: leave "
-                               "runs without shaking out.",
+            refuse(fmt::format("intensity = {} is outside (0, infinity).\n  Curves are fitted to its logarithm: omit "
+                               "runs without shaking.",
                                value));
     if (!(run.trials > 0 && run.reached >= 0 && run.reached <= run.trials))
         refuse(fmt::format("reached = {} is outside [0, {}], the number of its trials.", run.reached, run.trials));

@@ -48,15 +48,14 @@ LackOfFit lack_of_fit(const FittedCurve& curve, double significance)
                              : curve.link == Link::probit                               ? "probit surface"
                                                                                         : "logistic form";
     if (curve.fit.maximum != Maximum::inside || curve.predictors.rows() <= curve.predictors.cols()) {
-        found.says = fmt::format("Whether the {} fits cannot be tested: there is no curve, or no intensity more than "
-                                 "it has coefficients.",
-                                 form);
+        found.says = fmt::format(
+            "The fit of the {} cannot be tested: there is no curve, or no more intensities than coefficients.", form);
         return found;
     }
     const Eigen::MatrixXd bends = bending_terms(curve);
     const Eigen::Index terms = bends.cols();
     if (records < terms + 5) {
-        found.says = fmt::format("Whether the {} fits cannot be tested with {} records.", form, records);
+        found.says = fmt::format("The fit of the {} cannot be tested with {} records.", form, records);
         return found;
     }
     // efficient scores: the scores of the additional terms, orthogonal to the fitted coefficients
@@ -83,8 +82,7 @@ LackOfFit lack_of_fit(const FittedCurve& curve, double significance)
     const Eigen::MatrixXd centred = scores.rowwise() - mean.transpose();
     const Eigen::LDLT<Eigen::MatrixXd> spread(centred.transpose() * centred / (n - 1));
     if (!(spread.rcond() > 1e-13)) {
-        found.says =
-            fmt::format("Whether the {} fits cannot be tested: too few records have runs where it bends.", form);
+        found.says = fmt::format("The fit of the {} cannot be tested: too few records have runs where it bends.", form);
         return found;
     }
     found.terms = static_cast<int>(terms);
@@ -111,7 +109,7 @@ LackOfFit lack_of_fit(const FittedCurve& curve, double significance)
         at += fmt::format("{}{:.4g}", j > 0 ? ", " : "",
                           curve.data.intensity[static_cast<std::size_t>(worst) * curve.data.measures + j]);
     found.says = fmt::format("The {} does not fit (p = {:.2g}, {} records): at intensity {} the share that reached the "
-                             "limit state is {:.3f}, the fit says {:.3f}. Use the shares by stripe.",
+                             "limit state is {:.3f}, the fit gives {:.3f}. Use the shares by stripe.",
                              form, found.p_value, records, at, curve.counts.reached[worst] / curve.counts.trials[worst],
                              below[worst]);
     return found;

@@ -40,8 +40,7 @@ FittedCurve with_feature(const FragilityData& data, const std::vector<double>& v
     for (const double value : values)
         square += (value - mean) * (value - mean) / n;
     if (!(square > 0 && std::isfinite(square)))
-        throw InputError("fragility: a feature of the records is the same for all of them, or not finite.\n  Leave it "
-                         "out.");
+        throw InputError("fragility: a feature of the records is the same for all of them, or not finite.\n  Omit it.");
     Eigen::MatrixXd predictors(static_cast<Eigen::Index>(data.rows.size()), 3);
     for (std::size_t i = 0; i < data.rows.size(); ++i) {
         const FragilityRow& row = data.rows[i];
@@ -137,7 +136,7 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
         RankedMeasure measure = fitted.measure;
         if (fitted.by_record.empty()) {
             measure.sufficient = false;
-            measure.says = fmt::format("{}: no curve in it alone, so it is not ranked.", measure.name);
+            measure.says = fmt::format("{}: no curve with this measure alone, so it is not ranked.", measure.name);
             ranked.push_back(measure);
             continue;
         }
@@ -151,20 +150,20 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
             square += std::pow(best[g] - fitted.by_record[g] - sum / n, 2);
         const double reach = t * std::sqrt(n / (n - 1) * square);
         measure.behind = {(sum - reach) / trials, (sum + reach) / trials};
-        measure.says = fmt::format("{}: dispersion {:.3f} [{:.3f}, {:.3f}], tells {:.3f} nat of each run", measure.name,
-                                   measure.dispersion, measure.dispersion_limits.lower, measure.dispersion_limits.upper,
-                                   measure.gain);
+        measure.says = fmt::format("{}: dispersion {:.3f} [{:.3f}, {:.3f}], information {:.3f} nat per run",
+                                   measure.name, measure.dispersion, measure.dispersion_limits.lower,
+                                   measure.dispersion_limits.upper, measure.gain);
         if (&fitted != &all.front())
             measure.says += fmt::format(", {:.3f} [{:.3f}, {:.3f}] less than {}{}", sum / trials, measure.behind.lower,
                                         measure.behind.upper, all.front().measure.name,
-                                        measure.behind.lower <= 0 ? ", which may be chance" : "");
+                                        measure.behind.lower <= 0 ? ", which is not significant" : "");
         if (!features.empty()) {
             std::string adds;
             for (const Sufficiency& test : measure.sufficiency)
                 if (test.p_value < (1 - level) / static_cast<double>(features.size()))
                     adds += fmt::format("{}{} (p = {:.2g})", adds.empty() ? "" : ", ", test.feature, test.p_value);
-            measure.says += adds.empty() ? "; sufficient as far as these records tell"
-                                         : "; not sufficient: " + adds + " still adds to it";
+            measure.says += adds.empty() ? "; no insufficiency found with these records"
+                                         : "; not sufficient: " + adds + " adds information";
         }
         measure.says += '.';
         ranked.push_back(measure);

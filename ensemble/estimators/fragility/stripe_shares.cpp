@@ -116,9 +116,9 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
     if (found.p_monotone < 1 - level) {
         const StripeShare &from = found.stripes[largest.from], &to = found.stripes[largest.to];
         found.says =
-            fmt::format("Stronger shaking was less dangerous: from intensity {:.4g} to {:.4g} the share that "
+            fmt::format("Stronger shaking was less damaging: from intensity {:.4g} to {:.4g} the share that "
                         "reached the limit state falls from {:.3f} [{:.3f}, {:.3f}] to {:.3f} [{:.3f}, {:.3f}] "
-                        "(p = {:.2g}). No curve that only grows describes it.",
+                        "(p = {:.2g}). A monotonic curve does not describe it.",
                         from.intensity, to.intensity, from.share, from.limits.lower, from.limits.upper, to.share,
                         to.limits.lower, to.limits.upper, found.p_monotone);
     }

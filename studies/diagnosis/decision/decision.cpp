@@ -28,16 +28,16 @@ JudgedCause judged_cause(const CauseFit& fit, Channel channel, const ChanceGains
     j.surprise = std::min(fit.gain - j.chance95, -std::log(std::max(j.chance, 1e-30)) - 3);
     const double left = fit.gain_without_best();
     if (!chance.tell_of(channel, mechanism))
-        j.why_not = "what chance gives is not known";
+        j.why_not = "the null distribution is unknown";
     else if (fit.gain - j.chance95 < rule.clear)
-        j.why_not = fmt::format("gains {:.1f} nats; chance gives up to {:.1f} (95 %)", fit.gain, j.chance95);
+        j.why_not = fmt::format("gain {:.1f} nats; null distribution up to {:.1f} (95 %)", fit.gain, j.chance95);
     else if (j.chance > rule.chance)
-        j.why_not = fmt::format("such a gain has a probability of {:.2g} by chance", j.chance);
+        j.why_not = fmt::format("the p-value of the gain is {:.2g}", j.chance);
     else if (left < rule.without_best * fit.gain && left < j.chance95 + rule.clear)
         j.why_not =
-            fmt::format("without the run that speaks most for it {:.1f} of {:.1f} nats are left", left, fit.gain);
+            fmt::format("without the run with the largest contribution {:.1f} of {:.1f} nats remain", left, fit.gain);
     else if (!matters(fit))
-        j.why_not = "its size is within what specimens differ by";
+        j.why_not = "its size is within the scatter between specimens";
     else
         j.considered = true;
     return j;

@@ -72,7 +72,7 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
         all.insert(all.end(), out.samples.back().begin(), out.samples.back().end());
     }
     if (all.empty()) {
-        out.why_not = "No joint slid or rocked long enough, in a way that leaves none of its forces unknown.";
+        out.why_not = "No joint with known forces slid or rocked long enough.";
         return out;
     }
     out.fit.emplace(campaign.specimen, std::move(all), friction, static_cast<int>(campaign.runs.size()));

@@ -67,13 +67,13 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     const std::string found =
         j.channel == Channel::direct
             ? "found by a direct test"
-            : fmt::format("{}: {:.1f} nats, of which chance gives {:.1f} (95 %)",
+            : fmt::format("{}: {:.1f} nats; null distribution {:.1f} (95 %)",
                           j.channel == Channel::balance ? "by the balance of forces" : "by free windows", j.fit.gain,
                           j.chance95);
     c.why = where + (j.why_not.empty() ? found : j.why_not);
     if (decision == Decision::rejected && j.why_not.empty())
-        c.why += unexplained ? "; a force of no known kind explains clearly more"
-                             : "; what is named explains the same, and better";
+        c.why += unexplained ? "; a force of unknown kind has a significantly larger gain"
+                             : "; the named cause explains the same data better";
     return c;
 }
 
@@ -90,15 +90,16 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
 {
     DiagnosisFigure figure;
     figure.place = FigurePlace::candidates;
-    figure.title = "What each cause would explain, and what chance would";
+    figure.title = "Gain of each cause, and its null distribution";
     figure.caption =
-        "Gain in log likelihood over the baseline; the dot is what 95 % of simulated campaigns with nothing "
-        "hidden stay below (of fewer than 20 campaigns: half as much again as their largest, and 1). A cause without a "
-        "dot was found by a direct test of base, sensors or rest, which has a threshold of its own.";
+        "Gain in log likelihood over the baseline. The dot is the 95 % quantile of the null distribution from "
+        "simulated campaigns without a hidden effect (for fewer than 20 campaigns: 1.5 times their maximum, plus 1). A "
+        "cause without a dot was found by a direct test of base, sensors or rest with a separate threshold.";
     figure.x_label = "cause";
     figure.y_label = "gain [nats]";
     FigureSeries named{"named as the cause", SeriesKind::bars, {}, {}, {}, {}},
-        gain{"not named", SeriesKind::bars, {}, {}, {}, {}}, chance{"chance, 95 %", SeriesKind::points, {}, {}, {}, {}};
+        gain{"not named", SeriesKind::bars, {}, {}, {}, {}},
+        chance{"null distribution, 95 %", SeriesKind::points, {}, {}, {}, {}};
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (const Candidate& c : candidates) { // the named ones come first
         if (figure.x_ticks.size() == 10 || !c.gain_nats)
@@ -145,7 +146,7 @@ std::optional<DiagnosisFigure> friction_figure(const BalanceEvidence& balance, c
     figure.place = FigurePlace::data;
     figure.title = "Friction of the joints that slide, from the balance of forces";
     figure.caption =
-        "Each point is one window in which a joint slid all through: friction over normal force, without any "
+        "Each point is one window with continuous sliding of a joint: friction over normal force, without any "
         "contact model. Bars: one standard deviation, from the noise of the cameras.";
     figure.x_label = "slip velocity [m/s]";
     figure.y_label = "friction coefficient";
@@ -174,7 +175,7 @@ std::optional<DiagnosisFigure> turning_figure(const BalanceEvidence& balance)
 {
     DiagnosisFigure figure;
     figure.place = FigurePlace::data;
-    figure.title = "Where rocking joints carry, from the balance of forces";
+    figure.title = "Position of the contact force in rocking joints, from the balance of forces";
     figure.caption =
         "Distance of the contact force inside the corner on which a joint turns, over the half width: 0 is a "
         "sharp, hard corner. One point for each window.";
@@ -245,10 +246,10 @@ std::vector<std::string> finding_texts(const std::vector<Finding>& findings)
 std::string verdict_text(const Diagnosis& d)
 {
     if (d.verdict == Verdict::none)
-        return "Nothing was found that explains what the simulation gets wrong better than noise, scatter and its "
-               "contact law do" +
-               (d.missing.empty() ? std::string(".")
-                                  : fmt::format(", in what could be judged. Not judged: {}.", missing_words(d)));
+        return "No mechanism explains the errors of the simulation better than noise, scatter and its contact law" +
+               (d.missing.empty()
+                    ? std::string(".")
+                    : fmt::format(", among the tests that were possible. Not tested: {}.", missing_words(d)));
     std::vector<std::string> names;
     for (const Candidate* c : named_causes(d))
         names.push_back(fmt::format("{} {}, {}{}", c->mechanism, place_words(c->place), mechanism_words(c->mechanism),
@@ -256,10 +257,10 @@ std::string verdict_text(const Diagnosis& d)
     std::string text =
         names.empty() ? "" : fmt::format("The data show {} (in brackets: 95 % interval).", list_words(names));
     if (d.verdict == Verdict::unexplained)
-        return text + fmt::format("{}omething acts that none of the known mechanisms explains: {}.",
-                                  names.empty() ? "S" : " Beside that, s", d.unexplained ? d.unexplained->text : "");
+        return text + fmt::format("{}n effect is present that none of the known mechanisms explains: {}.",
+                                  names.empty() ? "A" : " In addition, a", d.unexplained ? d.unexplained->text : "");
     if (d.indistinguishable.size() > 1)
-        text += fmt::format(" They do not tell {} from {}.", d.indistinguishable.front(),
+        text += fmt::format(" They do not distinguish {} from {}.", d.indistinguishable.front(),
                             list_words({d.indistinguishable.begin() + 1, d.indistinguishable.end()}));
     return text;
 }
@@ -325,8 +326,8 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         if (!still.empty())
             add_missing(
                 d, fmt::format("the friction of joint{} {} by itself", still.size() > 1 ? "s" : "", list_words(still)),
-                "It slides too rarely for the balance of forces to tell its friction from that of the others. "
-                "A motion under which it slides, low and strong, would show it.");
+                "It slides too rarely for the balance of forces to separate its friction from that of the others. A "
+                "strong motion of low frequency, under which it slides, would determine it.");
     } else {
         d.missing.push_back({"balance of forces", balance.why_not});
         tell("  balance of forces: " + balance.why_not);
@@ -342,7 +343,7 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         windows = window_evidence(campaign, study, scales, known, options.windows, options.run, observer);
     else {
         windows.complete = true;
-        windows.why_not = "The table moves vertically in a way that the base motion does not tell.";
+        windows.why_not = "The table has a vertical motion that the base motion does not contain.";
     }
     count.simulations += windows.simulations;
     count.window_simulations += windows.window_simulations;
@@ -356,8 +357,8 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                 fmt::format("  windows: {} scores {:.1f} nats", b.contacts, b.score - windows.baselines.front().score));
         d.baseline.push_back({"contact.form", "", std::nullopt, std::nullopt, std::nullopt, true,
                               windows.baselines.front().contacts +
-                                  " (best of the forms that were tried; the factors are those on the study that the "
-                                  "diagnosis began with, and no intervals were sought: see stylobate calibrate)"});
+                                  " (best of the tested forms; the factors are relative to the start study of the "
+                                  "diagnosis, without intervals: see stylobate calibrate)"});
     } else {
         d.missing.push_back({"free windows", windows.why_not});
     }
@@ -372,8 +373,8 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         chance = chance_of(
             measured, start, how,
             [&](std::uint64_t done, std::uint64_t cached) {
-                tell(fmt::format("  campaigns with nothing hidden: {} of {}{}", done, options.nulls,
-                                 done == cached ? " (kept from before in " + options.cache.string() + ")" : ""));
+                tell(fmt::format("  null campaigns: {} of {}{}", done, options.nulls,
+                                 done == cached ? " (from an earlier run, in " + options.cache.string() + ")" : ""));
             },
             observer);
         count.simulations += chance.simulations;
@@ -385,9 +386,9 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
                            "contacts (form, stiffness, exponent, damping), friction of the joints, widths, masses and "
                            "places of the blocks, noise of the cameras"});
     } else {
-        add_missing(d, "what chance gives",
-                    "No campaigns with nothing hidden were simulated (--nulls 0): only direct tests can name a cause, "
-                    "and forces of an unknown kind are held against fixed thresholds alone.");
+        add_missing(d, "the null distribution",
+                    "No null campaigns were simulated (--nulls 0): only direct tests can name a cause, and forces of "
+                    "unknown kind are compared with fixed thresholds only.");
     }
 
     // the verdict
@@ -429,9 +430,9 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         double best = 0;
         for (const CauseFit& fit : balance.causes)
             best = std::max(best, fit.gain);
-        u.text = fmt::format("{}. It explains {:.1f} nats more than the baseline; the best known cause in its place "
-                             "explains {:.1f}",
-                             s.text, decided.unexplained->gain, best);
+        u.text = fmt::format(
+            "{}. Its gain over the baseline is {:.1f} nats; that of the best known cause in its place is {:.1f}",
+            s.text, decided.unexplained->gain, best);
         for (std::size_t k = 0; k < balance.structures.size() && k < 8; ++k) {
             const StructureFit& f = balance.structures[k];
             u.features.push_back(
@@ -476,12 +477,13 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
             d.missing.push_back({"all of the extended study", "It lacks " + list_words(left_out) + "."});
         if (!d.gain)
             d.missing.push_back(
-                {"what the extended model gains",
+                {"the gain of the extended model",
                  windows.baselines.empty()
                      ? "No free windows could be simulated: " + windows.why_not
-                     : "It takes runs of two or more motions, so that some can be left out, with windows in them."});
+                     : "Runs of at least two motions with windows are needed, so that some can be held out."});
     } else if (d.verdict == Verdict::unexplained) {
-        d.missing.push_back({"what an extended model gains", "None was made: it would lack what is not explained."});
+        d.missing.push_back(
+            {"the gain of an extended model", "No extended model was made because part of the error is unexplained."});
     }
     std::vector<JudgedCause> rivals;
     for (const auto* list : {&decided.named, &decided.in_set, &decided.judged})
@@ -499,20 +501,22 @@ std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, 
         std::count_if(measured.runs.begin(), measured.runs.end(),
                       [](const MeasuredRun& run) { return !run.blocks.x_m.empty() && run.time_s.size() > 1; }));
     d.method = {
-        "Base and sensors are tested directly, while the lowest block rides on the table and while all lies at rest.",
-        "The forces in the joints follow from the smoothed accelerations of the blocks by Newton's law alone; where a "
-        "joint slides or rocks, its law is checked, without contact stiffness, damping or simulation.",
-        std::string("The simulation follows the measured motion as an observer, and free windows that start from it "
-                    "are compared with what was seen: that chooses the contacts of the baseline") +
-            (options.windows ? ", and tells what each cause would explain."
-                             : ". They judge causes too only with --windows.")};
+        "Base and sensors are tested directly, while the lowest block moves with the table and while all blocks are at "
+        "rest.",
+        "The forces in the joints follow from the smoothed accelerations of the blocks by Newton's law. Where a joint "
+        "slides or rocks, its law is tested without contact stiffness, damping or simulation.",
+        std::string("The simulation is nudged towards the measured motion (an observer). Free windows that start from "
+                    "its states are compared with the measurement: they determine the contacts of the baseline") +
+            (options.windows ? ", and the gain of each cause."
+                             : ". They are used to test causes only with --windows.")};
     if (chance.campaigns > 0)
-        d.method.push_back(fmt::format(
-            "Campaigns with nothing hidden, simulated with contacts of many kinds, are put through the same stages: a "
-            "cause must gain {:g} nats more than 95 % of them give it, with a probability by chance below {:g}, not by "
-            "one run alone, and be larger than what specimens differ by. So a gain a little above that of chance is "
-            "no cause.",
-            options.rule.clear, options.rule.chance));
+        d.method.push_back(
+            fmt::format("Null campaigns (without a hidden effect), simulated with contacts of many kinds, pass through "
+                        "the same stages and give the null distribution. A cause is named only if its gain exceeds the "
+                        "95 % quantile of the null distribution by {:g} nats, its p-value is below {:g}, its gain does "
+                        "not depend on a single run, and its size exceeds the scatter between specimens. A gain "
+                        "slightly above the null distribution is therefore not sufficient.",
+                        options.rule.clear, options.rule.chance));
     d.cost.simulations = count.simulations;
     d.cost.window_simulations = count.window_simulations;
     d.cost.block_steps = count.block_steps;

@@ -201,7 +201,7 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
     for (const std::size_t r : left)
         gain.runs_left_out.push_back(campaign.runs[r].name);
     if (before->rms() == 0) {
-        gain.text = "The runs left out have no windows that could be predicted.";
+        gain.text = "The held-out runs have no windows that could be predicted.";
         return gain;
     }
     gain.error_before = 1;
@@ -228,11 +228,10 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
     }
     if (const MaybeReal floor = repeat_floor(campaign, left))
         gain.floor = *floor / before->rms();
-    gain.text =
-        fmt::format("Error of free windows over noise and a lag of the local motion, root mean square with every "
-                    "residual counted as at most {:g}: {:.2f} before, {:.2f} after. Sized by {} runs, predicted "
-                    "{} others of other motions.",
-                    most_residual, before->rms(), after->rms(), used.size(), left.size());
+    gain.text = fmt::format(
+        "Error of free windows over noise and a lag of the local motion, root mean square with residuals limited to "
+        "{:g}: {:.2f} before, {:.2f} after. Fitted to {} runs, tested on {} runs of other motions.",
+        most_residual, before->rms(), after->rms(), used.size(), left.size());
 
     // which of them fall
     const bool told =
@@ -265,8 +264,7 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
         collapse.score_before = b0;
         collapse.score_after = b1;
         collapse.text =
-            fmt::format("From {} simulations of each run, from its beginning, with what specimens and their "
-                        "placement vary by.",
+            fmt::format("From {} simulations of each whole run, with the scatter of specimens and their placement.",
                         collapse_ensemble);
         gain.collapse = collapse;
     }
@@ -406,8 +404,8 @@ std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& s
         return rivals[k].cause.mechanism + " " + place_words(rivals[k].cause.place);
     };
     test.text =
-        fmt::format("Of {} motions, {} simulations each, it separates {} from {} best: by {:.1f} standard "
-                    "deviations of slip, rocking or collapse.",
+        fmt::format("Of {} motions, {} simulations each, it best separates {} from {}: by {:.1f} standard deviations "
+                    "of slip, rocking or collapse.",
                     motions.size(), campaigns, named_place(0), named_place(1), *test.motions.front().separation);
     return test;
 }

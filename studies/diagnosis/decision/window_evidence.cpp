@@ -185,7 +185,8 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
     const double length = std::max(shortest_window_s, window_part * scales.time_s);
     Windows windows(campaign, scales, length, given, options, observer);
     if (windows.empty()) {
-        out.why_not = "No run has both a base motion and a history of the blocks that a simulation could follow.";
+        out.why_not =
+            "No run has both a base motion and a history of the blocks that a simulation could be nudged towards.";
         out.complete = true;
         return out;
     }

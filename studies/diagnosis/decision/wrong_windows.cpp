@@ -124,8 +124,8 @@ DiagnosisFigure curve_figure(const Stretch& stretch, const std::string& run, Blo
                       {},
                       {},
                       {}};
-    FigureSeries model{"calibrated baseline, anew in each window", SeriesKind::line, {}, {}, {}, {}};
-    FigureSeries wrong{"off by more than noise and a short lag make", SeriesKind::spans, {}, {}, {}, {}};
+    FigureSeries model{"calibrated baseline, restarted in each window", SeriesKind::line, {}, {}, {}, {}};
+    FigureSeries wrong{"error above noise and a short lag", SeriesKind::spans, {}, {}, {}, {}};
     for (std::size_t k = 0; k < curves.size(); ++k) {
         const WindowCurve& curve = curves[k];
         for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
@@ -155,8 +155,8 @@ DiagnosisFigure curve_figure(const Stretch& stretch, const std::string& run, Blo
     figure.place = FigurePlace::wrong;
     figure.title = fmt::format("Run {}, {}, {}.", run, block_words(stretch.block),
                                coordinate == BlockCoordinate::theta ? "rotation" : "horizontal displacement");
-    figure.caption = "Measured and simulated over each other. The simulation starts from the measured motion at the "
-                     "beginning of each window, and runs free to its end; grey: windows in which it is wrong.";
+    figure.caption = "Measured and simulated motion. The simulation starts from the measured motion at the beginning "
+                     "of each window and runs freely to its end; grey: windows with significant errors.";
     figure.x_label = "time, the cameras' clock [s]";
     figure.y_label =
         fmt::format("{} [{}]", coordinate == BlockCoordinate::theta ? "rotation" : "displacement", unit.name);

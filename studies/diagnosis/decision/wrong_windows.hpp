@@ -19,7 +19,7 @@ struct WrongWindows {
     std::vector<DiagnosisFigure> figures;
 };
 
-/// Where the baseline is off by more than noise and a lag of some milliseconds make.
+/// Errors of the baseline by more than noise and a lag of some milliseconds make.
 /// @param most stretches; the rest is left out
 /// @return empty where no window can be simulated, or the observer stopped it
 WrongWindows wrong_windows(const Campaign& campaign, const Study& baseline, std::size_t most, const RunOptions& options,

@@ -138,7 +138,7 @@ struct CollapsePrediction {
     friend bool operator==(const CollapsePrediction&, const CollapsePrediction&) = default;
 };
 
-/// What the extended model gains on runs that were not used to find or to fit it. Errors are relative to the baseline
+/// Gain of the extended model on runs that were not used to find or to fit it. Errors are relative to the baseline
 /// (error_before = 1) unless `unit` says otherwise.
 struct ModelGain {
     MaybeReal error_before; ///< calibrated baseline

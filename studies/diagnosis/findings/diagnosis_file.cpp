@@ -229,7 +229,7 @@ struct OpenDiagnosis {
 
 [[noreturn]] void refuse_damaged(const std::filesystem::path& file, const std::string& text)
 {
-    throw InputError(file.string(), 0, "is damaged: " + text + ". Take a copy, or run the diagnosis again.");
+    throw InputError(file.string(), 0, "is damaged: " + text + ". Use a backup copy, or run the diagnosis again.");
 }
 
 /// Its seal verified. @throws InputError
@@ -276,7 +276,7 @@ Diagnosis read_diagnosis(const std::filesystem::path& file)
     try {
         const hid_t root = open.hdf5.id();
         if (hdf5::read_text(root, "format") != format_name)
-            throw InputError(file.string(), 0, "holds no diagnosis, but the results of a study");
+            throw InputError(file.string(), 0, "contains no diagnosis, but the results of a study");
         if (const std::uint64_t version = hdf5::read_number(root, "format_version"); version != format_version)
             throw InputError(file.string(), 0,
                              "is a diagnosis of format version " + std::to_string(version) +

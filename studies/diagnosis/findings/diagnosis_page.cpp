@@ -91,11 +91,11 @@ private:
                                                     mechanism_words(cause->mechanism), cause->place, size_cell(*cause),
                                                     probability_words(cause->probability)));
         if (d_.indistinguishable.size() > 1)
-            facts.emplace_back("Not told apart by these data", list_words(d_.indistinguishable));
+            facts.emplace_back("Not distinguished by these data", list_words(d_.indistinguishable));
         if (!d_.wrong.empty() && d_.verdict != Verdict::none) {
             const WrongStretch& worst = d_.wrong.front();
-            facts.emplace_back("Worst", fmt::format("run {}, {}, {}, from {:.2f} to {:.2f} s: off by {:.1f} times what "
-                                                    "noise and a lag of some milliseconds make",
+            facts.emplace_back("Worst", fmt::format("run {}, {}, {}, from {:.2f} to {:.2f} s: error {:.1f} times that "
+                                                    "of noise and a lag of some milliseconds",
                                                     worst.run, block_words(worst.block), worst.coordinate, worst.from_s,
                                                     worst.to_s, worst.excess));
         }
@@ -121,12 +121,12 @@ private:
 
     void wrong()
     {
-        page_.section(d_.verdict == Verdict::none ? "Where the baseline is off" : "What is wrong, and where");
+        page_.section(d_.verdict == Verdict::none ? "Errors of the baseline" : "Errors and their location");
         if (d_.wrong.empty()) {
             page_.paragraph(d_.cost.window_simulations > 0
-                                ? "In no window that could be simulated is the baseline off by more than noise and a "
-                                  "lag of some milliseconds make."
-                                : "No window of any run could be simulated, so this was not judged.");
+                                ? "In every simulated window the error of the baseline is within noise and a lag of "
+                                  "some milliseconds."
+                                : "No window of any run could be simulated, so this was not tested.");
         } else {
             HtmlTable table{"lllrrr", {"run", "where", "coordinate", "from [s]", "to [s]", "excess"}, {}, ""};
             for (std::size_t i = 0; i < std::min(d_.wrong.size(), most_stretches); ++i) {
@@ -135,11 +135,11 @@ private:
                                       fmt::format("{:.2f}", w.to_s), fmt::format("{:.1f}", w.excess)});
             }
             page_.table(table);
-            page_.note(
-                (d_.wrong.size() > most_stretches
-                     ? fmt::format("The worst {} of {} stretches; the file has all. ", most_stretches, d_.wrong.size())
-                     : std::string()) +
-                wrong_words(d_) + " Times are on the cameras' clock.");
+            page_.note((d_.wrong.size() > most_stretches
+                            ? fmt::format("The worst {} of {} intervals; the file contains all of them. ",
+                                          most_stretches, d_.wrong.size())
+                            : std::string()) +
+                       wrong_words(d_) + " Times are on the cameras' clock.");
         }
         figures(FigurePlace::wrong);
     }
@@ -156,7 +156,7 @@ private:
                 most = std::max({most, c.gain_nats.value_or(0), 1.3 * c.null95.value_or(0)});
             HtmlTable table{
                 "lnlrlrrl",
-                {"mechanism", "place", "size (95 % interval)", "gain [nats]", "", "by chance (95 %)", "p", "decision"},
+                {"mechanism", "place", "size (95 % interval)", "gain [nats]", "", "null (95 %)", "p", "decision"},
                 {},
                 ""};
             for (const Candidate& c : d_.candidates) {
@@ -172,19 +172,17 @@ private:
             }
             page_.table(table);
             page_.note(
-                "Gain: log likelihood over the calibrated baseline. By chance (the mark on the bar): the 95 % "
-                "quantile of that gain in simulated campaigns without the mechanism. A gain little above that of "
-                "chance names no cause (see Method). Causes without "
-                "them were found by a test of base, sensors or rest, which has a threshold of its own (see The "
-                "data). Probabilities are among the candidates that were judged.");
+                "Gain: log likelihood over the calibrated baseline. Null (the mark on the bar): the 95 % quantile of "
+                "the null distribution, from simulated campaigns without the mechanism. A gain slightly above it is "
+                "not sufficient (see Method). Causes without these values were found by a test of base, sensors or "
+                "rest with a separate threshold (see The data). Probabilities are among the tested candidates.");
             reasons();
             evidence();
         }
         for (const NullEnsemble& null : d_.nulls)
-            page_.note(
-                fmt::format("By chance: {} simulated campaigns with nothing hidden, contact form {}. They differ in: "
-                            "{}.",
-                            null.campaigns, null.form, null.what));
+            page_.note(fmt::format("Null distribution: {} simulated campaigns without a hidden effect, contact form "
+                                   "{}. They differ in: {}.",
+                                   null.campaigns, null.form, null.what));
         figures(FigurePlace::candidates);
     }
 
@@ -225,7 +223,7 @@ private:
             }
             if (c.gain_nats && told)
                 table.rows.push_back({"all runs", cell(*c.gain_nats - *told),
-                                      "without it, what differs from specimen to specimen would have to differ more"});
+                                      "without it, the scatter between specimens would have to be larger"});
             page_.table(table);
         }
     }
@@ -235,12 +233,12 @@ private:
         if (!d_.unexplained)
             return;
         const Unexplained& u = *d_.unexplained;
-        page_.section("What is not explained");
+        page_.section("Unexplained error");
         page_.paragraph(u.text.empty() ? fmt::format("{}, {}", block_words(u.block), u.coordinate) : u.text);
         page_.facts({{"Where", block_words(u.block) + ", " + u.coordinate},
-                     {"Depends on", u.depends_on.empty() ? "nothing that was tried" : u.depends_on}});
+                     {"Depends on", u.depends_on.empty() ? "none of the tested features" : u.depends_on}});
         if (!u.features.empty()) {
-            HtmlTable table{"lrr", {"feature of the motion", "explains of what remains", "by chance (95 %)"}, {}, ""};
+            HtmlTable table{"lrr", {"feature of the motion", "share of the remaining error", "null (95 %)"}, {}, ""};
             const auto share = [](MaybeReal value) { return value ? fmt::format("{:.1f} %", 100 * *value) : "–"; };
             for (const RegressionFeature& f : u.features)
                 table.rows.push_back({f.name, share(f.gain), share(f.threshold)});
@@ -260,7 +258,7 @@ private:
                 if (!text.empty())
                     page_.paragraph(text);
             if (!g.runs_left_out.empty())
-                page_.note("Runs left out: " + list_words(g.runs_left_out) + ".");
+                page_.note("Held-out runs: " + list_words(g.runs_left_out) + ".");
         }
         figures(FigurePlace::gain);
         if (!d_.extended_study.empty()) {
@@ -337,15 +335,15 @@ private:
         }
         page_.table(table);
         if (std::any_of(d_.baseline.begin(), d_.baseline.end(), [](const auto& p) { return !p.determined; }))
-            page_.note("“Not determined”: these data do not tell the parameter; the value is nominal or assumed.");
+            page_.note("“Not determined”: these data do not determine the parameter; the value is nominal or assumed.");
         figures(FigurePlace::baseline);
     }
 
     void missing()
     {
-        page_.section("What could not be judged");
+        page_.section("Tests that were not possible");
         if (d_.missing.empty()) {
-            page_.paragraph("All that was looked for could be judged.");
+            page_.paragraph("All tests were possible.");
             return;
         }
         HtmlTable table{"ll", {"what", "why"}, {}, ""};

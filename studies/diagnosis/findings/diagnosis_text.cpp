@@ -116,8 +116,7 @@ std::string diagnosis_text(const Diagnosis& d)
     out += heading("Verdict: " + verdict_heading(d)) + wrapped(verdict_words(d), 2);
 
     if (!d.wrong.empty())
-        out += heading(d.verdict == Verdict::none ? "Where the baseline is off, worst first"
-                                                  : "What is wrong, worst first") +
+        out += heading(d.verdict == Verdict::none ? "Errors of the baseline, largest first" : "Errors, largest first") +
                table_of(d.wrong, {"run", "where", "coordinate", "from", "to", "excess"},
                         [](const WrongStretch& w) {
                             return Row{w.run,
@@ -130,9 +129,10 @@ std::string diagnosis_text(const Diagnosis& d)
                wrapped(wrong_words(d), 2);
     if (!d.candidates.empty())
         out +=
-            heading("Candidates (gain in nats over the calibrated baseline; by chance: its 95 % quantile)") +
+            heading("Candidates (gain in nats over the calibrated baseline; null: 95 % quantile of the null "
+                    "distribution)") +
             wrapped(nats_words() + " " + chance_words() +
-                        " prob. is the probability that it is the cause, given that one of those judged is.",
+                        " prob. is the probability of being the cause, given that one of the tested candidates is.",
                     2) +
             table_of(d.candidates, {"mechanism", "place", "size", "gain", "by chance", "p", "prob.", "decision"},
                      [](const Candidate& c) {
@@ -147,7 +147,7 @@ std::string diagnosis_text(const Diagnosis& d)
                                     to_string(c.decision)};
                      });
     if (d.indistinguishable.size() > 1)
-        out += wrapped("These data cannot tell apart: " + list_words(d.indistinguishable) + ".", 2);
+        out += wrapped("Not distinguished by these data: " + list_words(d.indistinguishable) + ".", 2);
     if (d.unexplained) {
         out += heading("Not explained");
         out += wrapped(d.unexplained->text.empty()
@@ -157,7 +157,7 @@ std::string diagnosis_text(const Diagnosis& d)
                        2);
     }
     if (d.gain) {
-        out += heading("What the extended model gains");
+        out += heading("Gain of the extended model");
         for (const std::string& text : {gain_words(*d.gain), collapse_words(*d.gain), d.gain->text})
             if (!text.empty())
                 out += wrapped(text, 2);
@@ -185,7 +185,7 @@ std::string diagnosis_text(const Diagnosis& d)
             out += wrapped(p.name + ": " + (parameter_words(p).empty() ? "not known" : parameter_words(p)), 2);
     }
     if (!d.missing.empty()) {
-        out += heading("What could not be judged");
+        out += heading("Tests that were not possible");
         for (const Missing& missing : d.missing)
             out += wrapped("- " + missing.what + ": " + missing.why, 2);
     }

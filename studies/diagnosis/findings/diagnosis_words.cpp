@@ -97,37 +97,35 @@ std::string parameter_words(const CalibratedParameter& parameter)
 
 std::string wrong_words(const Diagnosis& diagnosis)
 {
-    std::string text = "Excess: how far the calibrated baseline is off in short windows that start from the measured "
-                       "state, in units of what noise and a lag of some milliseconds of the motion make (root mean "
-                       "square of the worst window; listed are the worst, from 2 on).";
+    std::string text = "Excess: error of the calibrated baseline in short windows that start from the measured state, "
+                       "in units of the error caused by noise and a lag of some milliseconds (root mean square of the "
+                       "worst window; values of 2 and above are listed).";
     if (diagnosis.verdict == Verdict::none)
-        text +=
-            " Contacts and the scatter of specimens leave some of it; no cause that was looked for explains the rest "
-            "clearly better than chance would.";
+        text += " Part of it is due to the contacts and the scatter of specimens. No tested cause explains the rest "
+                "significantly better than the null distribution.";
     return text;
 }
 
 std::string nats_words()
 {
-    return "A gain is told in nats, the unit of log likelihood: with 1 nat the cause makes the measured data 2.7 times "
+    return "A gain is given in nats, the unit of log likelihood: with 1 nat the cause makes the measured data 2.7 "
+           "times "
            "as "
            "probable as the baseline does, with 3 nats 20 times, with 10 nats 22,000 times.";
 }
 
 std::string chance_words()
 {
-    return "p is the probability that chance alone gives a gain as large: the share of simulated campaigns with "
-           "nothing "
-           "hidden that reach it. Where p is below 0.001, chance is no explanation. Such a candidate may be rejected "
-           "all "
-           "the same: its gain is no chance, but the cause that is named explains the same data, and better.";
+    return "p is the p-value of the gain: the share of simulated null campaigns (without a hidden effect) that reach "
+           "it. A gain with p below 0.001 is significant. Such a candidate may still be rejected if the named cause "
+           "explains the same data better.";
 }
 
 std::string verdict_heading(const Diagnosis& diagnosis)
 {
     switch (diagnosis.verdict) {
     case Verdict::none:
-        return "No cause is found beyond what chance explains";
+        return "No cause is significant against the null distribution";
     case Verdict::named: {
         std::vector<std::string> names;
         for (const Candidate* cause : named_causes(diagnosis))
@@ -136,8 +134,8 @@ std::string verdict_heading(const Diagnosis& diagnosis)
         return names.empty() ? "A cause is named" : "The cause: " + list_words(names);
     }
     default:
-        return named_causes(diagnosis).empty() ? "Something is wrong that no known mechanism explains"
-                                               : "A cause, and something that no known mechanism explains";
+        return named_causes(diagnosis).empty() ? "An error that no known mechanism explains"
+                                               : "A cause, and an error that no known mechanism explains";
     }
 }
 
@@ -146,7 +144,8 @@ std::string verdict_words(const Diagnosis& diagnosis)
     if (!diagnosis.verdict_text.empty())
         return diagnosis.verdict_text;
     if (diagnosis.verdict == Verdict::none)
-        return "Simulation and measurement agree within noise, repeats and tolerances; no mechanism is needed.";
+        return "Simulation and measurement agree within noise, repeats and tolerances; no additional mechanism is "
+               "needed.";
     std::string text;
     for (const Candidate* cause : named_causes(diagnosis)) {
         text += fmt::format("{}{} {}: {}, {} {}", text.empty() ? "" : " ", cause->mechanism, place_words(cause->place),
@@ -155,11 +154,12 @@ std::string verdict_words(const Diagnosis& diagnosis)
         text += cause->probability ? ", probability " + probability_words(cause->probability) + "." : ".";
     }
     if (diagnosis.indistinguishable.size() > 1)
-        text += fmt::format("{}These data cannot tell {} apart.", text.empty() ? "" : " ",
+        text += fmt::format("{}These data do not distinguish {}.", text.empty() ? "" : " ",
                             list_words(diagnosis.indistinguishable));
     if (diagnosis.unexplained) {
         const Unexplained& u = *diagnosis.unexplained;
-        text += fmt::format("{}What remains is at {}, {}", text.empty() ? "" : " ", block_words(u.block), u.coordinate);
+        text += fmt::format("{}The remaining error is at {}, {}", text.empty() ? "" : " ", block_words(u.block),
+                            u.coordinate);
         text += u.depends_on.empty() ? "." : ", and depends on " + u.depends_on + ".";
     }
     return text;
@@ -177,11 +177,11 @@ std::string gain_words(const ModelGain& gain)
     if (gain.low || gain.high)
         text += fmt::format(" (95 % interval {})", interval_words(gain.low, gain.high));
     if (gain.low && gain.high)
-        text += *gain.low > *gain.error_before    ? ": it predicts worse"
-                : *gain.high < *gain.error_before ? ": it predicts better"
-                                                  : ": no gain that these runs show";
+        text += *gain.low > *gain.error_before    ? ": worse prediction"
+                : *gain.high < *gain.error_before ? ": better prediction"
+                                                  : ": no significant gain on these runs";
     if (gain.floor)
-        text += fmt::format("; repeats of one motion differ by {:.3g}{} among themselves", *gain.floor, unit);
+        text += fmt::format("; repeats of one motion differ by {:.3g}{}", *gain.floor, unit);
     return text + ".";
 }
 
@@ -190,10 +190,11 @@ std::string collapse_words(const ModelGain& gain)
     if (!gain.collapse)
         return "";
     const CollapsePrediction& c = *gain.collapse;
-    std::string text = fmt::format("Of {} with a known end, the baseline predicts {} rightly and the extended model {}",
-                                   count_words(c.runs, "run", "runs"), c.right_before, c.right_after);
+    std::string text =
+        fmt::format("Of {} with a known outcome, the baseline predicts {} correctly and the extended model {}",
+                    count_words(c.runs, "run", "runs"), c.right_before, c.right_after);
     if (c.score_before && c.score_after)
-        text += fmt::format("; the Brier score goes from {:.3g} to {:.3g}", *c.score_before, *c.score_after);
+        text += fmt::format("; the Brier score changes from {:.3g} to {:.3g}", *c.score_before, *c.score_after);
     return text + "." + (c.text.empty() ? "" : " " + c.text);
 }
 
@@ -205,8 +206,7 @@ std::string cost_words(const DiagnosisCost& cost)
     if (cost.threads > 0)
         text += " with " + count_words(static_cast<std::uint64_t>(cost.threads), "thread", "threads");
     if (cost.lockstep_speedup)
-        text += fmt::format("; lockstep is {:.3g} times as fast as one realization after the other",
-                            *cost.lockstep_speedup);
+        text += fmt::format("; lockstep is {:.3g} times as fast as sequential realizations", *cost.lockstep_speedup);
     return text + ".";
 }
 

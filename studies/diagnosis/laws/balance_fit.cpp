@@ -289,10 +289,10 @@ std::vector<StructureFit> BalanceFit::describe(const std::vector<Cause>& given) 
     };
     friction("direction", "friction that differs between slip to the left and to the right",
              [](const LawSample&, const LawTerm& t) { return t.sign; });
-    friction("recent slip", "friction that changes with how much a joint has slipped a moment ago, and recovers",
+    friction("recent slip", "friction that changes with the recent slip of the joint and recovers",
              [](const LawSample&, const LawTerm& t) { return t.recent_slip_m; });
     friction("time", "friction that drifts with time", [](const LawSample& s, const LawTerm&) { return s.time_s; });
-    friction("position", "friction that depends on where a joint has slipped to",
+    friction("position", "friction that depends on the slip position of the joint",
              [](const LawSample&, const LawTerm& t) { return t.slip_m; });
     friction("normal force", "friction that is not in proportion to the normal force",
              [](const LawSample&, const LawTerm& t) { return t.normal; });
@@ -301,7 +301,7 @@ std::vector<StructureFit> BalanceFit::describe(const std::vector<Cause>& given) 
         const std::string who = block < 0 ? "each block" : fmt::format("block {}", block);
         const auto force = [&](Component to, const char* depends_on, const char* on, auto&& value) {
             try_column({block, component_names[static_cast<std::size_t>(to)], depends_on,
-                        fmt::format("a {} on {} that goes with {}",
+                        fmt::format("a {} on {} that varies with {}",
                                     to == in_x   ? "sideways force"
                                     : to == in_y ? "vertical force"
                                                  : "moment",
@@ -317,7 +317,7 @@ std::vector<StructureFit> BalanceFit::describe(const std::vector<Cause>& given) 
                        });
         };
         for (const Component to : {in_x, in_y}) {
-            force(to, "nothing", "nothing: it is constant", [](const LawSample&, std::size_t) { return 1.0; });
+            force(to, "nothing", "none: it is constant", [](const LawSample&, std::size_t) { return 1.0; });
             force(to, "time", "time", [](const LawSample& s, std::size_t) { return s.time_s; });
             force(to, "velocity", "its sideways velocity",
                   [](const LawSample& s, std::size_t k) { return s.motion[1][in_x][k]; });

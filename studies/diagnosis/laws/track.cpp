@@ -65,7 +65,7 @@ std::string nothing_seen(const Campaign& campaign)
     need("blocks/y_m", &SeenMotion::y_m);
     need("blocks/theta_rad", &SeenMotion::theta_rad);
     return fmt::format("has no run in which x, y and rotation of the blocks were measured{}.\n  The forces in the "
-                       "joints cannot be had without them.",
+                       "joints cannot be computed without them.",
                        campaign.runs.empty() ? ": it has no runs"
                        : absent.empty()      ? ""
                                              : "; no run has " + absent);

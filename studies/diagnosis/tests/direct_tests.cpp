@@ -107,8 +107,8 @@ void test_height(const VerticalMotion& vertical, const std::string& what, const 
         how = fmt::format(", with {:.2f} Hz in all motions", vertical.line_hz);
     out.base_tests.push_back(told("vertical_motion", "base", vertical.rms_over_noise,
                                   std::numeric_limits<double>::quiet_NaN(), limits.vertical, "of the noise", found,
-                                  fmt::format("{} moves up and down by {:.2f} of the cameras' noise (rms){}.", what,
-                                              vertical.rms_over_noise, how)));
+                                  fmt::format("{} has a vertical motion of {:.2f} times the cameras' noise (rms){}.",
+                                              what, vertical.rms_over_noise, how)));
     if (!found)
         return;
     if (follows)
@@ -132,8 +132,8 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
             samples += to - from;
     if (samples < 4 * shortest_ride) {
         for (const char* name : {"harmonic_distortion", "table_pitch", "vertical_motion", "time_offset", "sensor_gain"})
-            out.base_tests.push_back(cannot(name, "No block rides on the table long enough: before anything rocks or "
-                                                  "slides there must be some tenths of a second of motion."));
+            out.base_tests.push_back(cannot(name, "No block moves with the table long enough: some tenths of a second "
+                                                  "of motion are needed before rocking or sliding begins."));
         return;
     }
     // rotation of what is seen against the base's acceleration
@@ -201,7 +201,7 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
     if (turns) {
         out.base_tests.push_back(
             told("table_pitch", place, slope, pitch.sd[0], limits.pitch_rad_s2_m, "rad s2/m", pitches,
-                 fmt::format("{} turns by {:.2e} rad for each m/s2 of the base.", prepared.what, slope)));
+                 fmt::format("{} rotates by {:.2e} rad for each m/s2 of the base.", prepared.what, slope)));
         if (pitches) {
             out.found.push_back(
                 cause_of("table_pitch", place, "rotation_rad_s2_m", "rad s2/m", 0, slope, pitch.sd[0], pitch.gain[0]));

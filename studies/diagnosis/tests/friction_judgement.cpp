@@ -70,19 +70,19 @@ void decide(FrictionJudgement& j)
     const std::string seen = fmt::format("{} window{} of {} slide{} in {} run{}", j.windows, j.windows == 1 ? "" : "s",
                                          j.slides, j.slides == 1 ? "" : "s", j.runs, j.runs == 1 ? "" : "s");
     if (j.windows < least_windows || j.slides < least_slides) {
-        j.note = fmt::format("joints slide in no more than {}, which do not show how far they err", seen);
+        j.note = fmt::format("joints slide in no more than {}, too few to estimate their error", seen);
         return;
     }
     const double factor = std::exp(deviations * std::hypot(j.fit, j.leaving_out));
     if (!(j.value > 0) || !(factor <= widest_factor)) {
         j.note =
-            fmt::format("{} tell it no better than from {:.3g} to {:.3g}", seen, j.value / factor, j.value * factor);
+            fmt::format("{} determine it only between {:.3g} and {:.3g}", seen, j.value / factor, j.value * factor);
         return;
     }
     j.determined = true;
     j.low = j.value / factor;
     j.high = j.value * factor;
-    j.note = fmt::format("by the balance of forces, whatever the contact law: {}", seen);
+    j.note = fmt::format("by the balance of forces, for any contact law: {}", seen);
 }
 
 } // namespace
@@ -101,7 +101,7 @@ FrictionJudgement judge_friction(const Specimen& specimen, const TrackScales& sc
         }
     j.runs = in_runs.size();
     if (j.windows == 0) {
-        j.note = "no joint slides for so long that the balance of forces shows its friction";
+        j.note = "no joint slides long enough for the balance of forces to determine its friction";
         return j;
     }
     Scatter scatter;

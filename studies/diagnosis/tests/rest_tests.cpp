@@ -82,10 +82,10 @@ void test_places(const Specimen& s, bool table, const TrackScales& scales, const
             if (off[b])
                 continue;
             const Placed p = placed(b);
-            tests[b] = told("drum_offset", fmt::format("block {}", b), p.mean, p.sd, most * p.sd, "m", false,
-                            fmt::format("On the mean block {} lies {:.2e} m to the right of where it should, seen from "
-                                        "{}.",
-                                        b, p.mean, table ? "the table" : "the others"));
+            tests[b] = told(
+                "drum_offset", fmt::format("block {}", b), p.mean, p.sd, most * p.sd, "m", false,
+                fmt::format("On average block {} lies {:.2e} m to the right of its nominal position relative to {}.", b,
+                            p.mean, table ? "the table" : "the others"));
             if (farthest == n || p.in_sds() > its.in_sds()) {
                 farthest = b;
                 its = p;
@@ -149,9 +149,10 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
         sd = std::isfinite(sd) ? std::max(sd, noise) : noise;
         const std::string joint = fmt::format("joint {}", j);
         const bool found = beyond(mean, sd, limits.wedge_rad, limits.sds);
-        out.sensor_tests.push_back(told("wedge", joint, mean, sd, limits.wedge_rad, "rad", found,
-                                        fmt::format("At rest block {} leans by {:.2e} rad against {}.", upper, mean,
-                                                    on_table ? "the horizontal" : fmt::format("block {}", lower))));
+        out.sensor_tests.push_back(
+            told("wedge", joint, mean, sd, limits.wedge_rad, "rad", found,
+                 fmt::format("At rest block {} is tilted by {:.2e} rad relative to {}.", upper, mean,
+                             on_table ? "the horizontal" : fmt::format("block {}", lower))));
         if (!found || (!wedges[u].cause.mechanism.empty() && std::fabs(wedges[u].size) >= std::fabs(mean)))
             continue;
         wedges[u] = cause_of("wedge", joint, "angle_rad", "rad", 0, mean, sd, 0.5 * std::pow(mean / sd, 2));

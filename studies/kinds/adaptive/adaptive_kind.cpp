@@ -151,7 +151,7 @@ std::string AdaptiveKind::text() const
     for (const std::size_t block : first_fallen(counts()))
         list += fmt::format("{}{}: {}", list.empty() ? "" : ", ", header_.block_names[block], counts().first()[block]);
     if (!list.empty())
-        text += fmt::format("\n  first to fall, of the realizations that were run: {}", list);
+        text += fmt::format("\n  first block to fall, among the realizations that were run: {}", list);
     return text + "\n";
 }
 
@@ -187,15 +187,14 @@ std::string describe_adaptive(const SurfaceTable& table)
     const auto borrowed = std::count(table.method.begin(), table.method.end(), IntervalMethod::surface);
     const std::uint64_t all = std::accumulate(table.trials.begin(), table.trials.end(), std::uint64_t{0});
     const std::uint64_t uniform = table.lower.size() * uniform_trials(table.half_width, adaptive_level);
-    std::string text = wide == 0 ? fmt::format("every cell is known to ±{:.3g} (95 %)", table.half_width)
-                                 : fmt::format("{} of {} cells are not known to ±{:.3g} (95 %), the worst to ±{:.3g}",
-                                               wide, table.lower.size(), table.half_width, widest);
-    text += fmt::format(" after {} rounds, {} of {} by borrowing from their neighbours", table.rounds, borrowed,
-                        table.lower.size());
+    std::string text =
+        wide == 0 ? fmt::format("every cell is within ±{:.3g} (95 %)", table.half_width)
+                  : fmt::format("{} of {} cells are not within ±{:.3g} (95 %); the widest half width is ±{:.3g}", wide,
+                                table.lower.size(), table.half_width, widest);
+    text += fmt::format(" after {} rounds, {} of {} with pooled intervals", table.rounds, borrowed, table.lower.size());
     if (wide == 0)
-        text +=
-            fmt::format("; with equally many realizations in each cell it would take {}, {:.1f} times as many", uniform,
-                        static_cast<double>(uniform) / static_cast<double>(std::max<std::uint64_t>(all, 1)));
+        text += fmt::format("; equal numbers of realizations in each cell would need {}, {:.1f} times as many", uniform,
+                            static_cast<double>(uniform) / static_cast<double>(std::max<std::uint64_t>(all, 1)));
     return text;
 }
 

@@ -87,8 +87,8 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
             continue;
         FragilityModel model;
         model.id = group.id;
-        model.description = fmt::format("{}: {}; {} motions, {} structures under each; intervals by the motions", study,
-                                        group.describe, f.motions, f.structures);
+        model.description = fmt::format("{}: {}; {} motions, {} structures under each; intervals clustered by motion",
+                                        study, group.describe, f.motions, f.structures);
         for (const StateFragility* s : states)
             model.limit_states.push_back(s->state.name);
         if (states.front()->stripes)
@@ -103,7 +103,7 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
                 check_fragility_model(alone);
                 model.functions.push_back(alone.functions.front());
             } catch (const InputError& error) {
-                model.description += fmt::format("; the lognormal curves are left out: {}", error.what());
+                model.description += fmt::format("; the lognormal curves are omitted: {}", error.what());
             }
         } else {
             model.description += "; not every limit state has a lognormal curve";
@@ -112,7 +112,7 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
             models.push_back(std::move(model));
     }
     if (models.empty())
-        throw InputError(study + ": no limit state has a curve or shares by stripe that could be passed on" +
+        throw InputError(study + ": no limit state has a curve or shares by stripe to export" +
                          (f.says.empty() ? "" : ":\n  " + f.says.front()));
     return models;
 }

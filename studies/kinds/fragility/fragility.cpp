@@ -191,15 +191,13 @@ private:
             seen[p.motion] = true;
         const auto motions = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
         if (motions < least_records)
-            out_.says.push_back(
-                fmt::format("Only {} motions have valid realizations: no interval can be given from fewer "
-                            "than {}, and so no curve.",
-                            motions, least_records));
+            out_.says.push_back(fmt::format(
+                "Only {} motions have valid realizations: an interval, and therefore a curve, needs at least {}.",
+                motions, least_records));
         else if (motions < enough_records)
-            out_.says.push_back(
-                fmt::format("Intervals are from {} motions; with fewer than {} they hold less often than "
-                            "they say.",
-                            motions, enough_records));
+            out_.says.push_back(fmt::format(
+                "Intervals are from {} motions; with fewer than {} their coverage is below the nominal level.", motions,
+                enough_records));
         return motions >= least_records;
     }
 
@@ -294,7 +292,7 @@ private:
         return dispersion_shares(runs);
     }
 
-    /// Which measure tells most of the collapse, and whether it tells all that scaling does not change.
+    /// Intensity measures ranked by information on the collapse, and whether it tells all that scaling does not change.
     void rank(const std::vector<std::uint8_t>& reached)
     {
         const auto ones = std::count(reached.begin(), reached.end(), 1);

@@ -58,9 +58,9 @@ ChosenCells FragilityKind::choose(const CellChoice& choice, const std::string& r
     }
     if (choice.intensity) {
         if (spec.method == FragilityMethod::cloud)
-            throw InputError(fmt::format("--intensity {:g}: {} is a cloud: each motion shakes once, as strong as it "
-                                         "is. Choose by --motion.",
-                                         *choice.intensity, results));
+            throw InputError(fmt::format(
+                "--intensity {:g}: {} is a cloud: each motion is applied once, unscaled. Select by --motion.",
+                *choice.intensity, results));
         std::vector<double> levels;
         for (int i = 0; i < spec.intensity.count; ++i)
             levels.push_back(spec.intensity.value(i));

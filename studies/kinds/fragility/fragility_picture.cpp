@@ -83,8 +83,9 @@ void plot_fragility(const Fragility& f, const std::vector<std::string>& names, c
                                   "pointtype {} pointsize 1.2 title {}",
                                   k, style.colour, style.point, gnuplot_text(s.state.describe));
     }
-    const std::string said = fmt::format("{} motions, {} structures under each · bands and bars: 95 %, by the motions",
-                                         f.motions, f.structures);
+    const std::string said =
+        fmt::format("{} motions, {} structures under each · bands and bars: 95 % intervals, clustered by motion",
+                    f.motions, f.structures);
     const std::string script =
         data + gnuplot_heading(title, said) +
         fmt::format("set logscale x\nset xrange [{}:{}]\n", f.grid.front() * 0.97, f.grid.back() * 1.03) +

@@ -48,10 +48,10 @@ std::vector<std::string> remarks(const StateFragility& s)
     if (s.stripes && s.stripes->p_monotone < 0.05)
         all.push_back(s.stripes->says);
     if (s.resurrected > 0)
-        all.push_back(fmt::format("{} of {} structures that reached it did not at some stronger shaking by the same "
-                                  "motion ({}).",
-                                  s.resurrected, s.reached_ever,
-                                  percent(static_cast<double>(s.resurrected) / static_cast<double>(s.reached_ever))));
+        all.push_back(fmt::format(
+            "{} of {} structures that reached it did not reach it at some stronger shaking by the same motion ({}).",
+            s.resurrected, s.reached_ever,
+            percent(static_cast<double>(s.resurrected) / static_cast<double>(s.reached_ever))));
     return all;
 }
 
@@ -72,10 +72,9 @@ std::string share_text(const DispersionShares& shares)
 
 std::string fragility_text(const Fragility& f)
 {
-    std::string text =
-        fmt::format("  {} motions, {} structures under each; intensity: {}; in brackets: 95 % intervals, "
-                    "by the motions\n",
-                    f.motions, f.structures, describe_measure(f.measure));
+    std::string text = fmt::format(
+        "  {} motions, {} structures under each; intensity: {}; in brackets: 95 % intervals, clustered by motion\n",
+        f.motions, f.structures, describe_measure(f.measure));
     for (const StateFragility& s : f.states) {
         text += fmt::format("  {:<16} {:>6} of {}", s.state.name, s.curve.reached, s.curve.trials);
         if (has_curve(s))
@@ -90,14 +89,14 @@ std::string fragility_text(const Fragility& f)
     }
     if (!f.measures.empty()) {
         const RankedMeasure& best = f.measures.front();
-        text += fmt::format("  the collapse is told best by {}: dispersion {} ({})\n", describe_measure(best.name),
-                            number(best.dispersion), interval(best.dispersion_limits));
+        text += fmt::format("  best intensity measure for the collapse: {}; dispersion {} ({})\n",
+                            describe_measure(best.name), number(best.dispersion), interval(best.dispersion_limits));
     }
     for (const SequenceShare& s : f.sequence)
-        text += fmt::format(
-            "  fallen by the end of shaking {}: {} of all stripes; as new in each: {}; difference {} to "
-            "{}\n",
-            s.shaking, percent(s.fallen), percent(s.fresh), percent(s.beyond.lower), percent(s.beyond.upper));
+        text += fmt::format("  fallen by the end of shaking {}: {} of all stripes; expected for undamaged structures: "
+                            "{}; difference {} to {}\n",
+                            s.shaking, percent(s.fallen), percent(s.fresh), percent(s.beyond.lower),
+                            percent(s.beyond.upper));
     for (const std::string& line : f.says)
         text += "  " + line + "\n";
     return text;
@@ -191,11 +190,10 @@ Json fragility_json(const Fragility& f)
 void fragility_section(const Fragility& f, HtmlPage& page, const std::function<void()>& picture)
 {
     page.section("Fragility");
-    page.paragraph(
-        fmt::format("{} motions, {} structures under each. Intensity: {}. Each curve is the lognormal one of "
-                    "maximum likelihood. Intervals (95 %) are those of the motions: runs of one motion are "
-                    "not independent, and intervals that took them so would be too narrow.",
-                    f.motions, f.structures, describe_measure(f.measure)));
+    page.paragraph(fmt::format("{} motions, {} structures under each. Intensity: {}. Each curve is a lognormal fit by "
+                               "maximum likelihood. Intervals (95 %) are clustered by motion: runs of one motion are "
+                               "not independent, and intervals that assume independence would be too narrow.",
+                               f.motions, f.structures, describe_measure(f.measure)));
     for (const std::string& line : f.says)
         page.box("warn", "Mind", line);
     picture();
@@ -215,21 +213,21 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
         for (const std::string& remark : remarks(s))
             items.push_back(s.state.name + ": " + remark);
     if (!items.empty()) {
-        page.heading("What the curves do not say");
+        page.heading("Limits of the curves");
         page.list(items);
     }
     if (!f.sequence.empty()) {
-        page.heading("One shaking after the other");
-        HtmlTable table_of{"rrrr", {"shaking", "fallen by its end", "as new in each", "difference, 95 %"}, {}, ""};
+        page.heading("Sequences of shakings");
+        HtmlTable table_of{
+            "rrrr", {"shaking", "fallen by its end", "expected if undamaged", "difference, 95 %"}, {}, ""};
         for (const SequenceShare& s : f.sequence)
             table_of.rows.push_back({fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh),
                                      fmt::format("{} to {}", percent(s.beyond.lower), percent(s.beyond.upper))});
         page.table(table_of);
-        page.note("Means of the stripes. As new: 1 - (1 - p)^k with the share p of the first shaking, for structures "
-                  "that nothing has displaced; the difference is what damage carried along does, and what the "
-                  "survivors are by selection.");
+        page.note("Means of the stripes. Expected if undamaged: 1 - (1 - p)^k with the share p of the first shaking. "
+                  "The difference is the combined effect of accumulated damage and of the selection of the survivors.");
     }
-    page.heading("Where the scatter comes from");
+    page.heading("Variance components");
     HtmlTable shares{"lrrrr", {"limit state", "motion", "imperfections", "contacts", "chaos"}, {}, ""};
     for (const StateFragility& s : f.states)
         if (s.shares) {
@@ -242,14 +240,13 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
         }
     page.table(shares);
     page.note(
-        "Of the variance of the outcome (reached or not) at a given intensity, over all intensities of the study: "
-        "what is the motion's own, the structure's, its contacts', and what two structures differ by that are "
-        "alike but for a nanometre.");
+        "Shares of the variance of the outcome (reached or not) at a given intensity, over all intensities of the "
+        "study: motion, structure, contacts, and the difference between two structures that differ by a nanometre.");
     if (f.measures.empty())
         return;
-    page.heading("Which measure tells most of the collapse");
+    page.heading("Intensity measures ranked by information on the collapse");
     HtmlTable ranks{
-        "lrrrrl", {"measure", "dispersion", "95 %", "information", "behind the best", "tells not all beside"}, {}, ""};
+        "lrrrrl", {"measure", "dispersion", "95 %", "information", "behind the best", "insufficient against"}, {}, ""};
     for (const RankedMeasure& m : f.measures) {
         std::string beside;
         const double level = 0.05 / static_cast<double>(std::max<std::size_t>(m.sufficiency.size(), 1));
@@ -260,11 +257,10 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
                               fmt::format("{:.3f}", m.gain), interval(m.behind), beside.empty() ? "–" : beside});
     }
     page.table(ranks);
-    page.note(
-        "Information: log likelihood gained over the mean share, in nats a realization (one nat more: 2.7 times as "
-        "probable); behind the best: by how "
-        "much, 95 %, by the motions. A measure tells not all where what motions differ in besides still shifts the "
-        "curve (5 %, all looked at together).");
+    page.note("Information: gain in log likelihood over the mean share, in nats per realization (one nat: 2.7 times as "
+              "probable). Behind the best: the difference with its 95 % interval, clustered by motion. A measure is "
+              "insufficient against a feature of the motions that still shifts the curve significantly (5 %, corrected "
+              "for all features).");
 }
 
 } // namespace stylobate

@@ -88,8 +88,8 @@ std::vector<std::string> rare_sentences(const RareTable& table)
 {
     std::vector<std::string> sentences;
     if (std::isnan(table.probability)) {
-        sentences.push_back(fmt::format("None of the {} repeats came to a collapse: its probability is too small for "
-                                        "{} levels, or the peak displacement does not lead to it.",
+        sentences.push_back(fmt::format("None of the {} repeats reached a collapse: its probability is too small for "
+                                        "{} levels, or the peak displacement is not a suitable measure.",
                                         table.repeats.size(), table.levels));
     } else {
         const std::string interval = std::isnan(table.lower)
@@ -98,20 +98,18 @@ std::vector<std::string> rare_sentences(const RareTable& table)
                                                        table.upper, 100 * level, table.repeats.size());
         sentences.push_back(fmt::format("Probability of collapse {:.3g} ({}), with {} realizations.", table.probability,
                                         interval, table.realizations));
-        sentences.push_back(fmt::format("Plain sampling would take about {:.3g} for the same error, {:.3g} times as "
-                                        "many.",
-                                        table.plain_realizations,
-                                        table.plain_realizations / static_cast<double>(table.realizations)));
+        sentences.push_back(
+            fmt::format("Plain Monte Carlo sampling would need about {:.3g} for the same error, {:.3g} times as many.",
+                        table.plain_realizations, table.plain_realizations / static_cast<double>(table.realizations)));
         if (const auto none = std::count(table.repeats.begin(), table.repeats.end(), 0.0); none > 0)
-            sentences.push_back(
-                fmt::format("{} of {} repeats came to no collapse and count as 0: so few levels bear no interval. Give "
-                            "more rare.samples.",
-                            none, table.repeats.size()));
+            sentences.push_back(fmt::format("{} of {} repeats reached no collapse and count as 0, so no interval can "
+                                            "be given. Increase rare.samples.",
+                                            none, table.repeats.size()));
     }
     for (std::size_t l = 1; l < table.levels; ++l)
         if (const double stuck = mean_of_level(table, table.stuck, l); stuck > many_stuck)
             sentences.push_back(
-                fmt::format("On level {} {:.0f} % of the chains never moved: give more rare.samples.", l, 100 * stuck));
+                fmt::format("On level {} {:.0f} % of the chains never moved: increase rare.samples.", l, 100 * stuck));
     return sentences;
 }
 
@@ -221,7 +219,7 @@ bool RareKind::summary(PageWriter& writer) const
     for (const std::string& sentence : rare_sentences(table))
         page.paragraph(sentence);
     HtmlTable levels{"rrrrr",
-                     {"level", "above [m]", "share that goes on", "candidates taken", "chains that never moved"},
+                     {"level", "above [m]", "conditional probability", "candidates taken", "chains that never moved"},
                      {},
                      "Subset simulation on the peak displacement of the top; means over the repeats"};
     for (std::size_t l = 0; l < table.levels; ++l)

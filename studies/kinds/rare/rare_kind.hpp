@@ -33,7 +33,7 @@ public:
     bool draws_plainly() const override { return false; }
     std::string why_no_replay() const override
     {
-        return "a realization of a chain follows from all before it; none can be run again by itself";
+        return "a realization of a chain depends on all previous ones; it cannot be repeated alone";
     }
 
     static constexpr PictureKind own_pictures[] = {{"rare", "a study of rare events"}};

@@ -59,9 +59,9 @@ Picture ReplicasKind::picture(const ResultReader& reader, const std::string& res
     check_complete(reader, results);
     if (request.name == "twins")
         return {
-            "twins", "How sure the verdict is", "",
+            "twins", "Predictability of the verdict", "",
             [this](const std::string& title, const std::filesystem::path& file) { plot_flips(twins_, title, file); }};
-    return {"predictability", "How long the motion can be foretold", "",
+    return {"predictability", "Predictability horizon of the motion", "",
             [this](const std::string& title, const std::filesystem::path& file) { plot_growth(twins_, title, file); }};
 }
 
@@ -82,13 +82,14 @@ void ReplicasKind::sections(PageWriter& writer) const
         twins_, writer.page,
         [&] {
             writer.picture(
-                "How sure the verdict is: a map for each kind of twin, over it the probability of collapse.",
-                [&](const std::filesystem::path& png) { plot_flips(twins_, "How sure the verdict is", png); });
+                "Predictability of the verdict: a map for each kind of perturbed replica, with contours of the "
+                "probability of collapse.",
+                [&](const std::filesystem::path& png) { plot_flips(twins_, "Predictability of the verdict", png); });
         },
         [&] {
-            writer.picture("Growth of the separation, and how long the motion can be foretold.",
+            writer.picture("Growth of the separation, and the predictability horizon of the motion.",
                            [&](const std::filesystem::path& png) {
-                               plot_growth(twins_, "How long the motion can be foretold", png);
+                               plot_growth(twins_, "Predictability horizon of the motion", png);
                            });
         });
 }

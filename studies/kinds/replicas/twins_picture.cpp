@@ -16,9 +16,9 @@ namespace {
 const std::vector<MapClass>& classes()
 {
     static const std::vector<MapClass> all = {
-        {0, "#3d6fb0", fmt::format("certain: fewer than {:g} % of twins differ", 100 * certain_below)},
+        {0, "#3d6fb0", fmt::format("certain: fewer than {:g} % of pairs are discordant", 100 * certain_below)},
         {certain_below, "#f2cc5c", "probable"},
-        {coin_flip_above, "#c63d2f", fmt::format("coin flip: more than {:g} % differ", 100 * coin_flip_above)}};
+        {coin_flip_above, "#c63d2f", fmt::format("coin flip: more than {:g} % are discordant", 100 * coin_flip_above)}};
     return all;
 }
 
@@ -63,13 +63,13 @@ void plot_flips(const Twins& twins, const std::string& title, const std::filesys
 {
     MapPicture picture = on_axes(twins);
     picture.title = title;
-    picture.subtitle =
-        fmt::format("{} pairs in each cell for each kind of twin · verdict: collapsed or not", twins.realizations);
+    picture.subtitle = fmt::format(
+        "{} pairs in each cell for each kind of perturbed replica · verdict: collapsed or not", twins.realizations);
     picture.columns = twins.kinds.size() > 4 ? 4 : static_cast<int>(twins.kinds.size());
     picture.key = fmt::format("{} · grey: {}", key, too_few_pairs);
     for (const TwinFlips& kind : twins.kinds) {
         MapPanel panel;
-        panel.title = fmt::format("{}: {:.2g} % differ", kind.name, 100 * kind.all.all.probability);
+        panel.title = fmt::format("{}: {:.2g} % discordant", kind.name, 100 * kind.all.all.probability);
         for (const FlipShare& share : kind.cells)
             panel.value.push_back(class_place(share));
         panel.classes = classes();
@@ -81,15 +81,15 @@ void plot_flips(const Twins& twins, const std::string& title, const std::filesys
 void plot_growth(const Twins& twins, const std::string& title, const std::filesystem::path& png)
 {
     if (twins.growth.empty())
-        throw InputError("no pair was followed that begins closer than the tolerance: there is nothing to draw.\n"
+        throw InputError("no tracked pair begins closer than the tolerance: there is nothing to draw.\n"
                          "  Run the study with twins.followed above 0, and a smaller one of twins.moves_m.");
     MapPicture picture = on_axes(twins);
     picture.title = title;
     picture.subtitle =
-        fmt::format("{} pairs followed in each cell · predictable until twins are {:g} % of a drum's width apart",
+        fmt::format("{} pairs tracked in each cell · predictable until the replicas are {:g} % of a drum's width apart",
                     twins.followed, 100 * twins.tolerance);
     picture.columns = 2;
-    picture.key = fmt::format("{} · grey: no growth to take a slope of, or not lost in half of the pairs", key);
+    picture.key = fmt::format("{} · grey: no growth to fit a slope to, or fewer than half of the pairs diverge", key);
     const auto add = [&](std::string name, std::vector<double> values, double high) {
         MapPanel panel;
         panel.title = std::move(name);

@@ -59,23 +59,23 @@ std::string open_text(const Twins& twins)
         open += kind.open;
         all += kind.open + kind.classes[0] + kind.classes[1] + kind.classes[2];
     }
-    return open == 0
-               ? std::string()
-               : fmt::format("{} in {} of {} cells of all kinds of twins ({} pairs in each). A cell in which none "
-                             "differs needs {}, one at the edge of a class more: raise study.realizations.",
-                             too_few_pairs, open, all, twins.realizations, fewest_pairs());
+    return open == 0 ? std::string()
+                     : fmt::format(
+                           "{} in {} of {} cells of all kinds of perturbed replicas ({} pairs in each). A cell without "
+                           "a discordant pair needs {}, a cell at the edge of a class more: raise study.realizations.",
+                           too_few_pairs, open, all, twins.realizations, fewest_pairs());
 }
 
 /// In words, what the growth says of one move.
 std::string growth_sentence(const Twins& twins, const TwinGrowth& growth)
 {
-    std::string text = fmt::format("{}: {} of {} pairs come apart; median growth {}/s ({}), median horizon {} s ({})",
+    std::string text = fmt::format("{}: {} of {} pairs diverge; median growth {}/s ({}), median horizon {} s ({})",
                                    twins.kinds[growth.kind].name, growth.pairs_lost, growth.pairs,
                                    number(growth.all_exponents_per_s.value), interval(growth.all_exponents_per_s),
                                    number(growth.all_horizons_s.value), interval(growth.all_horizons_s));
     if (growth.gained_s.count > 0)
         text +=
-            fmt::format("; {} s ({}) longer than that of the next move where both come apart, {}/s",
+            fmt::format("; {} s ({}) longer than that of the next displacement where both diverge, {}/s",
                         number(growth.gained_s.value), interval(growth.gained_s), number(growth.gained_exponent_per_s));
     return text;
 }
@@ -99,9 +99,9 @@ void add_cell(CsvRow& row, const Twins& twins, std::size_t cell)
 
 std::string twins_text(const Twins& twins)
 {
-    std::string text = fmt::format("  twins that differ in their verdict (95 % intervals); of what independent "
-                                   "realizations do; cells that are {} / {} / {} / {}\n",
-                                   sureness_names[0], sureness_names[1], sureness_names[2], too_few_pairs);
+    std::string text = fmt::format(
+        "  discordant pairs (95 % intervals); relative to independent realizations; cells that are {} / {} / {} / {}\n",
+        sureness_names[0], sureness_names[1], sureness_names[2], too_few_pairs);
     for (const TwinFlips& kind : twins.kinds)
         text += fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {} / {}\n", kind.name,
                             kind.all.all.flips, kind.all.all.trials, percent(kind.all.all.probability),
@@ -110,11 +110,12 @@ std::string twins_text(const Twins& twins)
                             kind.open);
     if (const std::string open = open_text(twins); !open.empty())
         text += fmt::format("  {}\n", open);
-    text += fmt::format("  smallest move at which the verdict is not certain, and cells: {}\n", lost_text(twins));
+    text += fmt::format("  smallest displacement at which the verdict is not certain, and number of cells: {}\n",
+                        lost_text(twins));
     for (const TwinGrowth& growth : twins.growth)
         text += fmt::format("  {}\n", growth_sentence(twins, growth));
     if (twins.invalid_pairs > 0)
-        text += fmt::format("  {} pairs with an invalid member are left out\n", twins.invalid_pairs);
+        text += fmt::format("  {} pairs with an invalid member are omitted\n", twins.invalid_pairs);
     return text;
 }
 
@@ -169,13 +170,12 @@ Json twins_json(const Twins& twins)
 void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& flips,
                    const std::function<void()>& growth)
 {
-    page.section("How sure the verdict is");
+    page.section("Predictability of the verdict");
     page.paragraph(fmt::format(
-        "Each of the {} realizations of a cell was run again as its own twin: the same in all that was drawn, but for "
-        "one thing. A verdict (collapsed or not) is certain where fewer than {:g} % of the twins have another one, and "
-        "a coin flip where more than {:g} % have: two tosses of a fair coin differ in 50 %. It is stated only where "
-        "the "
-        "95 % interval of that share lies within the class.",
+        "Each of the {} realizations of a cell was repeated as perturbed replicas, which share all draws and differ in "
+        "one quantity. A verdict (collapsed or not) is certain where fewer than {:g} % of the pairs are discordant, "
+        "and a coin flip where more than {:g} % are (two independent tosses of a fair coin differ in 50 %). A class is "
+        "assigned only where the 95 % interval of that share lies within it.",
         twins.realizations, 100 * certain_below, 100 * coin_flip_above));
     flips();
     HtmlTable table{"lrrrrrrrrr",
@@ -190,28 +190,29 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
                               fmt::format("{}", kind.classes[0]), fmt::format("{}", kind.classes[1]),
                               fmt::format("{}", kind.classes[2]), fmt::format("{}", kind.open)});
     page.table(table);
-    page.note("Of independent: the share that differs over that of two realizations that have nothing but the cell in "
-              "common: how much of the verdict's variance in a cell is decided by what twins do not share.");
+    page.note("Relative to independent: the share of discordant pairs over that of two independent realizations of the "
+              "same cell. It is the fraction of the verdict's variance in a cell that is due to the quantity in which "
+              "the replicas differ.");
     if (const std::string open = open_text(twins); !open.empty())
         page.box("warn", "Mind", open);
-    page.paragraph(fmt::format("The smallest move at which the verdict is not certain, and in how many cells: {}.",
-                               lost_text(twins)));
+    page.paragraph(
+        fmt::format("The smallest displacement at which the verdict is not certain, and the number of cells: {}.",
+                    lost_text(twins)));
     if (twins.invalid_pairs > 0)
-        page.note(fmt::format("{} pairs with an invalid member are left out.", twins.invalid_pairs));
+        page.note(fmt::format("{} pairs with an invalid member are omitted.", twins.invalid_pairs));
     if (twins.growth.empty())
         return;
-    page.heading("How long the motion can be foretold");
+    page.heading("Predictability horizon of the motion");
     growth();
     std::vector<Html> items;
     for (const TwinGrowth& each : twins.growth)
         items.emplace_back(growth_sentence(twins, each) + ".");
     page.list(items);
-    page.note(fmt::format(
-        "{} pairs of each cell were followed. Growth: slope of the logarithm of the separation over time, from when "
-        "the original has left its place. Horizon: until twins are {:g} % of a drum's width apart (or as many "
-        "radians); a pair that ends before counts as one that never comes apart. Medians over all pairs with the "
-        "interval of order statistics.",
-        twins.followed, 100 * twins.tolerance));
+    page.note(fmt::format("{} pairs of each cell were tracked. Growth: slope of the logarithm of the separation over "
+                          "time, from the first motion of the original. Horizon: the time until the replicas are {:g} "
+                          "% of a drum's width apart (or as many radians); a pair that ends before is counted as one "
+                          "that does not diverge. Medians over all pairs with the interval of order statistics.",
+                          twins.followed, 100 * twins.tolerance));
 }
 
 std::string twins_csv(const Twins& twins)

@@ -24,7 +24,7 @@ std::string twins_csv(const Twins& twins);
 /// `predictability.csv`: each cell and followed move.
 std::string predictability_csv(const Twins& twins);
 
-/// How sure the verdict is, a map for each kind of twin.
+/// Predictability of the verdict, a map for each kind of twin.
 void plot_flips(const Twins& twins, const std::string& title, const std::filesystem::path& png);
 /// Exponents and horizons. @throws InputError if no pair was followed
 void plot_growth(const Twins& twins, const std::string& title, const std::filesystem::path& png);

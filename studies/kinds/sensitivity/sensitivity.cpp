@@ -139,7 +139,7 @@ SensitivityTable SensitivityOutcomes::table() const
 
     table.outcomes = {"collapse", "time_upright", "peak_displacement", "residual_displacement"};
     table.units = {"", "s", "m", "m"};
-    const std::string most = fmt::format("at most a drum's width of {:g} m, which stands for a collapse", width_m_);
+    const std::string most = fmt::format("limited to a drum's width of {:g} m, the value of a collapse", width_m_);
     table.meanings = {"1 if a block has fallen, else 0",
                       fmt::format("until the first fall; {:.4g} s, the longest end of any, where it stood", longest_s),
                       "largest of the top, " + most, "of the top at the end, its size, " + most};
@@ -147,8 +147,8 @@ SensitivityTable SensitivityOutcomes::table() const
                                   : std::array{"mu_star", "rms", "mu", "sigma"})
         table.indices.push_back({name, {}});
     if (table.rows < 2)
-        throw InputError(fmt::format("of the {} rows of the design {} have an invalid realization: nothing can be said "
-                                     "of the rest. A smaller run.step_fraction may help.",
+        throw InputError(fmt::format("of the {} rows of the design {} have an invalid realization: too few rows are "
+                                     "left for an estimate. A smaller run.step_fraction may help.",
                                      spec_.samples, table.invalid_rows));
     std::vector<std::uint64_t> acts(factors, 0);
     for (std::size_t o = 0; o < outcomes; ++o) {

@@ -24,7 +24,7 @@ Picture SensitivityKind::picture(const ResultReader& reader, const std::string& 
 {
     check_complete(reader, results);
     return {
-        "sensitivity", "What it depends on", "",
+        "sensitivity", "Sensitivity to the factors", "",
         [this](const std::string& title, const std::filesystem::path& file) { plot_sensitivity(table_, title, file); }};
 }
 
@@ -38,9 +38,10 @@ std::vector<std::pair<std::string, std::string>> SensitivityKind::files(const st
 
 void SensitivityKind::sections(PageWriter& writer) const
 {
-    writer.page.section("What it depends on");
-    writer.picture("Shares of the factors, with their intervals.",
-                   [&](const std::filesystem::path& png) { plot_sensitivity(table_, "What it depends on", png); });
+    writer.page.section("Sensitivity to the factors");
+    writer.picture("Shares of the factors, with their intervals.", [&](const std::filesystem::path& png) {
+        plot_sensitivity(table_, "Sensitivity to the factors", png);
+    });
     add_sensitivity(writer.page, table_);
 }
 

@@ -113,7 +113,7 @@ std::string too_few_rows(const SensitivityTable& table)
     const double unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
     std::string text = "Too few samples: ";
     if (!impossible.empty())
-        text += fmt::format("the interval of {} lies below 0, where no index is; ", impossible);
+        text += fmt::format("the interval of {} lies below 0, outside the range of an index; ", impossible);
     text += fmt::format("the widest interval, of {}, is {:.2g} wide. Raise sensitivity.samples to about {:.0f}.",
                         widest_one, width, std::ceil(wanted / unit) * unit);
     return text;
@@ -122,16 +122,13 @@ std::string too_few_rows(const SensitivityTable& table)
 std::string explanation(const SensitivityTable& table)
 {
     if (table.method == "morris")
-        return "Effects of moving a factor by half its range of probability, per range: mu* their mean size, rms the "
-               "root of their mean square without the noise of the trials, mu their mean with its sign, sigma how "
-               "much they differ from place to place.";
-    return table.inner > 1
-               ? "Shares of the variance: of the mean over all that is no factor (of the probability, where the "
-                 "outcome "
-                 "is a collapse), and of single outcomes. First: by the factor alone; total: with all that it "
-                 "interacts "
-                 "with."
-               : "Shares of the variance. First: by the factor alone; total: with all that it interacts with.";
+        return "Effects of a change of a factor by half its probability range, per range. mu*: their mean absolute "
+               "value; rms: their root mean square without the noise of the trials; mu: their signed mean; sigma: "
+               "their standard deviation over the design.";
+    return table.inner > 1 ? "Shares of the variance: of the mean over all quantities that are not factors (of the "
+                             "probability, where the outcome is a collapse), and of single outcomes. First: by the "
+                             "factor alone; total: including its interactions."
+                           : "Shares of the variance. First: by the factor alone; total: including its interactions.";
 }
 
 } // namespace
@@ -148,15 +145,16 @@ std::vector<std::string> sensitivity_remarks(const SensitivityTable& table)
         for (std::size_t k = 0; k < table.factors.size(); ++k)
             known = known || !std::isnan(table.indices[1].of.value[o * table.factors.size() + k]);
         if (!known)
-            remarks.push_back(fmt::format("{}: its {} not told from none, so that there is nothing to divide "
-                                          "among the factors. More rows may help, or a shaking at which it varies.",
+            remarks.push_back(fmt::format("{}: its {} not significantly different from zero, so it cannot be divided "
+                                          "among the factors. More rows, or a shaking at which it varies, may help.",
                                           spoken(table.outcomes[o]),
                                           table.inner > 1 ? "mean's variance is" : "variance is"));
     }
     if (const std::string few = too_few_rows(table); !few.empty())
         remarks.push_back(few);
     if (table.invalid_rows > 0)
-        remarks.push_back(fmt::format("{} rows were left out: a realization in them is invalid.", table.invalid_rows));
+        remarks.push_back(
+            fmt::format("{} rows were omitted because they contain an invalid realization.", table.invalid_rows));
     return remarks;
 }
 

@@ -50,16 +50,15 @@ KeptTrajectories plan_trajectories(const Experiment& experiment, const std::stri
     const auto refuse = [&](std::uint64_t count, const std::string& otherwise) {
         throw InputError(
             file, 0,
-            fmt::format(
-                "the trajectories of {} of {} realizations take about {:.3g} MB at output.trajectory_rate_hz = {}, "
-                "more than output.most_mb = {}.\n  Give output.most_mb = {:.0f}, a lower rate, or {}.",
-                count, total, size(count), output.trajectory_rate_hz, output.most_mb, std::ceil(size(count)),
-                otherwise));
+            fmt::format("the trajectories of {} of {} realizations need about {:.3g} MB at output.trajectory_rate_hz = "
+                        "{}, more than output.most_mb = {}.\n  Give output.most_mb = {:.0f}, a lower rate, or {}.",
+                        count, total, size(count), output.trajectory_rate_hz, output.most_mb, std::ceil(size(count)),
+                        otherwise));
     };
     if (output.trajectories) {
         kept.count = std::min(*output.trajectories, total);
         if (size(kept.count) > output.most_mb)
-            refuse(kept.count, "output.trajectories = \"fit\": as many as that holds");
+            refuse(kept.count, "output.trajectories = \"fit\" for as many as fit");
     } else {
         kept.count = std::min(total, static_cast<std::uint64_t>(output.most_mb / kept.each_mb));
         if (kept.count == 0)
@@ -69,13 +68,13 @@ KeptTrajectories plan_trajectories(const Experiment& experiment, const std::stri
 
     constexpr double worth_saying_mb = 10;
     if (kept.count < total)
-        kept.words = fmt::format(
-            "Trajectories are kept of the first {} of {} realizations: about {:.3g} of {:.3g} MB at {} Hz. `stylobate "
-            "replay` makes that of any other one.{}",
-            kept.count, total, kept.mb, size(total), output.trajectory_rate_hz,
-            output.trajectories ? std::string()
-                                : fmt::format(" For all: output.trajectories = \"all\", output.most_mb = {:.0f}.",
-                                              std::ceil(size(total))));
+        kept.words = fmt::format("Trajectories are kept of the first {} of {} realizations: about {:.3g} of {:.3g} MB "
+                                 "at {} Hz. `stylobate replay` computes that of any other realization.{}",
+                                 kept.count, total, kept.mb, size(total), output.trajectory_rate_hz,
+                                 output.trajectories
+                                     ? std::string()
+                                     : fmt::format(" For all: output.trajectories = \"all\", output.most_mb = {:.0f}.",
+                                                   std::ceil(size(total))));
     else if (kept.mb > worth_saying_mb)
         kept.words = fmt::format("Trajectories of {} realizations at {} Hz: at most about {:.3g} MB.", total,
                                  output.trajectory_rate_hz, kept.mb);

@@ -100,7 +100,8 @@ Picture SurfaceKind::picture(const ResultReader& reader, const std::string& resu
 {
     const std::vector<std::string>& known = limit_state_names();
     if (!request.limit.empty() && std::find(known.begin(), known.end(), request.limit) == known.end())
-        throw InputError(fmt::format("--limit {}: a surface knows {}", request.limit, fmt::join(known, ", ")));
+        throw InputError(
+            fmt::format("--limit {}: the limit states of a surface are {}", request.limit, fmt::join(known, ", ")));
     const LimitState limit = request.limit.empty() ? LimitState::collapse : limit_state_of(request.limit);
     const SurfaceTable surface = surface_so_far(reader, study_, results, limit);
     Picture picture;
@@ -133,9 +134,9 @@ void SurfaceKind::sections(PageWriter& writer) const
         "The probability of collapse over frequency and PGA, with its contours.",
         [&](const std::filesystem::path& png) { plot_surface(table, what, "Probability of collapse", png); });
     if (table.pga_m_s2.size() > 1)
-        writer.picture("The same at some frequencies, with the intervals.", [&](const std::filesystem::path& png) {
-            plot_slice(table, {}, what, "Probability of collapse", png);
-        });
+        writer.picture(
+            "The probability at some frequencies, with the intervals.",
+            [&](const std::filesystem::path& png) { plot_slice(table, {}, what, "Probability of collapse", png); });
     writer.page.table(cell_table(table));
     if (const std::string more = remark(table); !more.empty())
         writer.page.note(more);
@@ -162,7 +163,7 @@ SurfaceTable surface_so_far(const ResultReader& reader, const Study& study, cons
     if (limit == LimitState::collapse && reader.complete())
         return reader.surface();
     if (limit == LimitState::total && study.outcome.follow != Follow::rest)
-        throw InputError(fmt::format("--limit total: {} followed each realization until its first fall only. Run the "
+        throw InputError(fmt::format("--limit total: {} computed each realization only until its first fall. Run the "
                                      "study again with outcome.follow = \"rest\".",
                                      results));
     if (const Tally* tally = reader.tally())

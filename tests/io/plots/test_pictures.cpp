@@ -68,7 +68,7 @@ TEST(Texts, Words)
 {
     EXPECT_EQ(describe_interval("wilson 0.95"), "95 % Wilson interval");
     EXPECT_EQ(describe_interval("jeffreys 0.999"), "99.9 % Jeffreys interval");
-    EXPECT_EQ(describe_interval("motions 0.95"), "95 % interval by the motions");
+    EXPECT_EQ(describe_interval("motions 0.95"), "95 % interval, clustered by motion");
     EXPECT_EQ(describe_interval("something else"), "something else");
     EXPECT_EQ(describe_interval(""), "");
     SurfaceTable surface = some_surface(3, 2);
@@ -333,7 +333,7 @@ TEST_F(Pictures, RareEvent)
     open.lower = open.upper = no_number;
     plot_rare(open, "", folder / "open.png");
     EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00002) << "their mean";
-    RareTable none = some_rare_event(); // no repeat came to a collapse
+    RareTable none = some_rare_event(); // no repeat reached a collapse
     none.probability = none.lower = none.upper = no_number;
     none.repeats = {0, 0};
     plot_rare(none, "", folder / "none.png");
@@ -556,7 +556,7 @@ TEST_F(Pictures, GnuplotMissingOrFailing)
     EXPECT_NE(said.find("no such option"), std::string::npos) << said;
     EXPECT_NE(said.find("exit status 3"), std::string::npos) << said;
     write_fake("#!/bin/sh\nexit 0\n"); // claims success, draws nothing
-    EXPECT_NE(draw().find("it said nothing"), std::string::npos);
+    EXPECT_NE(draw().find("no message"), std::string::npos);
     write_fake("#!/bin/sh\nkill -9 $$\n");
     EXPECT_NE(draw().find("exit status 137"), std::string::npos);
     write_fake("#!/nowhere/interpreter\n");

@@ -180,7 +180,7 @@ TEST(Layout, RefusesEpistylesWithoutASeat)
     s.epistyles[0].length_m = 0.1;
     s.epistyles[0].x_m = 0.005;
     expect_refused(s, "epistyle 0 has no seat on column 1: it reaches from x = -0.045 to 0.055 m and the column's top "
-                      "from 0.06 to 0.12 m, 5 mm apart. Lengthen it, move it, or leave the column out.");
+                      "from 0.06 to 0.12 m, 5 mm apart. Lengthen it, move it, or omit the column.");
     s = two_columns();
     s.epistyles[0].last_column = 2;
     expect_refused(s, "epistyle 0 lies on the columns from 0 to 2, but the columns are 0 to 1, counted from the left.");
@@ -251,7 +251,8 @@ TEST(Layout, RefusesWhatIsNoStructure)
                       "from the left.");
     s = two_columns();
     s.kind = StructureKind::column;
-    expect_refused(s, "a column stands alone, at x = 0, without an epistyle. For more, kind = \"colonnade\".");
+    expect_refused(
+        s, "a column stands alone, at x = 0, without an epistyle. For several columns, give kind = \"colonnade\".");
 }
 
 // ---- realizations ---------------------------------------------------------------------------------------------------

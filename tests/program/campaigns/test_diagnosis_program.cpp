@@ -74,8 +74,8 @@ TEST_F(DiagnosisProgram, APitchingTableIsNamed)
     ASSERT_EQ(run({"report", "d.h5", "--quiet"}).status, 0);
     const std::string page = read_bytes(folder / "d.html");
     EXPECT_EQ(count_of(page, ">measured, ± 2 sd of the noise</text>"), 4u); // x and rotation in two runs
-    EXPECT_EQ(count_of(page, ">calibrated baseline, anew in each window</text>"), 4u);
-    EXPECT_GT(count_of(page, ">off by more than noise and a short lag make</text>"), 1u);
+    EXPECT_EQ(count_of(page, ">calibrated baseline, restarted in each window</text>"), 4u);
+    EXPECT_GT(count_of(page, ">error above noise and a short lag</text>"), 1u);
     const std::size_t chart = page.find("aria-label=\"What each cause would explain");
     ASSERT_NE(chart, std::string::npos);
     const std::string svg = page.substr(chart, page.find("</svg>", chart) - chart);

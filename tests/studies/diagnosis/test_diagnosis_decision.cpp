@@ -277,7 +277,7 @@ TEST(Decision, WithoutKnownChanceOnlyDirectTestsName)
 {
     const Told told = decide_on({fit_of("joint_friction", {50, 50})}, {}, {}, {}, ChanceGains());
     EXPECT_EQ(told.decided.verdict, Verdict::none);
-    EXPECT_EQ(told.decided.judged.front().why_not, "what chance gives is not known");
+    EXPECT_EQ(told.decided.judged.front().why_not, "the null distribution is unknown");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-/// Where the baseline is off, and the motion that is drawn there.
+/// Errors of the baseline, and the motion that is drawn there.
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/calibration/calibration.hpp"
