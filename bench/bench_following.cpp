@@ -52,7 +52,7 @@ std::vector<FollowJob> jobs()
     job.watched_s = nullptr;
     job.targets = targets;
     job.windows = windows;
-    job.pull_rad_s = 60;
+    job.nudge_rad_s = 60;
     std::vector<FollowJob> all(64, job);
     for (std::size_t i = 0; i < all.size(); ++i)
         for (Joint& joint : all[i].realization.joints)

@@ -23,7 +23,8 @@ void peak_fma(benchmark::State& state, Isa isa)
         benchmark::Counter(flops, benchmark::Counter::kIsIterationInvariantRate, benchmark::Counter::kIs1000);
 }
 
-/// A bundle as the ensemble runs it: base motion, steps, and the look at each realization after every chunk.
+/// A bundle as the ensemble runs it: base motion, steps, and the termination check of each realization after every
+/// chunk.
 /// @param warm chunks before the clock starts
 /// @return block-steps of one chunk
 double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
@@ -62,7 +63,7 @@ double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
     return block_steps;
 }
 
-/// The steps alone, without base motion and looks: what of `chunks` is the kernel's.
+/// The steps alone, without base motion and checks: what of `chunks` is the kernel's.
 void kernel(benchmark::State& state, Isa isa, int blocks)
 {
     const WarmKernel warm(isa, blocks);

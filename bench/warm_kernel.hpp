@@ -1,6 +1,6 @@
 #pragma once
 /// A bundle of rocking columns as the ensemble leaves it after some chunks, and the kernel that steps it: for what
-/// looks at the steps alone.
+/// measures the steps alone.
 
 #include "bench/scenes.hpp"
 #include "ensemble/engine/lanes.hpp"

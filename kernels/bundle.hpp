@@ -110,9 +110,9 @@ struct OfBlockExtension {
         reference_y,   ///< [m]
         eccentricity,  ///< centre of mass from the geometric centre, along the width [m]
         drag_per_mass, ///< c / m [1/m]
-        pull_x,        ///< nudging: dt2 x an external acceleration, which the host may write between two runs [m]
-        pull_y,        ///< [m]
-        pull_theta,    ///< [rad]
+        nudge_x,       ///< nudging: dt2 x an external acceleration, which the host may write between two runs [m]
+        nudge_y,       ///< [m]
+        nudge_theta,   ///< [rad]
         count
     };
 };

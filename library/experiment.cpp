@@ -79,7 +79,7 @@ Experiment::Data Experiment::Data::checked(inner::Experiment experiment, const s
     for (const inner::Doubt& doubt : data.loaded.doubts()) {
         if (doubt.refused)
             throw InputError(
-                fmt::format("{}: {}\n  If it is meant: study.allow = [\"{}\"].", name, doubt.text, doubt.check));
+                fmt::format("{}: {}\n  If it is intended: study.allow = [\"{}\"].", name, doubt.text, doubt.check));
         data.warnings.push_back(doubt.text);
     }
     return data;
@@ -105,8 +105,8 @@ Experiment::Experiment(const Study& study, const Record& record)
     : data_(translated([&] {
           const inner::Study& own = Inside::of(study).study;
           if (own.fragility)
-              throw InputError(name_of(study) + ": study.kind = \"fragility\" has its motions from [fragility] and "
-                                                "takes no other one. Name the files in fragility.records.");
+              throw InputError(name_of(study) + ": study.kind = \"fragility\" has its motions in [fragility] and "
+                                                "accepts no other one. Give the files in fragility.records.");
           const auto& given = Inside::of(record);
           inner::Study shaken = under_record(own, given.record, !given.from_file);
           inner::Motions motions = inner::motions_of(shaken, &given.record);

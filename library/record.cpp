@@ -18,14 +18,15 @@ Record Record::read(const std::filesystem::path& file, const std::string& compon
 Record Record::from_samples(std::vector<double> acceleration_m_s2, double dt_s, const std::string& name)
 {
     if (!(dt_s > 0) || !std::isfinite(dt_s))
-        throw InputError(fmt::format("{}: dt_s = {} is no distance of samples. Give one above 0.", name, dt_s));
+        throw InputError(
+            fmt::format("{}: dt_s = {} is not a valid sampling interval. Give a value above 0.", name, dt_s));
     if (acceleration_m_s2.size() < inner::fewest_samples)
         throw InputError(fmt::format("{}: has {} samples, fewer than {}. Give a smaller dt_s or a longer duration.",
                                      name, acceleration_m_s2.size(), inner::fewest_samples));
     for (std::size_t i = 0; i < acceleration_m_s2.size(); ++i)
         if (!std::isfinite(acceleration_m_s2[i]))
             throw InputError(
-                fmt::format("{}: the acceleration at {} s is no number.", name, dt_s * static_cast<double>(i)));
+                fmt::format("{}: the acceleration at {} s is not a number.", name, dt_s * static_cast<double>(i)));
     const double pga = inner::peak(acceleration_m_s2);
     if (pga < inner::smallest_pga_m_s2 || pga > inner::largest_pga_m_s2)
         throw InputError(fmt::format("{}: the PGA is {:g} m/s2, outside [{:g}, {:g}]. The unit is m/s2.", name, pga,
@@ -87,7 +88,7 @@ std::vector<double> Record::spectral_acceleration_m_s2(const std::vector<double>
         throw InputError(fmt::format("damping_ratio = {} is outside [0, 1).", damping_ratio));
     for (const double period : periods_s)
         if (!(period >= 0) || !std::isfinite(period))
-            throw InputError(fmt::format("a period of {} s is none. Give 0 or more.", period));
+            throw InputError(fmt::format("a period of {} s is negative. Give 0 or more.", period));
     return inner::spectral_acceleration(data_->record, periods_s, damping_ratio);
 }
 

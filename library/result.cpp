@@ -17,7 +17,7 @@ inner::LimitState limit_of(const std::string& word)
 {
     const std::vector<std::string>& names = inner::limit_state_names();
     if (std::find(names.begin(), names.end(), word) == names.end())
-        throw InputError(fmt::format("\"{}\" is no limit state; there are {}", word, fmt::join(names, ", ")));
+        throw InputError(fmt::format("\"{}\" is not a limit state; known: {}", word, fmt::join(names, ", ")));
     return inner::limit_state_of(word);
 }
 
@@ -96,8 +96,9 @@ Share Result::share(const std::string& limit_state) const
         return share;
     // some cells, or chains, have more realizations than others: the plain share means nothing
     if (limit != inner::LimitState::collapse || !data_->complete)
-        throw InputError(fmt::format("{}: of {} only the share of the collapse is known, once it is complete",
-                                     data_->name, adaptive ? "an adaptive surface" : "a study of rare events"));
+        throw InputError(
+            fmt::format("{}: for {} only the probability of collapse is available, after the run is complete",
+                        data_->name, adaptive ? "an adaptive surface" : "a study of rare events"));
     if (rare) {
         share.probability = data_->rare.probability;
         share.lower = data_->rare.lower;
@@ -133,16 +134,15 @@ Surface Result::surface(const std::string& limit_state) const
     if (data_->surfaces.empty())
         throw InputError(fmt::format("{}: a result of kind '{}' has no surface", data_->name, kind()));
     if (data_->is_adaptive() && (limit != inner::LimitState::collapse || !data_->complete))
-        throw InputError(fmt::format("{}: an adaptive surface is that of the collapse, once it is complete; its "
-                                     "realizations lie where that one needed them",
-                                     data_->name));
+        throw InputError(fmt::format(
+            "{}: an adaptive surface gives only the probability of collapse, after the run is complete", data_->name));
     return surface_of(data_->surfaces[static_cast<std::size_t>(limit)], limit_state);
 }
 
 Fragility Result::fragility() const
 {
     if (!data_->study.fragility || kind() == "replay")
-        throw InputError(fmt::format("{}: a result of kind '{}' is no fragility study", data_->name, kind()));
+        throw InputError(fmt::format("{}: a result of kind '{}' is not a fragility study", data_->name, kind()));
     if (!data_->complete)
         throw InputError(
             fmt::format("{}: the run is not complete; run the same study again to continue it", data_->name));

@@ -25,7 +25,7 @@ void check(const Trajectory& t)
     for (const std::vector<double>* each : {&t.half_height_m, &t.rest_x_m, &t.rest_y_m})
         fits = fits && each->size() == n;
     if (!fits)
-        throw InputError("a trajectory whose arrays do not fit each other");
+        throw InputError("a trajectory with arrays of inconsistent sizes");
 }
 
 } // namespace
@@ -44,8 +44,8 @@ Trajectory follow(const Experiment& experiment, std::uint64_t index)
         const inner::LoadedStudy& loaded = Inside::of(experiment).loaded;
         const inner::Study& study = loaded.study();
         if (study.rare)
-            throw InputError("study.kind = \"rare\": a realization of a chain follows from all before it; none can be "
-                             "run by itself");
+            throw InputError(
+                "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
         if (index >= study.total())
             throw InputError(
                 fmt::format("realization {}: the study has realizations 0 to {}", index, study.total() - 1));

@@ -259,7 +259,7 @@ void LaneSet::advance(int first, int last)
     if (last == chunk_steps)
         for (int lane = 0; lane < lanes(); ++lane)
             if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
-                look(lane);
+                check(lane);
 }
 
 /// The tables of the base's motion at the beginning of a chunk, and the steps.
@@ -338,16 +338,16 @@ void LaneSet::fill_extension(int lane)
     }
 }
 
-void LaneSet::pull(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
+void LaneSet::nudge(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
 {
-    assert(topology_.model.mechanisms && "only the extended model can be pulled");
+    assert(topology_.model.mechanisms && "only the extended model can be nudged");
     const int k = place_of_[static_cast<std::size_t>(block)];
     const double dt = realization(lane).step_s, dt2 = dt * dt;
     if (k < topology_.fixed)
         return;
-    bundle_.at(OfBlockExtension::pull_x, k, lane) = dt2 * x_m_s2;
-    bundle_.at(OfBlockExtension::pull_y, k, lane) = dt2 * y_m_s2;
-    bundle_.at(OfBlockExtension::pull_theta, k, lane) = dt2 * theta_rad_s2;
+    bundle_.at(OfBlockExtension::nudge_x, k, lane) = dt2 * x_m_s2;
+    bundle_.at(OfBlockExtension::nudge_y, k, lane) = dt2 * y_m_s2;
+    bundle_.at(OfBlockExtension::nudge_theta, k, lane) = dt2 * theta_rad_s2;
 }
 
 BlockMotion LaneSet::centre(int k, int lane) const
@@ -369,7 +369,7 @@ void LaneSet::read_motion(int lane)
 }
 
 /// Not finite? fallen? energy out of balance? at rest, or out of time?
-void LaneSet::look(int lane)
+void LaneSet::check(int lane)
 {
     Place& place = places_[static_cast<std::size_t>(lane)];
     Watch& w = place.watch;
@@ -380,7 +380,7 @@ void LaneSet::look(int lane)
     if (!is_finite(topology_, bundle_, lane))
         return end(lane, State::invalid, InvalidReason::not_finite);
 
-    place.limits.look(place.realization, w.steps, place.moved, place.inside);
+    place.limits.check(place.realization, w.steps, place.moved, place.inside);
     w.undecided = place.limits.undecided();
     w.seated = !place.limits.unseated();
     if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)
@@ -406,7 +406,7 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
     const Watch& w = place.watch;
     const double top =
-        w.quiet != 0 ? w.quiet_top_m / static_cast<double>(w.quiet_looks) : centre(topology_.top, lane).x_m;
+        w.quiet != 0 ? w.quiet_top_m / static_cast<double>(w.quiet_checks) : centre(topology_.top, lane).x_m;
     o.residual_top_displacement_m = top - place.start_top_x_m;
     o.top_path_m = bundle_.at(OfRealization::top_path, lane);
     o.total_sliding_m = bundle_.at(OfRealization::slip, lane);

@@ -40,16 +40,16 @@ public:
     /// Puts a realization into a free lane, at its static rest.
     void load(int lane, Realization realization);
 
-    /// Steps all lanes by one chunk and looks at each; `outcome(lane)` then tells which have ended.
+    /// Steps all lanes by one chunk and checks each; `outcome(lane)` then tells which have ended.
     void advance();
-    /// Part of a chunk, for trajectories: steps `first` to `last - 1`; the look comes with the chunk's last step.
+    /// Part of a chunk, for trajectories: steps `first` to `last - 1`; the check comes with the chunk's last step.
     void advance(int first, int last);
 
     /// Accelerates a block (of the realization's numbering) from outside until the next call, for the extended model:
     /// how a simulation is made to follow measured motion. The work counts as the base's.
-    void pull(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2);
+    void nudge(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2);
 
-    // ---- a realization that is followed from outside: stepped without looks, read, pulled, and taken up elsewhere
+    // ---- a realization that is followed from outside: stepped without checks, read, nudged, and taken up elsewhere
     // ----
 
     /// All that the steps of a realization depend on but its base motion: in another lane, of this set or of another
@@ -58,10 +58,10 @@ public:
     /// Puts a realization into a free lane when steps 0 to `phase - 1` of the chunk have been done: at its static rest.
     /// @pre its base motion is made on the host (`BaseMotion::on_host`), here and below
     void load_followed(int lane, Realization realization, int phase);
-    /// The same in a state that it had after `step` steps; nothing pulls.
+    /// The same in a state that it had after `step` steps; no nudging.
     void load_followed(int lane, Realization realization, int phase, const std::vector<double>& state,
                        std::uint64_t step);
-    /// Steps `first` to `last - 1` of the chunk, and no look: nothing ends, nothing is set aside.
+    /// Steps `first` to `last - 1` of the chunk, and no check: nothing ends, nothing is set aside.
     void step_followed(int first, int last);
     /// Displacement of a block's geometric centre (of the realization's numbering) from the reference stack, along the
     /// axes of the laboratory even where the base turns.
@@ -80,8 +80,8 @@ public:
     /// Takes its state and its watch over from a column.
     void read_column(int lane, const double* column);
     std::uint64_t steps(int lane) const { return places_[static_cast<std::size_t>(lane)].watch.steps; }
-    /// The look after a chunk, as `advance` does it.
-    void look(int lane);
+    /// The check after a chunk, as `advance` does it.
+    void check(int lane);
     /// Whether the tables of its base motion are made on the host.
     bool tables_given(int lane) const;
     /// Makes them, for the chunk that begins at a step.
@@ -108,7 +108,7 @@ private:
         std::optional<Outcome> outcome;
         Watch watch;
         LimitStates limits;
-        std::vector<BlockMotion> moved;     ///< (blocks) at the last look
+        std::vector<BlockMotion> moved;     ///< (blocks) at the last check
         std::vector<int> inside;            ///< (blocks) `OfBlock::inside` of its chunk
         std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
         double start_top_x_m = 0;

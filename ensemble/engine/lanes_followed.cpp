@@ -39,7 +39,7 @@ void LaneSet::load_followed(int lane, Realization realization, int phase, const 
         memory_[i * lanes_ + static_cast<std::size_t>(lane)] = state[i];
     if (topology_.model.extended())
         for (int i = 0; i < static_cast<int>(r.blocks.size()); ++i)
-            pull(lane, i, 0, 0, 0);
+            nudge(lane, i, 0, 0, 0);
     begin_followed(lane, phase, step);
 }
 

@@ -22,14 +22,14 @@ LimitStates::LimitStates(const Realization& r, const OutcomeSpec& outcome, doubl
         turn_limit_rad_.push_back(std::atan(block.half_width_m / block.half_height_m));
 }
 
-void LimitStates::unseat(std::size_t block, std::uint64_t look)
+void LimitStates::unseat(std::size_t block, std::uint64_t check)
 {
     const int epistyle = static_cast<int>(block);
-    if (look < unseated_since_)
+    if (check < unseated_since_)
         unseated_block_ = epistyle;
-    else if (look == unseated_since_ && unseated_block_ != epistyle)
+    else if (check == unseated_since_ && unseated_block_ != epistyle)
         unseated_block_ = several_blocks;
-    unseated_since_ = std::min(unseated_since_, look);
+    unseated_since_ = std::min(unseated_since_, check);
 }
 
 void LimitStates::fall(const Realization& r, std::size_t block, std::uint64_t since)
@@ -54,8 +54,8 @@ void LimitStates::fall(const Realization& r, std::size_t block, std::uint64_t si
     total_since_ = total;
 }
 
-void LimitStates::look(const Realization& r, std::uint64_t steps, const std::vector<BlockMotion>& moved,
-                       const std::vector<int>& inside)
+void LimitStates::check(const Realization& r, std::uint64_t steps, const std::vector<BlockMotion>& moved,
+                        const std::vector<int>& inside)
 {
     undecided_ = false;
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {

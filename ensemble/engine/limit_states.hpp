@@ -21,14 +21,14 @@ struct BlockMotion {
 double face_offset(const Block& lower, const BlockMotion& lower_moved, const Block& upper,
                    const BlockMotion& upper_moved);
 
-/// Follows one realization from look to look.
+/// Follows one realization from check to check.
 ///
 /// A block has fallen when its centre is below `OutcomeSpec::collapse_height_fraction` of its rest height above the
 /// base; or when it has turned beyond its own slenderness angle atan(b / h) and does not come back in time. Whether it
-/// has is decided look by look; its time is the beginning of that, exact to a step: the first step after which the
-/// block was outside and stayed so until the look (the steps note when it was inside last, `OfBlock::inside`). Blocks
+/// has is decided check by check; its time is the beginning of that, exact to a step: the first step after which the
+/// block was outside and stayed so until the check (the steps note when it was inside last, `OfBlock::inside`). Blocks
 /// that fell at the same step fell together. An epistyle has lost a seat when its bottom face no longer reaches over
-/// the top face of a block on which it lay (or when it has fallen); its time is that of the look that found it. A
+/// the top face of a block on which it lay (or when it has fallen); its time is that of the check that found it. A
 /// column has fallen when one of its drums has; the collapse is total when every column that has a free drum and every
 /// epistyle have fallen.
 class LimitStates {
@@ -42,8 +42,8 @@ public:
     /// @param steps done so far
     /// @param moved (blocks) in the order of `Realization::blocks`
     /// @param inside (blocks) last step of the chunk, 0 to `chunk_steps` - 1, after which it was inside; -1: none
-    void look(const Realization& realization, std::uint64_t steps, const std::vector<BlockMotion>& moved,
-              const std::vector<int>& inside);
+    void check(const Realization& realization, std::uint64_t steps, const std::vector<BlockMotion>& moved,
+               const std::vector<int>& inside);
 
     bool fallen() const { return fallen_blocks_ > 0; }
     /// A block has turned too far, and may come back.
@@ -63,13 +63,13 @@ public:
 private:
     static constexpr std::uint64_t never = ~std::uint64_t{0};
     void fall(const Realization& realization, std::size_t block, std::uint64_t since);
-    void unseat(std::size_t block, std::uint64_t look);
+    void unseat(std::size_t block, std::uint64_t check);
 
     double height_fraction_ = 0;
     double base_top_m_ = 0;
     std::uint64_t fall_steps_ = 0;
     std::vector<double> turn_limit_rad_;      ///< (blocks)
-    std::vector<std::uint64_t> seen_since_;   ///< (blocks) outside since this look, or never: by it falls are decided
+    std::vector<std::uint64_t> seen_since_;   ///< (blocks) outside since this check, or never: by it falls are decided
     std::vector<std::uint64_t> turned_since_; ///< (blocks) outside since this step, or never
     std::vector<std::uint64_t> fallen_since_; ///< (blocks) this step
     int fallen_blocks_ = 0;

@@ -2,9 +2,10 @@
 /// The bundle that is stepped in single precision, behind a bundle in double precision for the host.
 ///
 /// The host writes realizations into the bundle in double precision and reads them there, as ever: `take` rounds what
-/// it has written, `run` steps in single precision and gives back what a look at a realization asks for. Displacements
-/// and increments go in, and displacements come out, with their remainders: with about 48 binary digits. The sums over
-/// time of slip, paths and works are kept in double precision: those of a chunk are added to them at its end.
+/// it has written, `run` steps in single precision and gives back what a termination check of a realization needs.
+/// Displacements and increments go in, and displacements come out, with their remainders: with about 48 binary digits.
+/// The sums over time of slip, paths and works are kept in double precision: those of a chunk are added to them at its
+/// end.
 
 #include "ensemble/numerics/aligned.hpp"
 #include "kernels/isa.hpp"

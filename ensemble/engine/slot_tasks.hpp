@@ -37,7 +37,7 @@ inline std::size_t column_rows(const Topology& topology)
 enum class SlotState : int {
     empty,
     busy,
-    asks ///< the host is to look at it: its watch is that of before the last chunk's look
+    asks ///< the host is to check it: its watch is that of before the last chunk's check
 };
 
 /// A device's memory. Every pointer is the device's.
@@ -93,7 +93,7 @@ STYLOBATE_INLINE bool unseats(const Topology& topology, const Bundle& b, int bed
     return !(abs_of(offset) < reach - 1e-6 * wu);
 }
 
-/// Whether `LimitStates::look` might find anything: never false where it does.
+/// Whether `LimitStates::check` might find anything: never false where it does.
 STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
 {
     if (w.undecided != 0)
@@ -111,8 +111,8 @@ STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
     return false;
 }
 
-/// The look after a chunk, as far as it is the same every time.
-/// @return whether the host is to look instead; `w` is then not to be used
+/// The check after a chunk, as far as it is the same every time.
+/// @return whether the host is to check instead; `w` is then not to be used
 STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 {
     w.steps += chunk_steps;
@@ -122,7 +122,7 @@ STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 
 } // namespace detail
 
-/// Steps a slot by up to `chunks` chunks: less if the host is to look at it.
+/// Steps a slot by up to `chunks` chunks: less if the host is to check it.
 /// @tparam Mechanism, watching, stack as in `Stepper`
 template <class Mechanism, bool watching, bool stack>
 struct AdvanceSlot {

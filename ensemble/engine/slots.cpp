@@ -269,9 +269,9 @@ void SlotSet::take_those_that_ask()
     each(asking.size(), [&](std::size_t i) {
         Slot& s = slots_[static_cast<std::size_t>(asking[i])];
         s.lane->read_column(0, own_->host_packed.data() + i * rows);
-        s.lane->look(0);
+        s.lane->check(0);
         s.steps = s.lane->steps(0);
-        s.changed = !s.lane->outcome(0); // goes on, and the device is to hear of what the look found
+        s.changed = !s.lane->outcome(0); // goes on, and the device is to hear of what the check found
     });
     for (const int slot : asking)
         if (outcome(slot))

@@ -2,9 +2,9 @@
 /// Many realizations on a device: put into its slots, stepped together, looked at where it matters, and taken out.
 ///
 /// What begins and ends a realization is the host's `LaneSet`, of one lane for each slot: it makes the state that the
-/// device steps from. After every chunk the device asks itself whether a look would do anything but count
-/// (`slot_tasks.hpp`). If so, the slot stops, its column comes back, and the host's lane takes it over and looks. So
-/// every decision, and every number of an outcome, is made by the code that the processor's own runs are made by.
+/// device steps from. After every chunk the device asks itself whether a check would do anything but count
+/// (`slot_tasks.hpp`). If so, the slot stops, its column comes back, and the host's lane takes it over and checks it.
+/// So every decision, and every number of an outcome, is made by the code that the processor's own runs are made by.
 
 #include "ensemble/engine/device.hpp"
 #include "ensemble/engine/lanes.hpp"

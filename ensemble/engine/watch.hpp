@@ -1,6 +1,6 @@
 #pragma once
-/// What is kept of a realization from look to look, and those parts of a look that are arithmetic alone: they have the
-/// same bits on the processor, whose `LaneSet` decides by them, and on a device, which asks by them whether a look
+/// What is kept of a realization from check to check, and those parts of a check that are arithmetic alone: they have
+/// the same bits on the processor, whose `LaneSet` decides by them, and on a device, which asks by them whether a check
 /// would change anything.
 
 #include "kernels/bundle.hpp"
@@ -28,13 +28,13 @@ struct Watch {
     std::uint64_t may_rest = 0;   ///< 1: it ends when it has come to rest
     std::uint64_t last_step = 0;  ///< a multiple of chunk_steps
     std::uint64_t rest_steps = 0; ///< needed in a row
-    // from look to look
+    // from check to check
     std::uint64_t steps = 0;
-    std::uint64_t quiet = 0;       ///< 1: at the last look it seemed at rest,
+    std::uint64_t quiet = 0;       ///< 1: at the last check it seemed at rest,
     std::uint64_t quiet_since = 0; ///< and has since this step
-    std::uint64_t quiet_looks = 0;
-    double quiet_top_m = 0; ///< sum over the looks since then
-    double slip_m = 0;      ///< at the last look
+    std::uint64_t quiet_checks = 0;
+    double quiet_top_m = 0; ///< sum over the checks since then
+    double slip_m = 0;      ///< at the last check
     // what a device has to know of the limit states
     std::uint64_t undecided = 0; ///< 1: a block has turned too far, and may come back
     std::uint64_t seated = 0;    ///< 1: epistyles are watched, and none has lost a seat yet
@@ -118,7 +118,7 @@ STYLOBATE_INLINE EnergyBalance energy_balance(const Topology& topology, const Bu
     return o;
 }
 
-/// Whether this look's audit, if one is due, finds the balance out of bounds.
+/// Whether this check's audit, if one is due, finds the balance out of bounds.
 STYLOBATE_INLINE bool unbalanced(const Topology& topology, const Bundle& b, int lane, const Watch& w)
 {
     return w.steps % (audit_chunks * chunk_steps) == 0 &&
@@ -138,11 +138,11 @@ STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int 
         if (w.quiet == 0) {
             w.quiet_since = w.steps;
             w.quiet_top_m = 0;
-            w.quiet_looks = 0;
+            w.quiet_checks = 0;
         }
         w.quiet = 1;
         w.quiet_top_m += centre_of(topology, b, topology.top, lane).x;
-        ++w.quiet_looks;
+        ++w.quiet_checks;
     } else {
         w.quiet = 0;
     }

@@ -23,7 +23,7 @@ struct Outcome {
     std::int32_t first_collapse_block = -1; ///< that met the collapse criterion first; -1 = none; `several_blocks`
     std::int32_t fallen_blocks = 0;         ///< how many have met it by the end
     std::int32_t unseated_block = -1;       ///< epistyle that lost a seat first; -1 = none; `several_blocks`
-    double unseating_time_s = -1;           ///< when, as a look found it (every `chunk_steps` steps); -1 = never
+    double unseating_time_s = -1;           ///< when, as a check found it (every `chunk_steps` steps); -1 = never
     double total_collapse_time_s = -1;      ///< when every column and every epistyle had fallen; -1 = not so
     double peak_top_displacement_m = 0; ///< largest |x| of the top block's centre from its place in the reference stack
     double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, from its rest at the start

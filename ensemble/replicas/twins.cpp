@@ -37,12 +37,12 @@ public:
             for (const double value : {s.x_m[i] / width_m_, s.y_m[i] / width_m_, s.theta_rad[i]})
                 values_.push_back(value);
     }
-    std::size_t looks() const { return values_.size() / (3 * free_.size()); }
+    std::size_t checks() const { return values_.size() / (3 * free_.size()); }
 
-    double separation(const Snapshot& twin, std::size_t look) const
+    double separation(const Snapshot& twin, std::size_t check) const
     {
         double sum = 0;
-        visit(look, twin, [&](double d) { sum += d * d; });
+        visit(check, twin, [&](double d) { sum += d * d; });
         return std::sqrt(sum);
     }
     /// Distance of the last sample from the first one.
@@ -55,9 +55,9 @@ public:
 
 private:
     template <class F>
-    void visit(std::size_t look, const Snapshot& s, const F& f) const
+    void visit(std::size_t check, const Snapshot& s, const F& f) const
     {
-        const double* before = &values_[look * 3 * free_.size()];
+        const double* before = &values_[check * 3 * free_.size()];
         for (const std::size_t i : free_) {
             f(s.x_m[i] / width_m_ - before[0]);
             f(s.y_m[i] / width_m_ - before[1]);
@@ -68,7 +68,7 @@ private:
 
     double width_m_;
     std::vector<std::size_t> free_;
-    std::vector<double> values_; ///< (looks x free blocks x 3)
+    std::vector<double> values_; ///< (checks x free blocks x 3)
 };
 
 /// One original and its displaced replicas, one after the other in the same lane.
@@ -89,21 +89,21 @@ public:
     }
 
     /// After each chunk. @return false when all is done
-    bool look(LaneSet& lanes, int lane)
+    bool check(LaneSet& lanes, int lane)
     {
-        return kind_ < 0 ? look_at_original(lanes, lane) : look_at_twin(lanes, lane);
+        return kind_ < 0 ? check_original(lanes, lane) : check_replica(lanes, lane);
     }
 
     const std::vector<FollowedTwin>& pairs() const { return pairs_; }
 
 private:
-    double time(std::size_t look) const { return static_cast<double>(look * chunk_steps) * step_s_; }
+    double time(std::size_t check) const { return static_cast<double>(check * chunk_steps) * step_s_; }
 
-    bool look_at_original(LaneSet& lanes, int lane)
+    bool check_original(LaneSet& lanes, int lane)
     {
         const Snapshot now = lanes.snapshot(lane);
         if (left_at_ == 0 && history_.moved(now) > left_place)
-            left_at_ = history_.looks();
+            left_at_ = history_.checks();
         history_.add(now);
         if (!lanes.outcome(lane))
             return true;
@@ -119,13 +119,13 @@ private:
                 continue;
             lanes.load(lane,
                        sampler_.realization(original_ + (static_cast<std::uint64_t>(kind_) + 1) * study_.originals()));
-            look_ = 0;
+            check_ = 0;
             growth_ = Slope();
             FollowedTwin pair;
             pair.original = original_;
             pair.kind = static_cast<std::uint64_t>(kind_);
             pair.start = history_.separation(lanes.snapshot(lane), 0);
-            pair.original_end_s = time(history_.looks() - 1);
+            pair.original_end_s = time(history_.checks() - 1);
             pair.exponent_per_s = nan;
             pair.horizon_s = pair.start < study_.twins->tolerance ? nan : 0;
             pairs_.push_back(pair);
@@ -135,20 +135,20 @@ private:
         return false;
     }
 
-    bool look_at_twin(LaneSet& lanes, int lane)
+    bool check_replica(LaneSet& lanes, int lane)
     {
         FollowedTwin& pair = pairs_.back();
-        const double s = history_.separation(lanes.snapshot(lane), ++look_);
-        pair.followed_s = time(look_);
+        const double s = history_.separation(lanes.snapshot(lane), ++check_);
+        pair.followed_s = time(check_);
         if (s < study_.twins->tolerance) {
-            if (left_at_ > 0 && look_ >= left_at_ && time(look_) <= shaking_s_ && s > 0)
-                growth_.add(time(look_), std::log(s));
-            if (look_ + 1 < history_.looks() && !lanes.outcome(lane))
+            if (left_at_ > 0 && check_ >= left_at_ && time(check_) <= shaking_s_ && s > 0)
+                growth_.add(time(check_), std::log(s));
+            if (check_ + 1 < history_.checks() && !lanes.outcome(lane))
                 return true;
         } else {
-            pair.horizon_s = time(look_);
+            pair.horizon_s = time(check_);
         }
-        pair.exponent_per_s = growth_.count() < least_looks ? nan : growth_.value();
+        pair.exponent_per_s = growth_.count() < least_checks ? nan : growth_.value();
         return next(lanes, lane);
     }
 
@@ -156,10 +156,10 @@ private:
     const Sampler& sampler_;
     const std::uint64_t original_;
     History history_;
-    std::size_t left_at_ = 0; ///< look at which the original had left its place; 0: never
+    std::size_t left_at_ = 0; ///< check at which the original had left its place; 0: never
     double step_s_ = 0, shaking_s_ = 0;
     int kind_ = -1; ///< of the twin that is followed; -1: the original
-    std::size_t look_ = 0;
+    std::size_t check_ = 0;
     Slope growth_;
     std::vector<FollowedTwin> pairs_;
 };
@@ -244,7 +244,7 @@ std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOp
             lanes.advance();
             for (int lane = 0; lane < lanes.lanes(); ++lane) {
                 const auto i = static_cast<std::size_t>(lane);
-                if (groups[i] == nullptr || groups[i]->look(lanes, lane))
+                if (groups[i] == nullptr || groups[i]->check(lanes, lane))
                     continue;
                 pairs[task[i]] = groups[i]->pairs();
                 refill(lane);

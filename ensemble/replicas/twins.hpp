@@ -40,7 +40,7 @@ Study stepped_as(const Study& study, std::uint64_t index);
 /// How far a block of the original has moved when the growth begins to count, in widths or radians.
 inline constexpr double left_place = 1e-3;
 /// Fewest samples of a slope.
-inline constexpr int least_looks = 8;
+inline constexpr int least_checks = 8;
 
 /// Follows the displaced replicas of the first `TwinsSpec::followed` realizations of each cell, in the order of the
 /// originals and the kinds; pairs whose original is invalid are left out. The same bits for every instruction set and

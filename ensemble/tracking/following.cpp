@@ -24,8 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double damping = 1.4;      // 2 x 0.7: the pull settles without ringing
-constexpr double largest_turn = 0.1; // w x the time between two settings of the pull
+constexpr double damping = 1.4;      // 2 x 0.7: the nudging settles without ringing
+constexpr double largest_turn = 0.1; // w x the time between two settings of the nudging
 constexpr std::uint64_t never = ~std::uint64_t{0};
 // States that wait for a lane, at the most: windows then go before further observers.
 constexpr std::size_t most_waiting = 20000;
@@ -57,10 +57,10 @@ std::uint64_t leaving_step(double start_s, double step_s)
     return static_cast<std::uint64_t>(std::max(start_s / step_s, 0.0)) / follow_beat * follow_beat;
 }
 
-int pull_steps(const FollowJob& job)
+int nudge_steps(const FollowJob& job)
 {
-    int steps = std::min(job.pull_steps, follow_beat);
-    while (steps > 1 && steps * job.realization.step_s * job.pull_rad_s > largest_turn)
+    int steps = std::min(job.nudge_steps, follow_beat);
+    while (steps > 1 && steps * job.realization.step_s * job.nudge_rad_s > largest_turn)
         steps /= 2;
     return steps;
 }
@@ -73,10 +73,10 @@ struct Work {
     Readings* readings = nullptr;
     std::size_t next_time = 0;
     std::size_t next_window = 0; ///< of an observer
-    int pull_steps = 0;          ///< 0: nothing pulls
+    int nudge_steps = 0;         ///< 0: no nudging
 };
 
-/// Only the extended step can be pulled.
+/// Only the extended step can be nudged.
 Realization followed(Realization realization)
 {
     realization.extended = true;
@@ -245,7 +245,7 @@ private:
             lanes_.load_followed(static_cast<int>(lane), followed(j.realization), phase_);
             work.times = j.watched_s.get();
             work.readings = &result.watched;
-            work.pull_steps = j.targets && j.pull_rad_s > 0 ? pull_steps(j) : 0;
+            work.nudge_steps = j.targets && j.nudge_rad_s > 0 ? nudge_steps(j) : 0;
         } else {
             lanes_.load_followed(static_cast<int>(lane), followed(j.realization), phase_, work.leg.state,
                                  work.leg.step);
@@ -274,14 +274,14 @@ private:
         const Work& work = work_[lane];
         const std::uint64_t now = steps_[lane];
         std::uint64_t next = std::min(next_reading(work), next_leaving(work));
-        if (work.pull_steps > 0) {
-            const auto every = static_cast<std::uint64_t>(work.pull_steps);
+        if (work.nudge_steps > 0) {
+            const auto every = static_cast<std::uint64_t>(work.nudge_steps);
             next = std::min(next, now - now % every + every);
         }
         return next - now;
     }
 
-    /// Reads, windows that leave, the pull, and the end: what falls on the step that the lane has reached.
+    /// Reads, windows that leave, the nudging, and the end: what falls on the step that the lane has reached.
     void events(std::size_t lane)
     {
         Work& work = work_[lane];
@@ -296,8 +296,8 @@ private:
         }
         if (!finite || (next_reading(work) == never && next_leaving(work) == never))
             return end(lane);
-        if (work.pull_steps > 0 && steps_[lane] % static_cast<std::uint64_t>(work.pull_steps) == 0)
-            pull(lane);
+        if (work.nudge_steps > 0 && steps_[lane] % static_cast<std::uint64_t>(work.nudge_steps) == 0)
+            nudge(lane);
     }
 
     bool is_finite(std::size_t lane) const
@@ -330,11 +330,11 @@ private:
         return true;
     }
 
-    void pull(std::size_t lane)
+    void nudge(std::size_t lane)
     {
         const FollowJob& j = job(work_[lane]);
         const Targets& t = *j.targets;
-        const double dt = j.realization.step_s, w = j.pull_rad_s;
+        const double dt = j.realization.step_s, w = j.nudge_rad_s;
         const double position = (static_cast<double>(steps_[lane]) * dt - t.start_s) / t.spacing_s;
         const bool inside = position >= 0 && position < static_cast<double>(t.samples()) - 1;
         const std::size_t row = inside ? static_cast<std::size_t>(position) : 0;
@@ -357,8 +357,8 @@ private:
                 const double a = w * w * (where - at) + damping * w * (speed - step / dt);
                 return std::isfinite(a) ? a : 0.0;
             };
-            lanes_.pull(static_cast<int>(lane), static_cast<int>(i), towards(t.x_m, t.velocity_m_s, now.x_m, last.x_m),
-                        0, towards(t.theta_rad, t.rotation_rad_s, now.theta_rad, last.theta_rad));
+            lanes_.nudge(static_cast<int>(lane), static_cast<int>(i), towards(t.x_m, t.velocity_m_s, now.x_m, last.x_m),
+                         0, towards(t.theta_rad, t.rotation_rad_s, now.theta_rad, last.theta_rad));
         }
     }
 

@@ -3,12 +3,12 @@
 ///
 /// Rocking is chaotic: a run that was left alone says nothing of the measurement after a few impacts, and one that is
 /// restarted from measured states has lost its contacts' overlaps and springs, which no camera sees. So the model
-/// itself runs along the measured motion, weakly pulled towards it in x and rotation,
+/// itself runs along the measured motion, weakly nudged towards it in x and rotation,
 ///
 ///   added acceleration = w^2 (q_target - q) + 1.4 w (v_target - v)
 ///
 /// which keeps its contacts in states that it can have. From this observer free windows start: from its whole state,
-/// without pull, over a short time. What the model predicts there is compared with what was measured.
+/// without nudging, over a short time. What the model predicts there is compared with what was measured.
 ///
 /// The observers and windows of many parameter sets and runs are stepped in lockstep: a lane that is free takes the
 /// next one. A result is a function of its job alone, bit by bit, whatever the lane, the neighbours, the instruction
@@ -26,7 +26,7 @@
 namespace stylobate {
 
 /// Where the blocks of a realization are to be, at evenly spaced times, as displacements from the reference stack in
-/// the frame of the base. NaN: not known; nothing pulls there, nor between it and its neighbours in time.
+/// the frame of the base. NaN: not known; no nudging there, nor between it and its neighbours in time.
 struct Targets {
     double start_s = 0;   ///< of the first sample, in the time of the base motion
     double spacing_s = 0; ///< > 0
@@ -46,18 +46,18 @@ struct FreeWindow {
     std::vector<double> times_s; ///< when its blocks are read: ascending, after the start
 };
 
-/// Steps between two times at which a window may leave its observer, and the most between two settings of the pull.
+/// Steps between two times at which a window may leave its observer, and the most between two settings of the nudging.
 inline constexpr int follow_beat = 8;
 
 /// One parameter set and one run.
 struct FollowJob {
     Realization realization; ///< with its own base motion; run by the extended step, even where nothing is extended
-    std::shared_ptr<const Targets> targets;                 ///< null: nothing pulls
-    double pull_rad_s = 0;                                  ///< w
+    std::shared_ptr<const Targets> targets;                 ///< null: no nudging
+    double nudge_rad_s = 0;                                 ///< w
     std::shared_ptr<const std::vector<FreeWindow>> windows; ///< ascending; null: none
     std::shared_ptr<const std::vector<double>> watched_s; ///< when the observer itself is read, ascending; null: never
-    int pull_steps =
-        follow_beat; ///< steps between two settings of the pull: 1, 2, 4 or 8; fewer where w dt asks for it
+    int nudge_steps =
+        follow_beat; ///< steps between two settings of the nudging: 1, 2, 4 or 8; fewer where w dt asks for it
 };
 
 /// Displacements from the reference stack in the frame of the base, (times x blocks) in the order of

@@ -1,5 +1,5 @@
 #pragma once
-/// From what cameras saw to what the model is pulled towards and compared with.
+/// From what cameras saw to what the model is nudged towards and compared with.
 
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/motion.hpp"
@@ -35,14 +35,15 @@ struct SeenRun {
 /// How long and how strongly, for a specimen of this size: all times go with the pendulum time sqrt(size / g).
 struct FollowScales {
     double smoothing_s = 0; ///< half width of the smoothing
-    double pull_rad_s = 0;  ///< w
+    double nudge_rad_s = 0; ///< w
     double window_s = 0;    ///< length of a free window
     double lag_s = 0;       ///< error in time that a good prediction may have: the scale of a residual is the noise and
                             ///< this x the local speed
 };
 
-/// @param size_m of a drum (its width); drums of 48 mm: pull 60 rad/s, windows of 0.2 s, lag 20 ms; of 1.5 m: 24 rad/s,
-///        1.1 s, 0.11 s. (The pull grows more slowly than 1 / time as drums shrink: their noise is larger in
+/// @param size_m of a drum (its width); drums of 48 mm: nudging 60 rad/s, windows of 0.2 s, lag 20 ms; of 1.5 m: 24
+/// rad/s,
+///        1.1 s, 0.11 s. (The nudging grows more slowly than 1 / time as drums shrink: their noise is larger in
 ///        comparison.)
 FollowScales follow_scales(double size_m, double gravity_m_s2);
 

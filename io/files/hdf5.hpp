@@ -30,7 +30,7 @@ public:
 
     hid_t id() const { return id_; }
     void reset() noexcept;
-    /// Closes, and says so if that fails: a file's last writes happen here.
+    /// Closes, and reports an error: a file's last writes happen here.
     void close();
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-/// What an HDF5 file says that it is, for who does not know the layout.
+/// The type of an HDF5 file from its attributes, for readers that do not know the layout.
 
 #include <filesystem>
 #include <string>

@@ -39,7 +39,8 @@ public:
 
     /// Refuses any key that is not one of these: 'did you mean'.
     void allow_only(const std::vector<std::string>& known) const;
-    /// Refuses known keys other than these; `why` says who does not use them: `excitation.kind = "record"`.
+    /// Refuses known keys other than these; `why` names the setting that does not use them: `excitation.kind =
+    /// "record"`.
     void refuse_unused(const std::vector<std::string>& used, const std::string& why) const;
 
     /// A table in this one, perhaps absent.

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether measured data can be what they say: units, clocks, sensors, geometry.
+/// Consistency checks of measured data: units, clocks, sensors, geometry.
 
 #include "ensemble/model/campaign.hpp"
 

@@ -50,7 +50,7 @@ struct SpecimenNumber {
 };
 const std::array<SpecimenNumber, 3>& specimen_numbers();
 
-/// How many blocks the campaign has: whatever of it says so first.
+/// The number of blocks of the campaign: from the first entry that gives it.
 std::size_t block_count(const Campaign& campaign);
 
 /// A whole number that fits. @throws InputError naming the campaign's file and `what`

@@ -54,8 +54,8 @@ RockingMeasures rocking_measures(const IntensityMeasures& measures, double half_
 /// Where the study asks for it (`excitation.band_pass_hz`), a band-pass filter comes between 2 and 3
 /// (io/motion/band_pass.hpp: Butterworth of order 4, in the frequency domain, acausal, with padding), and the ends are
 /// tapered once more, since it rings into them. Without it, what a record has of long-period noise above the order of
-/// the polynomial stays. A permanent displacement of the ground is taken out with the drift, which it cannot be told
-/// from.
+/// the polynomial stays. A permanent displacement of the ground is taken out with the drift, from which it cannot be
+/// distinguished.
 ///
 /// Velocity and displacement follow exactly from an acceleration that is linear between its samples.
 /// The predominant frequency is that of the record as it stands, with or without the correction.

@@ -29,11 +29,11 @@ std::filesystem::path find_gnuplot();
 /// become blanks, bytes that are not UTF-8 become '?'.
 std::string gnuplot_text(std::string_view text);
 
-/// Commands for the two lines above a picture: the title (smaller if it is long) and what is said about it.
+/// Commands for the two lines above a picture: the title (smaller if it is long) and the subtitle.
 std::string gnuplot_heading(std::string_view title, std::string_view subtitle, PictureSize size = {});
 
 /// Runs a script whose terminal and output are set already (UTF-8, no markup in texts) and writes the picture to
-/// `file`, whole or not at all: as SVG or PDF where its ending says so, else as PNG. The script and its by-products
+/// `file`, whole or not at all: as SVG or PDF by its file extension, else as PNG. The script and its by-products
 /// live in a temporary folder that is removed.
 ///
 /// @throws InputError if gnuplot is missing, cannot be started or reports an error (its first lines are quoted), if the

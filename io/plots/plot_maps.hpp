@@ -29,7 +29,7 @@ struct MapPicture {
     int columns = 2;
     std::vector<double>
         line;        ///< (nf x np), of which the lines at 0.05, 0.5 and 0.95 are drawn over every map; or empty
-    std::string key; ///< said of grey cells and lines, below the maps
+    std::string key; ///< explanation of grey cells and lines, below the maps
 };
 
 /// The classes of the first panel that has any are explained below the maps.

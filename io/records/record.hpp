@@ -16,10 +16,10 @@ struct Record {
     std::string file;
     std::string format;    ///< "peer-at2", "csmip", "columns" and so on, as the table of io/records/record.cpp has them
     std::string component; ///< its name in the file, or "column 2"
-    std::string title;     ///< event and station, as the file says
+    std::string title;     ///< event and station, as given in the file
     std::string unit;      ///< the file's unit: "g", "g/10", "m/s2", "cm/s2", "mm/s2"
-    std::string station;   ///< as the file says: a name, a code or a number; empty if it says none
-    std::string orientation; ///< as the file says: "N10W", "360", "UP", "HNE"; empty if it says none
+    std::string station;   ///< as given in the file: a name, a code or a number; empty if absent
+    std::string orientation; ///< as given in the file: "N10W", "360", "UP", "HNE"; empty if absent
     /// The largest |acceleration| that the file's own header states; none if it states none.
     std::optional<double> header_pga_m_s2;
     std::string note; ///< what the reader had to do to the samples, for people; empty if nothing

@@ -117,7 +117,7 @@ struct ResultFile {
 
 /// Opens and verifies all but the rows.
 /// @param writable also takes the lock of the one writer
-/// @throws InputError as `ResultReader` and `ResultWriter::resume` say
+/// @throws InputError as `ResultReader` and `ResultWriter::resume`
 ResultFile open_result(const std::filesystem::path& path, bool writable);
 
 /// @throws InputError unless the file is of this study and version

@@ -27,10 +27,10 @@ std::uint64_t seal_bytes(std::size_t extents);
 std::vector<Extent> joined(std::vector<Extent> extents);
 
 /// Checks the whole file outside `extents` (joined), and writes the seal.
-/// @param block what `seal_bytes` said when the file was created
+/// @param block the result of `seal_bytes` when the file was created
 void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents);
 
-/// The same of a file that goes on behind its end, with bytes that the seal says nothing of (`RowJournal`).
+/// The same of a file that goes on behind its end, with bytes that the seal does not cover (`RowJournal`).
 void write_open_seal(FileHandle& file, std::uint64_t block);
 
 /// Verifies the seal. @returns the extents; of a file that may go on behind its end a single one of no size, there

@@ -36,7 +36,7 @@ struct ResultHeader {
     std::uint64_t first = 0; ///< index of the first row: 0 but for a replay
     std::uint64_t total = 0; ///< rows
     bool selected =
-        false; ///< the rows are some of the study's realizations, each row says which: an adaptive surface, rare
+        false; ///< the rows are some of the study's realizations, each row has its index: an adaptive surface, rare
                ///< events. `total` is how many they can become at most, in a finished file how many they are
     std::vector<std::string> input_names;  ///< columns of input/, see `Realization::inputs`; "friction[3]" goes into
                                            ///< column 3 of the two-dimensional dataset input/friction

@@ -145,7 +145,7 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
     for (const char* key : {"file", "component", "unit", "scale_to_pga_m_s2", "pga_m_s2", "pga_of"})
         if (keys.has(key))
             keys.refuse(key, "is not used by study.kind = \"fragility\"",
-                        "Remove it: the motions and how strong they are come from [fragility].");
+                        "Remove it: the motions and their intensities are given by [fragility].");
 }
 
 } // namespace
@@ -172,7 +172,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
     keys.refuse_unused(excitation_keys(e.kind),
                        fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, e.kind)));
     if (kind != StudyKind::single && e.kind == ExcitationKind::none)
-        keys.refuse("kind", fmt::format("shakes nothing, and study.kind is \"{}\"", word_for(study_kind_names, kind)),
+        keys.refuse("kind", fmt::format("has no motion, but study.kind is \"{}\"", word_for(study_kind_names, kind)),
                     "Give another excitation, or study.kind = \"single\".");
     if (kind == StudyKind::fragility)
         check_fragility_source(keys, e);
@@ -180,7 +180,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
         for (const char* key : {"frequency_hz", "pga_m_s2", "scale_to_pga_m_s2", "time_scale"})
             if (keys.has(key))
                 keys.refuse(key, "is not used by study.kind = \"surface\"",
-                            "Remove it: frequency and PGA come from the axes of [surface].");
+                            "Remove it: frequency and PGA are given by the axes of [surface].");
     }
     if (e.kind == ExcitationKind::none) {
         e.duration_s = keys.number("duration_s", duration_range);

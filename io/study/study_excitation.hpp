@@ -16,7 +16,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind);
 /// The unit of a record, canonical; empty where the key `unit` is absent.
 std::string acceleration_unit(const KeyReader& keys);
 
-/// What an excitation asks of the axes of a surface beyond what any axis may be.
+/// Additional requirements of an excitation for the axes of a surface.
 /// @param surface the table [surface]
 void check_axes(const KeyReader& surface, const ExcitationSpec& excitation, const SurfaceSpec& axes);
 

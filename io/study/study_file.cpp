@@ -120,11 +120,11 @@ OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
     const KeyReader collapse = keys.table("collapse");
     collapse.allow_only({"height_fraction"});
     o.collapse_height_fraction = collapse.number_or(
-        "height_fraction", {0.01, 0.99, false, "A part of the rest height.", 0.01}, o.collapse_height_fraction);
+        "height_fraction", {0.01, 0.99, false, "A fraction of the rest height.", 0.01}, o.collapse_height_fraction);
     o.rocking_threshold_rad = keys.number_or("rocking_threshold_rad", {0, 1.5, true, "Angles are in radians.", degree},
                                              o.rocking_threshold_rad);
     o.sliding_threshold =
-        keys.number_or("sliding_threshold", {0, 100, true, "A part of the drum's width.", 0}, o.sliding_threshold);
+        keys.number_or("sliding_threshold", {0, 100, true, "A fraction of the drum's width.", 0}, o.sliding_threshold);
     return o;
 }
 
@@ -135,7 +135,7 @@ void read_trajectories(const KeyReader& keys, StudyKind kind, OutputSpec& output
         for (const char* key : {"trajectories", "most_mb"})
             if (keys.has(key))
                 keys.refuse(key, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, kind)),
-                            "Remove it: only single studies keep trajectories. `stylobate replay` makes that of any "
+                            "Remove it: only single studies keep trajectories. `stylobate replay` computes that of any "
                             "realization.");
         return;
     }
@@ -145,9 +145,9 @@ void read_trajectories(const KeyReader& keys, StudyKind kind, OutputSpec& output
         if (keys.word_index("trajectories", {trajectories_fit, trajectories_all}) == 1)
             output.trajectories = OutputSpec::all;
     } else if (kept) {
-        output.trajectories =
-            keys.whole("trajectories", 0, most_realizations,
-                       "Of the first so many realizations; or \"all\", or \"fit\": as many as most_mb holds.");
+        output.trajectories = keys.whole(
+            "trajectories", 0, most_realizations,
+            "The number of realizations, from the first; or \"all\", or \"fit\": as many as fit into most_mb.");
     }
 }
 
@@ -168,7 +168,7 @@ std::vector<std::string> read_allow(const KeyReader& keys)
     for (const TomlValue& entry : list->entries)
         if (entry.type != TomlValue::Type::string || std::find(known.begin(), known.end(), entry.text) == known.end()) {
             const std::string meant = nearest_word(entry.text, known);
-            keys.refuse("allow", fmt::format("has {} in it, which is no check", entry.shown()),
+            keys.refuse("allow", fmt::format("contains {}, which is not a check", entry.shown()),
                         meant.empty() ? todo : fmt::format("Did you mean {}?", toml_quoted(meant)));
         }
     for (const std::string& name : known)
@@ -188,9 +188,9 @@ void read_output(const KeyReader& keys, Study& study)
     read_trajectories(keys, study.kind, output);
     study.kept = keys.choice_or("realizations", kept_realizations_names, study.kept);
     const auto refuse = [&](const std::string& why) {
-        keys.refuse("realizations", "= \"none\" does not go with " + why,
-                    "Only a surface with equally many realizations in each cell does without their rows. "
-                    "Give realizations = \"all\", or leave it out.");
+        keys.refuse("realizations", "= \"none\" is not available with " + why,
+                    "Only a surface with equal numbers of realizations in each cell can omit their rows. Give "
+                    "realizations = \"all\", or omit it.");
     };
     if (study.kept == KeptRealizations::none && study.kind != StudyKind::surface)
         refuse(fmt::format("study.kind = \"{}\"", word_for(study_kind_names, study.kind)));
@@ -202,8 +202,8 @@ void read_output(const KeyReader& keys, Study& study)
 void check_precision(const KeyReader& keys, const Study& study)
 {
     const auto refuse = [&](const std::string& why, const char* what) {
-        keys.refuse("precision", "does not go with " + why,
-                    std::string("Single precision knows the paper's model alone: remove ") + what +
+        keys.refuse("precision", "is not available with " + why,
+                    std::string("Single precision supports only the paper's model: remove ") + what +
                         ", or give precision = \"double\".");
     };
     if (!study.mechanisms.empty())
@@ -234,14 +234,15 @@ RunSpec read_run(const KeyReader& keys)
     if (keys.has("step_fraction") && keys.has("step_s"))
         keys.refuse("step_s", "and step_fraction exclude each other", "Give one of the two.");
     r.allow_step_above_bound = keys.boolean_or("allow_step_above_bound", r.allow_step_above_bound);
-    const Range stable{1e-6, 1, false,
-                       "It is a part of the largest safe step; beyond 1 needs run.allow_step_above_bound = true.", 0};
+    const Range stable{
+        1e-6, 1, false,
+        "It is a fraction of the largest safe step; a value above 1 needs run.allow_step_above_bound = true.", 0};
     const Range meant{1e-6, 100, false, stable.hint, 0};
     r.step_bound = keys.choice_or("step_bound", step_basis_names, r.step_bound);
     r.step_fraction = keys.number_or("step_fraction", r.allow_step_above_bound ? meant : stable, r.step_fraction);
     r.step_s = keys.maybe_number("step_s", {1e-12, 1, false, "Times are in seconds.", 1e-3});
-    r.max_invalid_fraction = keys.number_or("max_invalid_fraction", {0, 1, false, "A part of all realizations.", 0.01},
-                                            r.max_invalid_fraction);
+    r.max_invalid_fraction = keys.number_or(
+        "max_invalid_fraction", {0, 1, false, "A fraction of all realizations.", 0.01}, r.max_invalid_fraction);
     return r;
 }
 
@@ -259,7 +260,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.kind = keys.choice("kind", study_kind_names);
     study.title = keys.text_or_empty("title");
     if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
-        keys.refuse("title", "is no line of a picture",
+        keys.refuse("title", "is not a valid line of text",
                     fmt::format("At most {} bytes, on one line.", most_title_bytes));
     const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
@@ -270,14 +271,14 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     if (is_rare && keys.has("realizations"))
         keys.refuse("realizations", "is not used by study.kind = \"rare\"",
                     "Give rare.samples and rare.repeats instead.");
-    study.realizations = is_surface     ? keys.whole("realizations", 1, most_realizations, "That many in each cell.")
+    study.realizations = is_surface     ? keys.whole("realizations", 1, most_realizations, "The number in each cell.")
                          : is_fragility ? keys.whole("realizations", 1, most_realizations,
                                                      "Structures under each motion in each stripe.")
                                         : keys.whole_or("realizations", 1, most_realizations, study.realizations);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
     study.allow = read_allow(keys);
     if (is_rare && study.sampling != Sampling::independent)
-        keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains draw their own numbers.");
+        keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains use their own random numbers.");
 
     study.structure = read_structure(top.table("structure"));
     study.contact = read_contact(top.table("contact"), study.structure);
@@ -329,9 +330,9 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         study.twins = read_twins(top.table("twins"), study);
         if (study.total() > most_realizations)
             keys.refuse("realizations",
-                        fmt::format("and {} twins of each come to {}, more than {}", study.twins->kinds.size(),
+                        fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),
                                     study.total(), most_realizations),
-                        "Give fewer realizations, cells or twins.");
+                        "Give fewer realizations, cells or replicas.");
     }
     return study;
 }
@@ -402,8 +403,8 @@ void demand_double(const Study& study, const std::string& file, const std::strin
 {
     if (study.run.precision == Precision::single)
         throw InputError(file, 0,
-                         fmt::format("run.precision = \"single\" knows the paper's model alone, and {} compares "
-                                     "extensions of it.\n  Give precision = \"double\", or leave it out.",
+                         fmt::format("run.precision = \"single\" supports only the paper's model, and {} compares "
+                                     "extensions of it.\n  Give precision = \"double\", or omit it.",
                                      what));
 }
 

@@ -28,7 +28,7 @@ std::string study_text(const Study& study);
 
 /// For what compares extensions of the model.
 /// @param file where the study is from, for the message;  @param what needs double precision: "a diagnosis"
-/// @throws InputError if the study asks for single precision
+/// @throws InputError if the study requests single precision
 void demand_double(const Study& study, const std::string& file, const std::string& what);
 
 } // namespace stylobate

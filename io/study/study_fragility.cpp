@@ -46,7 +46,7 @@ std::vector<double> ascending(const KeyReader& keys, const char* key, const Rang
     for (std::size_t i = 1; i < values.size(); ++i)
         if (!(values[i] > values[i - 1]))
             keys.refuse(key, fmt::format("is not in ascending order: {:g} comes before {:g}", values[i - 1], values[i]),
-                        "Give the slightest first: who reaches a limit has reached those before it.");
+                        "Give the slightest first: a structure that reaches a limit has reached those before it.");
     return values;
 }
 
@@ -91,22 +91,22 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
                                 : "fragility.records and fragility.folder exclude each other: give one");
         for (const char* key : {"pattern", "unit"})
             if (keys.has(key) && !keys.has("folder"))
-                keys.refuse(key, "is of a folder's files, and there is none", "Give fragility.folder.");
+                keys.refuse(key, "applies to the files of a folder, and no folder is given", "Give fragility.folder.");
         f.motions = static_cast<int>(f.records.size()); // those of a folder are listed later
     } else {
         keys.refuse_unused({"method", "motions", "intensity", "shakings", "pause_s", "contacts", "twins", "twin_m",
                             "peak_limits", "residual_limits", "periods_s"},
                            fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, excitation.kind)));
         if (f.method == FragilityMethod::cloud)
-            keys.refuse("method", "takes motions as they were recorded, and these are synthetic",
+            keys.refuse("method", "uses recorded motions, and these are synthetic",
                         "Give method = \"stripes\", or excitation.kind = \"record\".");
         f.motions = static_cast<int>(keys.whole("motions", fewest_motions, most_motions,
-                                                "Motions that are drawn from the seed; the interval of a curve comes "
-                                                "from how they differ: 20 are few, 100 are good."));
+                                                "Motions drawn from the seed. The interval of a curve is estimated "
+                                                "from their scatter: 20 are few, 100 are sufficient."));
     }
     if (recorded && !f.records.empty() && f.motions < fewest_motions)
         keys.refuse("records", fmt::format("has {} motions, fewer than {}", f.motions, fewest_motions),
-                    "The interval of a curve comes from how the motions differ: give more.");
+                    "The interval of a curve is estimated from the scatter of the motions: give more.");
     f.periods_s = ascending(keys, "periods_s", {0.01, 20, false, "Periods are in seconds.", 1e-3}, f.periods_s);
     if (f.method == FragilityMethod::stripes) {
         if (keys.has("scale"))
@@ -124,22 +124,23 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     } else {
         if (keys.has("intensity"))
             keys.refuse("intensity", "is not used by method = \"cloud\"", "Remove it, or give method = \"stripes\".");
-        f.scale = keys.number_or("scale", {0, 100, true, "Every motion so many times as strong.", 0}, f.scale);
+        f.scale = keys.number_or("scale", {0, 100, true, "The scale factor of every motion.", 0}, f.scale);
     }
-    f.shakings = static_cast<int>(keys.whole_or("shakings", 1, 100, 1, "Shakings one after the other."));
+    f.shakings = static_cast<int>(keys.whole_or("shakings", 1, 100, 1, "Shakings in a sequence."));
     f.pause_s = keys.number_or("pause_s", {0, 1000, false, "Times are in seconds.", 1e-3}, f.pause_s);
     f.contacts = static_cast<int>(
-        keys.whole_or("contacts", 1, structures, 1, "Structures that are built alike, with contacts of their own."));
-    f.twins = static_cast<int>(keys.whole_or(
-        "twins", 1, structures, 1, "Structures that differ by fragility.twin_m alone: what chaos makes of it."));
+        keys.whole_or("contacts", 1, structures, 1, "Structures of the same geometry with different contacts."));
+    f.twins = static_cast<int>(keys.whole_or("twins", 1, structures, 1,
+                                             "Structures that differ only by fragility.twin_m: the effect of chaos."));
     const auto group = static_cast<std::uint64_t>(f.contacts) * static_cast<std::uint64_t>(f.twins);
     if (structures % group != 0) {
         const std::uint64_t below = structures / group * group;
         study.refuse("realizations", fmt::format("is no multiple of fragility.contacts x twins = {}", group),
                      below > 0 ? fmt::format("Give {} or {}.", below, below + group) : fmt::format("Give {}.", group));
     }
-    f.twin_m = keys.number_or("twin_m", {0, 1e-3, true, "What twins differ by, in metres.", 0}, f.twin_m);
-    const Range part{0, 100, true, "A part of the width.", 0.01};
+    f.twin_m =
+        keys.number_or("twin_m", {0, 1e-3, true, "The displacement of a perturbed replica, in metres.", 0}, f.twin_m);
+    const Range part{0, 100, true, "A fraction of the width.", 0.01};
     f.peak_limits = ascending(keys, "peak_limits", part, f.peak_limits);
     f.residual_limits = ascending(keys, "residual_limits", part, f.residual_limits);
     return f;
@@ -156,7 +157,7 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Fr
         folder = beside / folder;
     folder = fs::absolute(folder).lexically_normal();
     if (!fs::is_directory(folder, error))
-        keys.refuse("folder", "is no folder", "Give the folder in which the records are.");
+        keys.refuse("folder", "is not a folder", "Give the folder in which the records are.");
     const std::string pattern = keys.has("pattern") ? keys.text("pattern") : "*";
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder, error))
@@ -164,7 +165,7 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Fr
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     if (files.empty())
-        keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Look at fragility.pattern.");
+        keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Check fragility.pattern.");
     const std::string unit = acceleration_unit(keys);
     for (const fs::path& file : files) {
         const std::vector<Record> records = read_records(file, unit);
@@ -176,7 +177,7 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Fr
     if (fragility.motions < fewest_motions)
         keys.refuse("folder",
                     fmt::format("has {} horizontal components, fewer than {}", fragility.motions, fewest_motions),
-                    "The interval of a curve comes from how the motions differ: give more.");
+                    "The interval of a curve is estimated from the scatter of the motions: give more.");
 }
 
 } // namespace stylobate

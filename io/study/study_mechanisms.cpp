@@ -74,9 +74,10 @@ private:
         const bool pulse = kind == ExcitationKind::half_sine || kind == ExcitationKind::full_sine ||
                            kind == ExcitationKind::ricker || kind == ExcitationKind::pulse;
         if (rule.mechanism == Mechanism::harmonic_distortion && pulse)
-            section_.refuse(rule.name, unused,
-                            "Remove it: a pulse has no overtones. Motions that oscillate have: harmonic, tapered, "
-                            "sweep, noise, record, table.");
+            section_.refuse(
+                rule.name, unused,
+                "Remove it: a pulse has no harmonics. Oscillating motions have harmonics: harmonic, tapered, "
+                "sweep, noise, record, table.");
     }
 
     void read_mechanism(const MechanismRule& rule)
@@ -160,7 +161,7 @@ private:
         if (acting.size() == 1 && !acts)
             keys.missing(acting.front(), range_of(rule.parameters.front()).hint);
         if (!acts)
-            keys.refuse_all(fmt::format("{} says nothing.\n  Give one of {}.", keys.path(), fmt::join(acting, ", ")));
+            keys.refuse_all(fmt::format("{} has no value.\n  Give one of {}.", keys.path(), fmt::join(acting, ", ")));
         return spec;
     }
 
@@ -200,14 +201,14 @@ private:
             const auto k = static_cast<std::size_t>(place);
             const std::string& key = keys.has(one) ? one : several;
             if (rule.place == MechanismPlace::block && layout_.blocks[k].fixed)
-                keys.refuse(key, fmt::format("has {} in it, which is fixed to the shaking table", place), there_is);
+                keys.refuse(key, fmt::format("contains {}, which is fixed to the shaking table", place), there_is);
             if (taken[k]) {
-                const std::string twice = fmt::format("{} {} comes twice", one, place);
+                const std::string twice = fmt::format("{} {} occurs twice", one, place);
                 if (named)
                     keys.refuse(key,
                                 fmt::format("is not the first of {}: {}", section_.path() + "." + rule.name, twice),
-                                "Say once what acts there.");
-                keys.refuse_all(fmt::format("{} acts everywhere, and {}.\n  Say where, by {} or {}.", keys.path(),
+                                "Give one entry for each place.");
+                keys.refuse_all(fmt::format("{} acts everywhere, and {}.\n  Give the place by {} or {}.", keys.path(),
                                             twice, one, several));
             }
             taken[k] = true;

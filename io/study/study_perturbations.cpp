@@ -160,7 +160,7 @@ void read_ends(const KeyReader& keys, const Rule& rule, Spread& p)
         const double high = p.max ? standard(*p.max) : HUGE_VAL;
         if (!(normal_between(low, high) >= least_kept))
             keys.refuse(p.min ? "min" : "max", "leaves less than one draw in a million",
-                        fmt::format("The nominal value is {}: put min and max around it.", nominal));
+                        fmt::format("The nominal value is {}: min and max must enclose it.", nominal));
     }
 }
 
@@ -174,7 +174,7 @@ void read_normal(const KeyReader& keys, const Rule& rule, Spread& p)
     else if (keys.has(sd) || !rule.relative)
         p.sd = keys.number(sd, rule.sd);
     else
-        keys.missing(sd, "Give it, or cov, the standard deviation as a part of the nominal value.");
+        keys.missing(sd, "Give it, or cov, the standard deviation as a fraction of the nominal value.");
     read_ends(keys, rule, p);
 
     if (!rule.relative)
@@ -182,10 +182,9 @@ void read_normal(const KeyReader& keys, const Rule& rule, Spread& p)
     for (const double nominal : rule.nominal) {
         const double lowest = p.cov > 0 ? nominal * (1 - farthest_sd * p.cov) : nominal - farthest_sd * p.sd;
         if (!p.min && !rule.value.contains(lowest))
-            keys.missing("min",
-                         fmt::format("The nominal value is {}, and draws can leave {}: say where the distribution "
-                                     "is cut, for example min = {:.3g}.",
-                                     nominal, rule.value.text(), nominal / 2));
+            keys.missing("min", fmt::format("The nominal value is {}, and draws can leave {}: truncate the "
+                                            "distribution, for example min = {:.3g}.",
+                                            nominal, rule.value.text(), nominal / 2));
     }
 }
 
@@ -247,7 +246,7 @@ Spread read_spread(const KeyReader& keys, const Rule& rule)
             keys.refuse("distribution",
                         fmt::format("replaces nominal values that differ, from {} to {}", rule.nominal.front(),
                                     rule.nominal.back()),
-                        "Use normal or lognormal, which are about each one's own value.");
+                        "Use normal or lognormal, which are centred on each nominal value.");
         read_uniform(keys, rule, p);
         break;
     }

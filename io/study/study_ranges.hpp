@@ -11,14 +11,14 @@ inline constexpr double degree = std::numbers::pi / 180;
 
 inline const Range length_range{0, 10, true, "Lengths are in metres.", 1e-3};
 inline const Range spacing_range{0, 100, true, "Lengths are in metres.", 1e-3};
-inline const Range position_range{-1000, 1000, false, "Places are in metres.", 1e-3};
+inline const Range position_range{-1000, 1000, false, "Positions are in metres.", 1e-3};
 inline const Range mass_range{0, 3e7, true, "Masses are in kilograms.", 1e-3};
 inline const Range density_range{0, 30000, true, "Densities are in kg/m3; marble has about 2700.", 0};
 inline const Range gravity_range{0, 100, true, "Gravity is in m/s2; on Earth 9.81.", 0};
 inline const Range normal_stiffness_range{0, 1e15, true,
                                           "K_N is the force per overlap area for the whole depth, in N/m2.", 0};
 inline const Range tangential_stiffness_range{0, 1e16, true, "K_T is in N/m.", 0};
-inline const Range damping_ratio_range{0, 2, false, "Ratios are parts of the critical damping: 10 % is 0.1.", 0.01};
+inline const Range damping_ratio_range{0, 2, false, "Ratios are fractions of the critical damping: 10 % is 0.1.", 0.01};
 inline const Range damping_range{0, 1e12, false, "Damping coefficients are in N s/m.", 0};
 inline const Range friction_range{0, 10, true, "Stone on stone has about 0.4 to 0.8.", 0.01};
 inline const Range frequency_range{0.001, 1000, false, "Frequencies are in Hz.", 0};
@@ -26,12 +26,12 @@ inline const Range acceleration_range{0, 10000, true, "Accelerations are in m/s2
 inline const Range corner_range{0.01, 1000, false, "Frequencies are in Hz.", 0};
 inline const Range noise_frequency_range{0.05, 25, false, "The frequency of the ground, in Hz; firm soil has 2 to 3.",
                                          0};
-inline const Range filter_damping_range{0.05, 0.95, false, "A part of the critical damping; 60 % is 0.6.", 0.01};
-inline const Range low_cut_ratio_range{0.01, 0.5, false, "The low cut's frequency as a part of the ground's.", 0};
+inline const Range filter_damping_range{0.05, 0.95, false, "A fraction of the critical damping; 60 % is 0.6.", 0.01};
+inline const Range low_cut_ratio_range{0.01, 0.5, false, "The low-cut frequency as a fraction of the ground's.", 0};
 inline const Range rise_range{0, 60, true, "Times are in seconds.", 1e-3};
 inline const Range strong_range{0, 300, false, "Times are in seconds.", 1e-3};
-inline const Range gamma_range{1, 20, false, "The cycles under a pulse's bell; near faults mostly 1 to 3.", 0};
-inline const Range taper_range{1, 5000, false, "A shorter one is a jerk, not a start.", 0};
+inline const Range gamma_range{1, 20, false, "The cycles in the envelope of a pulse; near faults mostly 1 to 3.", 0};
+inline const Range taper_range{1, 5000, false, "A shorter ramp is equivalent to an abrupt start.", 0};
 inline const Range cycles_range{0, 10000, true, "", 0};
 inline const Range duration_range{0, 10000, true, "Times are in seconds.", 0};
 inline const Range tail_range{0, 10000, false, "Times are in seconds; the default is \"structure\", 12 / p.", 0};
@@ -39,7 +39,7 @@ inline const Range time_scale_range{0.001, 1000, false, "2 makes the record twic
 inline const Range phase_range{-100, 100, false, "Angles are in radians.", degree};
 inline const Range tilt_range{-0.5, 0.5, false, "Angles are in radians.", degree};
 inline const Range initial_tilt_range{-1.5, 1.5, false, "Angles are in radians.", degree};
-inline const Range cov_range{0, 5, true, "A coefficient of variation is a part of the nominal value: 10 % is 0.1.",
+inline const Range cov_range{0, 5, true, "A coefficient of variation is a fraction of the nominal value: 10 % is 0.1.",
                              0.01};
 inline const Range sigma_ln_range{0, 3, true, "", 0};
 

@@ -58,8 +58,8 @@ SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study, std:
     keys.allow_only({"method", "samples", "inner", "factors"});
     const std::vector<std::string> perturbed = perturbed_names(study);
     if (perturbed.empty())
-        keys.refuse_all("study.kind = \"sensitivity\" asks which perturbed quantity matters, and [perturbation] has "
-                        "none.\n  Give distributions there, for example friction = { distribution = \"normal\", cov = "
+        keys.refuse_all("study.kind = \"sensitivity\" needs perturbed quantities, and [perturbation] has none.\n  Give "
+                        "distributions there, for example friction = { distribution = \"normal\", cov = "
                         "0.1 }.");
     SensitivitySpec spec;
     spec.method = keys.choice_or("method", sensitivity_method_names, spec.method);
@@ -67,11 +67,11 @@ SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study, std:
     const bool rest = spec.factors.size() < perturbed.size() || study.excitation.kind == ExcitationKind::noise;
     spec.inner = keys.whole_or("inner", 1, 10000, rest ? 4 : 1, "Realizations at each point of the design.");
     if (rest && spec.inner == 1)
-        keys.refuse("inner", "cannot tell the factors from what else is drawn",
-                    "Give 2 or more (4 is a good number), or name every perturbed quantity in factors.");
+        keys.refuse("inner", "cannot separate the factors from the other random quantities",
+                    "Give 2 or more (4 is recommended), or name every perturbed quantity in factors.");
     if (!rest && spec.inner > 1)
         keys.refuse("inner", "would run the same realizations again: every perturbed quantity is a factor",
-                    "Give 1, or leave some quantities out of factors.");
+                    "Give 1, or omit some quantities from factors.");
     const std::uint64_t of_row = spec.points() * spec.inner;
     spec.samples = keys.whole(
         "samples", 2, most / of_row,
@@ -84,8 +84,7 @@ RareSpec read_rare(const KeyReader& keys, const Study& study)
     keys.allow_only({"samples", "repeats"});
     if (perturbed_names(study).empty())
         keys.refuse_all(
-            "study.kind = \"rare\" asks how often what is drawn leads to a collapse, and [perturbation] has "
-            "nothing to draw.\n  Give distributions there.");
+            "study.kind = \"rare\" needs random quantities, and [perturbation] has none.\n  Give distributions there.");
     if (study.excitation.kind == ExcitationKind::noise)
         keys.refuse_all("study.kind = \"rare\" has no chains of synthetic earthquakes: excitation.kind = \"noise\" "
                         "draws thousands of numbers for each.\n  Give another excitation.");
@@ -93,7 +92,7 @@ RareSpec read_rare(const KeyReader& keys, const Study& study)
     spec.samples = keys.whole_or("samples", 100, 1'000'000, spec.samples,
                                  "Realizations of each level; a tenth of them is the number of chains.");
     spec.repeats =
-        keys.whole_or("repeats", 5, 1000, spec.repeats, "Independent repeats: their spread gives the interval.");
+        keys.whole_or("repeats", 5, 1000, spec.repeats, "Independent repeats: their scatter gives the interval.");
     return spec;
 }
 

@@ -58,7 +58,7 @@ struct MassKeys {
 double read_mass(const std::vector<MassKeys>& sources, const Key& size, double volume)
 {
     if (!(volume >= std::numeric_limits<double>::min()))
-        size.keys->refuse(size.name, "gives a drum without volume", length_range.hint);
+        size.keys->refuse(size.name, "gives a drum of zero volume", length_range.hint);
     const auto at = std::find_if(sources.begin(), sources.end(), [](const MassKeys& source) { return source.given(); });
     if (at == sources.end())
         sources.front().keys->missing(sources.front().mass,
@@ -130,8 +130,9 @@ private:
 
     std::vector<DrumSpec> equal_or_tapering_drums(const KeyReader& shape) const
     {
-        const auto blocks = shape.whole(
-            "blocks", 1, most_blocks, "Drums of the column, the fixed ones counted; or give drums = [ { ... }, ... ].");
+        const auto blocks =
+            shape.whole("blocks", 1, most_blocks,
+                        "Drums of the column, including the fixed ones; or give drums = [ { ... }, ... ].");
         const Key width = first_given(both("drum_width_m"));
         const Key top_width = first_given(both("top_width_m"));
         DrumSpec drum;
@@ -145,7 +146,7 @@ private:
         }
         const double top = top_width.keys->number(top_width.name, length_range);
         if (blocks == 1)
-            top_width.keys->refuse(top_width.name, "tapers a column of one drum", "Give more blocks, or leave it out.");
+            top_width.keys->refuse(top_width.name, "tapers a column of one drum", "Give more blocks, or omit it.");
         const MassKeys mass = common_mass();
         if (mass.keys->has("drum_mass_kg"))
             mass.keys->refuse("drum_mass_kg", "is not used with top_width_m",
@@ -171,7 +172,7 @@ private:
                              "normal_stiffness_n_m2", "tangential_stiffness_n_m", "count"});
             const DrumSpec drum = read_drum(keys, {&keys, "width_m"}, "drum_width_m", "drum_height_m",
                                             {{&keys, "mass_kg", "density_kg_m3"}, common_mass()});
-            drums.insert(drums.end(), keys.whole_or("count", 1, most_blocks, 1, "Equal drums, one upon the other."),
+            drums.insert(drums.end(), keys.whole_or("count", 1, most_blocks, 1, "Equal drums, one on the other."),
                          drum);
         }
         if (drums.empty())

@@ -60,8 +60,9 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
                                     "\"surface\".",
                                     word_for(study_kind_names, study.kind)));
     if (study.surface->adaptive)
-        keys.refuse_all("[twins] and surface.adaptive exclude each other: every realization has its twins.\n  Remove "
-                        "one of the two.");
+        keys.refuse_all(
+            "[twins] and surface.adaptive exclude each other: every realization has its perturbed replicas.\n  Remove "
+            "one of the two.");
     if (study.kept == KeptRealizations::none)
         keys.refuse_all("[twins] are compared row by row, and output.realizations = \"none\" keeps no rows.\n  Remove "
                         "one of the two.");
@@ -81,13 +82,14 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
         twins.kinds.push_back({TwinBy::move, moves[i], study.contact.form});
     }
     const double ratio = keys.number_or(
-        "step_ratio", {0.01, 1, false, "A part of the realization's own step; 1: no twins of another step.", 0.01},
+        "step_ratio",
+        {0.01, 1, false, "A fraction of the realization's own step; 1: no replicas with another step.", 0.01},
         usual_step_ratio);
     if (ratio != 1)
         twins.kinds.push_back({TwinBy::step, ratio, study.contact.form});
     if (keys.boolean_or("precision", knows_single(study))) {
         if (!knows_single(study))
-            keys.refuse("precision", "asks for twins in single precision, which knows the paper's model alone",
+            keys.refuse("precision", "requests replicas in single precision, which supports only the paper's model",
                         "Remove it, or the mechanisms, contact.form and contact.damping.");
         twins.kinds.push_back({TwinBy::precision, 0, study.contact.form});
     }
@@ -96,9 +98,10 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
             if (name.value != study.contact.form)
                 twins.kinds.push_back({TwinBy::form, 0, name.value});
     twins.followed = keys.whole_or("followed", 0, study.realizations, std::min(twins.followed, study.realizations),
-                                   "Realizations of each cell whose moved twins are followed step by step.");
+                                   "Realizations of each cell whose displaced replicas are tracked step by step.");
     twins.tolerance = keys.number_or(
-        "tolerance", {1e-6, 1, false, "A part of the drums' width, and radians: how far twins may part.", 0.01},
+        "tolerance",
+        {1e-6, 1, false, "The separation limit of replicas: a fraction of the drums' width, and radians.", 0.01},
         twins.tolerance);
     return twins;
 }

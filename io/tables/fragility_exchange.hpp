@@ -16,8 +16,8 @@
 
 namespace stylobate {
 
-/// What OpenQuake asks of a model, and more: that no limit state is more probable than the one before it, and that no
-/// number stands without its interval.
+/// The requirements of OpenQuake for a model, and more: that no limit state is more probable than the one before it,
+/// and that no number stands without its interval.
 /// @throws InputError naming function, limit state, value and range
 void check_fragility_model(const FragilityModel& model);
 
@@ -29,7 +29,7 @@ std::string fragility_csv(const FragilityModel& model);
 
 /// Reads a fragility model of NRML 0.5; intervals are unbounded, and the description is as it stands there.
 /// @throws InputError with file, line and what is wrong: no such file, no XML, another element, an attribute that is
-///         missing or out of range, limit states in another order than the model says
+///         missing or out of range, limit states in another order than in the model
 FragilityModel read_fragility_nrml(const std::filesystem::path& file);
 
 } // namespace stylobate

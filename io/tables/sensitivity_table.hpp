@@ -10,7 +10,7 @@
 namespace stylobate {
 
 struct SensitivityTable {
-    /// What is told of every factor: "first", "total", or "mu_star".
+    /// The indices reported for every factor: "first", "total", or "mu_star".
     struct Index {
         std::string name;
         IntervalArray of; ///< (outcomes x factors)

@@ -278,8 +278,8 @@ public:
     {
         using B = OfBlockExtension;
         const Real mass = rows_.get(OfBlock::mass, i), inertia = rows_.get(OfBlock::inertia, i);
-        Real px = x_ + rows_.get(B::pull_x, i), py = y_ + rows_.get(B::pull_y, i);
-        Real ptheta = rows_.get(B::pull_theta, i);
+        Real px = x_ + rows_.get(B::nudge_x, i), py = y_ + rows_.get(B::nudge_y, i);
+        Real ptheta = rows_.get(B::nudge_theta, i);
         Real lab_x = dx + base_dx_, lab_y = dy + base_dy_;
         if (pitched_) {
             const Real x = rows_.get(B::reference_x, i) + rows_.get(OfBlock::x, i);

@@ -9,7 +9,7 @@
 
 namespace stylobate {
 
-/// What is asked for; what is empty is not said.
+/// The selection of a realization; empty members are not given.
 struct RealizationChoice {
     std::optional<long long> index; ///< alone
     CellChoice cells;

@@ -30,7 +30,7 @@ struct CommonOptions {
     RunOptions run_options() const;
 };
 
-/// What `export` is asked for; empty, or -1: not said.
+/// Options of `export`; empty, or -1: not given.
 struct ExportOptions {
     std::string format;              ///< "png", "svg" or "pdf" of a picture; "csv", "nrml" or "json" of tables
     std::string picture;             ///< of `picture_names`
@@ -50,7 +50,7 @@ struct CalibrateOptions {
     std::vector<std::string> hold;  ///< keys of the contact that keep the study's value
     std::vector<std::string> forms; ///< contact forms, or "all"; empty: the study's
     bool outcomes = false;          ///< use the outcomes (fell or stood) even where histories are available
-    bool held_out = true;           ///< predict each motion by what the others say
+    bool held_out = true;           ///< cross-validation over motions
 };
 
 /// What `diagnose` is asked for.
@@ -71,7 +71,7 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
 std::vector<std::string> picture_names();
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 /// @param output the page; empty: beside the file, with .html
-/// @param title of the page, instead of the study's or the file's name; empty: not said
+/// @param title of the page, instead of the study's or the file's name; empty: not given
 int report_command(const CommonOptions& options, const std::string& file, std::string output, const std::string& title);
 /// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with
 /// _diagnosis.h5

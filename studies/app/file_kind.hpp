@@ -1,5 +1,5 @@
 #pragma once
-/// What a file is, by its content, and which verbs take it: the one place where files are told apart.
+/// Type of a file, from its content, and the commands that accept it: the only place that identifies files.
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 namespace stylobate {
 
 enum class FileKind {
-    unknown,     ///< none of the others: the verb that reads it says what is wrong
+    unknown,     ///< none of the others: the command that reads it reports the error
     study,       ///< TOML
     results,     ///< of a study, or one realization that was run again
     diagnosis,   ///< by `diagnose`

@@ -40,8 +40,9 @@ std::vector<std::string> warnings_of(const LoadedStudy& loaded, const std::strin
     std::vector<std::string> warnings;
     for (const Doubt& doubt : loaded.doubts()) {
         if (doubt.refused)
-            throw InputError(fmt::format("{}: {}\n  If it is meant: {}.", file, doubt.text, allow_text(doubt.check)));
-        warnings.push_back(fmt::format("{} If it is meant: {}.", doubt.text, allow_text(doubt.check)));
+            throw InputError(
+                fmt::format("{}: {}\n  If it is intended: {}.", file, doubt.text, allow_text(doubt.check)));
+        warnings.push_back(fmt::format("{} If it is intended: {}.", doubt.text, allow_text(doubt.check)));
     }
     return warnings;
 }

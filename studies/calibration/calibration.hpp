@@ -35,9 +35,9 @@ struct FitKey {
     double from = 0;
     double to = 0;
     bool logarithmic = true; ///< equal steps for equal ratios; needs from > 0
-    /// What following itself adds to the error (the pull, the smoothing, starts from noisy states), as a part of the
-    /// value, 1 sigma; of friction 0.01. Measured on 20 simulated campaigns of known parameters: friction came out 0.6
-    /// % too low in the median, K_N 5 %, in one of ten 20 %.
+    /// What nudging itself adds to the error (the nudging force, the smoothing, starts from noisy states), as a part of
+    /// the value, 1 sigma; of friction 0.01. Measured on 20 simulated campaigns of known parameters: friction came out
+    /// 0.6 % too low in the median, K_N 5 %, in one of ten 20 %.
     double method_deviation = 0.1;
     bool asked = false; ///< by the user: the friction is then searched for too, as an effective value
 };
@@ -51,13 +51,13 @@ struct CalibrationOptions {
     std::size_t refine = 24;        ///< points of each of the rounds about the best ones
     std::size_t surface = 40;       ///< points of each of two rounds for the quadratic form
     std::size_t profile = 5;        ///< values of each parameter in its profile; 0: none (intervals from the form)
-    bool held_out = true;           ///< predict each motion by what the others say
+    bool held_out = true;           ///< cross-validation over motions
     std::uint64_t ensemble = 24;    ///< outcomes: realizations of each run
     double window_s = 0;            ///< histories: 0: by the size of the drums
     /// File that keeps what was predicted until the calibration is complete (`kept_evidence.hpp`); empty: none.
     std::filesystem::path kept;
     std::string kept_key;                          ///< what the measured data are known by
-    std::function<void(const std::string&)> stage; ///< told what is being done, in words; may be empty
+    std::function<void(const std::string&)> stage; ///< called with a description of each stage; may be empty
 };
 
 struct ProfilePoint {
@@ -69,7 +69,7 @@ struct FittedParameter {
     std::string key;
     double start = 0; ///< of the study
     double value = 0;
-    double low = 0; ///< 95 % interval; at an end of the range where the data do not say more
+    double low = 0; ///< 95 % interval; at an end of the range where the data give no bound
     double high = 0;
     double from = 0; ///< the range
     double to = 0;
@@ -139,14 +139,14 @@ Study with_values(const Study& study, const std::vector<std::string>& keys, cons
 /// The number that a study has for a key, defaults included. @throws InputError if there is none
 double number_in(const Study& study, const std::string& key);
 
-/// Calibrates. Progress is told in parameter sets of the whole calibration.
+/// Calibrates. Progress is reported in parameter sets of the whole calibration.
 ///
 /// @param start  contacts and mechanisms; its structure is replaced by the specimen's
 /// @throws InputError if the campaign has neither histories nor outcomes, or a key cannot be fitted
 Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
                       const RunOptions& run, Observer& observer);
 
-/// The same from a table of outcomes, which says nothing of the specimen.
+/// The same from a table of outcomes, which does not describe the specimen.
 ///
 /// @param start the structure too, and the excitation, for whatever the table leaves open (`outcome_tests.hpp`); its
 ///              perturbations are drawn (none: friction by 5 % from joint to joint, and a specimen's usual tolerances)

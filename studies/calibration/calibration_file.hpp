@@ -1,5 +1,5 @@
 #pragma once
-/// A calibration as an HDF5 file; `io/FORMAT.md` says what is in it.
+/// A calibration as an HDF5 file; `io/FORMAT.md` describes its content.
 
 #include "studies/calibration/calibration.hpp"
 

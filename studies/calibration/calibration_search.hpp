@@ -13,7 +13,7 @@
 
 namespace stylobate {
 
-/// Who is told how far a search is.
+/// Receives the progress of a search.
 class SearchProgress {
 public:
     virtual ~SearchProgress() = default;

@@ -35,7 +35,7 @@ struct ScoreSurface {
     std::vector<double> reach;          ///< (d) half the range of the points
     std::vector<double> correlation;    ///< (d x d) of `cov`
     std::vector<double> along;          ///< (d x d) row i: how the others move with parameter i along its profile
-    std::vector<double> overdispersion; ///< (d) variance over what the curvature alone would say
+    std::vector<double> overdispersion; ///< (d) variance over that of the curvature alone
     bool fitted = false;                ///< false: fewer points than coefficients
 };
 

@@ -44,7 +44,7 @@ struct WindowComparison::Prepared {
         if (variant.change)
             variant.change(r, run.index);
         job.targets = run.targets;
-        job.pull_rad_s = scales.pull_rad_s;
+        job.nudge_rad_s = scales.nudge_rad_s;
         job.windows = run.windows;
         return job;
     }
@@ -88,8 +88,8 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
         follow_scales(width / static_cast<double>(std::max<std::size_t>(drums, 1)), campaign.specimen.gravity_m_s2);
     if (options.window_s > 0)
         p.scales.window_s = options.window_s;
-    if (options.pull_rad_s > 0)
-        p.scales.pull_rad_s = options.pull_rad_s;
+    if (options.nudge_rad_s > 0)
+        p.scales.nudge_rad_s = options.nudge_rad_s;
     for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
         if (!options.runs.empty() && std::find(options.runs.begin(), options.runs.end(), i) == options.runs.end())
             continue;

@@ -32,7 +32,7 @@ struct ModelVariant {
 
 struct WindowOptions {
     double window_s = 0;           ///< length; 0: by the size of the drums (`follow_scales`)
-    double pull_rad_s = 0;         ///< 0: likewise
+    double nudge_rad_s = 0;        ///< 0: likewise
     std::vector<std::size_t> runs; ///< of the campaign; empty: all
 };
 
@@ -58,7 +58,7 @@ struct WindowCurve {
 /// A campaign made ready to be predicted: base motions, smoothed histories, windows. Made once, used for many models.
 class WindowComparison {
 public:
-    /// Runs without histories, or whose base motion is not known, are left out (`used` says which are not).
+    /// Runs without histories, or whose base motion is not known, are omitted (`used` lists the others).
     /// @throws InputError if the specimen cannot be built
     WindowComparison(const Campaign& campaign, const WindowOptions& options);
     ~WindowComparison();

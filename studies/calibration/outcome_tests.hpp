@@ -28,7 +28,7 @@ struct OutcomeTests {
     std::vector<OutcomeTest> tests;
 };
 
-/// The runs of a campaign that say whether they collapsed, under a base motion that is known.
+/// The runs of a campaign with a known outcome and a known base motion.
 /// @param runs of the campaign; empty: all
 OutcomeTests outcome_tests(const Campaign& campaign, const std::vector<std::size_t>& runs);
 

@@ -98,7 +98,7 @@ private:
     TimeCounts collapse_time_s_, total_collapse_time_s_;
 };
 
-/// What `LimitCounts` asks of a study.
+/// The properties of a study that `LimitCounts` needs.
 std::size_t cells_of_motion(const Study& study);
 
 } // namespace stylobate

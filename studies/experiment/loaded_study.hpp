@@ -25,9 +25,9 @@ public:
     /// @throws InputError for whatever is wrong with the study or its record
     static LoadedStudy from_file(const std::string& file, const std::vector<std::string>& settings);
 
-    /// From the study inside a results file. `settings` may only say where the record lies now.
+    /// From the study inside a results file. `settings` may only give the present path of the record.
     /// @throws InputError as above, and if the record is not the one that the results were made with
-    /// @param study as its text says
+    /// @param study as parsed from its text
     static LoadedStudy from_results(const Study& study, const ResultHeader& header, const std::string& file,
                                     const std::vector<std::string>& settings);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The contract of a kind of study: which realizations it asks for, what it makes of their rows, and how that is told
-/// as text, JSON, tables, pictures and sections of a page. A kind is a folder here and a line in
+/// The contract of a kind of study: the realizations that it requests, the evaluation of their rows, and how it is
+/// reported as text, JSON, tables, pictures and sections of a page. A kind is a folder here and a line in
 /// `studies/results/kinds.cpp`; `run`, `replay`, `export` and `report` know no kind by name.
 ///
 ///   run:       add(rows of an earlier part) -> plan(rounds), which adds the rest -> conclude() -> surface(), tables()
@@ -24,7 +24,7 @@
 
 namespace stylobate {
 
-/// A picture that a kind has, and what the command line may ask of it.
+/// A picture of a kind, and its options on the command line.
 struct PictureKind {
     std::string_view name; ///< "surface": the word of the command line
     std::string_view of;   ///< results that have it: "a fragility study"; empty: all
@@ -106,7 +106,8 @@ public:
 
     /// Whether a realization is a trial, and not a copy of one.
     virtual bool is_trial(std::uint64_t index) const { return index < study_.originals(); }
-    /// Whether shares of all its realizations mean something: they are drawn as the study says.
+    /// Whether shares over all its realizations are meaningful, that is whether they are drawn from the study's
+    /// distribution.
     virtual bool draws_plainly() const { return true; }
     /// Why none of its realizations can be run again by itself; empty: each can.
     virtual std::string why_no_replay() const { return {}; }

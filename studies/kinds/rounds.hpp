@@ -1,5 +1,5 @@
 #pragma once
-/// What a kind of study asks of a run: realizations, round by round.
+/// What a kind of study requests from a run: realizations, round by round.
 
 #include "ensemble/engine/executor.hpp"
 

@@ -11,7 +11,7 @@
 namespace stylobate {
 
 /// What was run and what became of it: summary, probabilities, pictures, order of falls, motions, energy, and how to do
-/// it again. Where the pictures cannot be drawn the page says so.
+/// it again. Where the pictures cannot be drawn the page contains a message.
 /// @param isa for realizations whose trajectories the file does not hold
 /// @param title of the page; empty: by the study or the file
 /// @param warnings receives a line for each picture that could not be drawn

@@ -14,8 +14,8 @@ namespace stylobate {
 
 class Results {
 public:
-    /// @param settings may only say where the record lies now
-    /// @throws InputError if it is no such file, if it is damaged, or if the settings say anything else
+    /// @param settings may only give the present path of the record
+    /// @throws InputError if it is no such file, if it is damaged, or if the settings change anything else
     explicit Results(const std::string& file, std::vector<std::string> settings = {});
 
     const std::string& file() const { return file_; }

@@ -11,7 +11,7 @@
 
 namespace stylobate {
 
-/// What the study says in short: structure, contact, excitation, what is perturbed.
+/// Summary of a study: structure, contact, excitation, perturbed quantities.
 /// @param one of all its realizations the one that a page is about, its frequency, PGA and draws instead of the study's
 ///        axes and distributions; null: all of them
 /// @param inputs names of the row's inputs

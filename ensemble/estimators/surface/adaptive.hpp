@@ -3,11 +3,11 @@
 ///
 /// The allocation proceeds round by round (own derivation). In the first round every cell gets the realizations of its
 /// first interim analysis; after each round the cells whose interval is still too wide proceed to their next one
-/// (`AdaptiveLooks`). A cell takes its realizations in their order, k = 0, 1, 2, ..., so that those that are run are a
-/// subset of the whole study, with the same bits. A round depends on the outcomes of those before it alone, not on
+/// (`InterimAnalyses`). A cell takes its realizations in their order, k = 0, 1, 2, ..., so that those that are run are
+/// a subset of the whole study, with the same bits. A round depends on the outcomes of those before it alone, not on
 /// threads or interruptions, and is large enough to keep the lanes full.
 ///
-/// The interval of a cell is that of its own trials, valid under this stopping rule (`adaptive_looks.hpp`). With
+/// The interval of a cell is that of its own trials, valid under this stopping rule (`interim_analyses.hpp`). With
 /// `borrow`, where a cell agrees with its neighbours, it is the pooled interval of the surface model
 /// (`surface_model.hpp`), unless only its own is narrow enough. The intervals of all cells are computed from all trials
 /// after every round; a cell that was narrow enough continues if new trials of its neighbours have made its interval
@@ -17,7 +17,7 @@
 /// Where the budget is not sufficient, the widest cells come first; their intervals stay valid, and wider than
 /// requested.
 
-#include "ensemble/estimators/surface/adaptive_looks.hpp"
+#include "ensemble/estimators/surface/interim_analyses.hpp"
 #include "ensemble/estimators/surface/surface_model.hpp"
 #include "ensemble/model/study.hpp"
 
@@ -48,11 +48,11 @@ public:
 
     /// Of every cell.
     std::vector<CellEstimate> estimate(const SurfaceTrials& data);
-    const AdaptiveLooks& looks() const { return looks_; }
+    const InterimAnalyses& analyses() const { return analyses_; }
 
 private:
     AdaptiveSpec spec_;
-    AdaptiveLooks looks_;
+    InterimAnalyses analyses_;
     SurfaceModel model_;
     SurfaceTrials known_; ///< what was estimated last, and from what
     std::vector<CellEstimate> estimates_;

@@ -33,8 +33,8 @@ struct Chance {
     bool complete = false; ///< false: the observer stopped it
 };
 
-/// @param told after each campaign, and once before if some are in the cache: how many there are, and how many of them
-/// were in the cache
+/// @param told called after each campaign, and once before if some are in the cache: how many there are, and how many
+/// of them were in the cache
 Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptions& options,
                  const std::function<void(std::uint64_t done, std::uint64_t cached)>& told, Observer& observer);
 

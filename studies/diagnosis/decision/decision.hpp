@@ -36,14 +36,14 @@ struct JudgedCause {
     Channel channel = Channel::balance;
     double chance95 = 0;
     double chance = 1;   ///< probability of such a gain by chance
-    double surprise = 0; ///< gain less chance95, or the logarithm of what chance leaves, whichever is less [nats]
+    double surprise = 0; ///< gain minus chance95, or minus the logarithm of its p-value, whichever is smaller [nats]
     double probability = 0;
     bool considered = false; ///< rule 2
     std::string why_not;
     std::vector<double> gain_by_form; ///< windows: under each of the contact forms that judge
 };
 
-/// Everything that balance and windows say, judged; the most surprising first.
+/// The decisions on all candidates of balance and windows, the most significant first.
 std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,
                                const std::vector<std::vector<double>>& windows_by_form, const ChanceGains& chance,
                                const DecisionRule& rule);
@@ -51,7 +51,7 @@ std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector
 struct Decided {
     Verdict verdict = Verdict::none;
     std::vector<JudgedCause> named;  ///< most probable first, direct findings included
-    std::vector<JudgedCause> in_set; ///< that cannot be told from a named one
+    std::vector<JudgedCause> in_set; ///< that these data do not distinguish from a named one
     std::vector<JudgedCause> judged; ///< all of the first round
     std::optional<StructureFit> unexplained;
     double unexplained_chance = 1;

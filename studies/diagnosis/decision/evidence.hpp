@@ -1,5 +1,5 @@
 #pragma once
-/// What a campaign says for each cause, by every way of looking at it, and the same of campaigns with nothing hidden.
+/// Evidence of a campaign for each cause, by every method, and the same for null campaigns (without a hidden effect).
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
@@ -53,9 +53,9 @@ public:
     /// How many were taken, also those that name no mechanism.
     std::size_t campaigns(Channel channel) const;
     /// Whether any campaign names the mechanism. Where none does, it may be that it cannot show in them (nothing
-    /// slides), so that they say nothing of what chance gives it.
+    /// slides), so that they do not contribute to its null distribution.
     bool tell_of(Channel channel, const std::string& mechanism) const;
-    /// 95 % quantile; 0 where no campaign tells of the mechanism.
+    /// 95 % quantile; 0 where no campaign informs about the mechanism.
     double quantile95(Channel channel, const std::string& mechanism) const;
     double quantile95_of_structures() const;
     /// Probability of a gain at least as large by chance: the share of the campaigns, beyond their upper tenth

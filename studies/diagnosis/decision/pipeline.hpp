@@ -19,7 +19,7 @@ struct DiagnosisOptions {
     std::uint64_t seed = 1;
     std::uint64_t nulls = 32;    ///< campaigns with nothing hidden
     bool windows = false;        ///< whether free windows judge causes too: slow, and they depend on the contact form
-    std::filesystem::path cache; ///< of what chance gives; empty: none is kept
+    std::filesystem::path cache; ///< of the null distribution; empty: none is kept
     std::filesystem::path extension; ///< where the extended study goes; empty: nowhere
     DecisionRule rule;
     RunOptions run;
@@ -29,7 +29,7 @@ struct DiagnosisOptions {
 using Tell = std::function<void(const std::string&)>;
 
 /// @param study contacts to begin with; its structure is replaced by the specimen's
-/// @return nothing if the observer stopped it: what chance gives is kept in the cache, the same call goes on from there
+/// @return nothing if the observer stopped it: the null distribution is kept in the cache, and the same call continues
 /// @throws InputError if the campaign cannot be diagnosed at all
 std::optional<Diagnosis> diagnose(const Campaign& campaign, const Study& study, const DiagnosisOptions& options,
                                   const Tell& tell, Observer& observer);

@@ -1,6 +1,6 @@
 #pragma once
 /// What naming a cause is worth: predictions of runs that were not used to size it, with and without it; and the test
-/// that would tell apart the causes that are left.
+/// that would distinguish the remaining causes.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"

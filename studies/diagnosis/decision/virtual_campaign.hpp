@@ -3,7 +3,7 @@
 /// kinds.
 ///
 /// What a diagnosis would find in them is what it may find by chance. The contacts are drawn anew for each campaign, as
-/// nobody knows those of a real specimen: their form, stiffness, exponent, damping and where it acts, and its rate. So
+/// those of a real specimen are unknown: their form, stiffness, exponent, damping and where it acts, and its rate. So
 /// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
 /// the blocks were put.
 

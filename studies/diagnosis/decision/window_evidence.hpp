@@ -1,8 +1,8 @@
 #pragma once
-/// What free windows of the simulation say for each cause (`calibration_windows.hpp`): a cause is put into the model,
-/// the model follows the measured motion, and what it predicts in windows that run free is compared with what was seen,
-/// with and without the cause. Slow motions and short slips are seen here that the balance of forces does not see; but
-/// the model's own contacts matter, so that each contact form judges by itself.
+/// Evidence of free windows of the simulation for each cause (`calibration_windows.hpp`): a cause is added to the
+/// model, the model follows the measured motion, and what it predicts in windows that run free is compared with what
+/// was seen, with and without the cause. Slow motions and short slips are seen here that the balance of forces does not
+/// see; but the model's own contacts matter, so that each contact form judges by itself.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"

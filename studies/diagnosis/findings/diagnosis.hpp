@@ -1,5 +1,5 @@
 #pragma once
-/// What a diagnosis found, as plain data: all that its file, its JSON object and its pages say. SI units.
+/// The result of a diagnosis, as plain data: the content of its file, its JSON object and its pages. SI units.
 ///
 /// What is not known or could not be estimated is `std::nullopt`, never a number that stands for it. Texts are plain
 /// UTF-8 sentences without markup. Blocks and joints are counted from 0, as in the measured file; block -1 is the base.
@@ -17,14 +17,14 @@ using MaybeReal = std::optional<double>;
 
 enum class Verdict {
     none,       ///< the simulation agrees with the measurement within what repeats and sensors allow
-    named,      ///< one mechanism, or a set that these data cannot tell apart, explains what is wrong
+    named,      ///< one mechanism, or a set that these data do not distinguish, explains the error
     unexplained ///< something is wrong that no known mechanism explains
 };
 
 enum class TestOutcome {
     passed,    ///< nothing found
     failed,    ///< found: beyond its threshold
-    not_judged ///< the data do not allow the test; the sentence says why
+    not_judged ///< the data do not allow the test; the sentence gives the reason
 };
 
 /// One test of the base motion or of a sensor, made before any simulation is blamed.
@@ -47,7 +47,7 @@ struct CalibratedParameter {
     MaybeReal value; ///< in use, also where it was not determined
     MaybeReal low;   ///< 95 % interval
     MaybeReal high;
-    bool determined = true; ///< false: the data do not tell it; `value` is the nominal one or an assumption
+    bool determined = true; ///< false: the data do not determine it; `value` is the nominal one or an assumption
     std::string note;
     friend bool operator==(const CalibratedParameter&, const CalibratedParameter&) = default;
 };
@@ -64,19 +64,19 @@ struct WrongStretch {
     friend bool operator==(const WrongStretch&, const WrongStretch&) = default;
 };
 
-/// What one run says for or against a candidate.
+/// The contribution of one run to the evidence for a candidate.
 struct Evidence {
     std::string run;
     MaybeReal gain_nats; ///< log likelihood with the candidate less that without it
-    std::string text;    ///< empty: the number says it all
+    std::string text;    ///< empty: the number is sufficient
     friend bool operator==(const Evidence&, const Evidence&) = default;
 };
 
 enum class Decision {
     named,     ///< a cause of the verdict
-    in_set,    ///< cannot be told from a named one with these data
+    in_set,    ///< not distinguished from a named one by these data
     rejected,  ///< judged, and not needed
-    not_judged ///< the data do not allow it; `why` says what is missing
+    not_judged ///< the data do not allow it; `why` gives what is missing
 };
 
 /// A mechanism that was tried as the cause.
@@ -139,7 +139,7 @@ struct CollapsePrediction {
 };
 
 /// Gain of the extended model on runs that were not used to find or to fit it. Errors are relative to the baseline
-/// (error_before = 1) unless `unit` says otherwise.
+/// (error_before = 1) unless `unit` is given.
 struct ModelGain {
     MaybeReal error_before; ///< calibrated baseline
     MaybeReal error_after;  ///< extended model
@@ -161,7 +161,7 @@ struct MotionChoice {
     friend bool operator==(const MotionChoice&, const MotionChoice&) = default;
 };
 
-/// The test that would tell apart what these data do not.
+/// The test that would distinguish the causes that these data do not.
 struct NextTest {
     std::string excitation; ///< in one line
     std::string text;       ///< why this one
@@ -218,8 +218,9 @@ struct Diagnosis {
 
     // what follows from it
     Verdict verdict = Verdict::none;
-    std::string verdict_text;                   ///< in plain words, one to three sentences
-    std::vector<std::string> indistinguishable; ///< mechanisms that these data cannot tell apart; empty, or two or more
+    std::string verdict_text; ///< in plain words, one to three sentences
+    std::vector<std::string>
+        indistinguishable; ///< mechanisms that these data do not distinguish; empty, or two or more
     std::optional<Unexplained> unexplained;
     std::string extended_study;      ///< the baseline with the cause in it (TOML); empty: none
     std::string extended_study_file; ///< where it was written; empty: not written

@@ -171,7 +171,7 @@ std::string gain_words(const ModelGain& gain)
         return "";
     const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
     std::string text =
-        fmt::format("On {} left out of the search, the error goes from {:.3g}{} to {:.3g}{}",
+        fmt::format("On {} held out from the search, the error changes from {:.3g}{} to {:.3g}{}",
                     gain.runs_left_out.empty() ? "runs" : count_words(gain.runs_left_out.size(), "run", "runs"),
                     *gain.error_before, unit, *gain.error_after, unit);
     if (gain.low || gain.high)

@@ -1,5 +1,5 @@
 #pragma once
-/// A diagnosis in words: what its page, its text and its headings say alike.
+/// A diagnosis in words: texts that are common to its page, its text and its headings.
 
 #include "studies/diagnosis/findings/diagnosis.hpp"
 
@@ -36,7 +36,7 @@ std::string wrong_words(const Diagnosis& diagnosis);
 std::string verdict_heading(const Diagnosis& diagnosis);
 /// What a nat is, for who has not met one.
 std::string nats_words();
-/// What p says of a candidate, and why one with a small p may be rejected all the same.
+/// The meaning of p for a candidate, and why a candidate with a small p may still be rejected.
 std::string chance_words();
 /// The verdict in one to three sentences: the pipeline's own, or else composed of what was found.
 std::string verdict_words(const Diagnosis& diagnosis);

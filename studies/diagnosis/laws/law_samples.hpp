@@ -1,5 +1,5 @@
 #pragma once
-/// What the measured motion says of the laws of the joints, by Newton's law alone.
+/// Samples of the laws of the joints, from the measured motion and Newton's law alone.
 ///
 /// From the smoothed accelerations of the blocks follow the forces and moments that their joints carry: at every
 /// instant 3 equations for each block (its inertia and weight) in 3 unknowns for each joint. A column has as many of
@@ -7,7 +7,8 @@
 /// |F_T| = mu F_N, one that rocks has no moment about the corner on which it turns: each such law is one equation more.
 /// Combinations of laws in which the unknowns cancel can be checked against the measurement: those are the samples.
 ///
-///   value = sum over the laws of  weight x (what the law says is 0, over the weight that its joint carries at rest)
+///   value = sum over the laws of  weight x (the quantity that is 0 under the law, over the weight that its joint
+///   carries at rest)
 ///         = coefficients . (m a - m g)            linear in what was measured
 ///
 /// No contact stiffness and no damping enters, and no simulation: nothing here is chaotic, and the noise is known.

@@ -16,7 +16,7 @@
 
 namespace stylobate {
 
-/// Shorter rides tell nothing.
+/// Shorter rides are not informative.
 inline constexpr std::size_t shortest_ride = 30; // samples
 
 /// Mean of v[from] to v[to - 1].

@@ -22,7 +22,7 @@ struct TrackScales {
     double noise_m = 0;             ///< of x and y, the larger one
     double noise_rad = 0;           ///< of the rotations
     std::vector<LocalCubic> widths; ///< of smoothing, narrowest first
-    LocalCubic rates{2, 1};         ///< for what tells slip and rocking
+    LocalCubic rates{2, 1};         ///< for the detection of slip and rocking
     double slip_m_s = 0;            ///< slower than this counts as at rest
     double rotation_rad = 0;        ///< less than this counts as closed
 };

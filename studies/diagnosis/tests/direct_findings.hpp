@@ -1,5 +1,5 @@
 #pragma once
-/// How direct tests tell what they found.
+/// How direct tests report their findings.
 
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"

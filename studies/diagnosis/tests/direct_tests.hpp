@@ -2,7 +2,7 @@
 /// What the base and the sensors did, before any simulation is blamed.
 ///
 /// As long as nothing rocks or slides, the lowest blocks ride on the table, and what the cameras see of them is the
-/// table's motion: compared with the file's base motion it tells gain, offset of the clocks, distortion, pitch and
+/// table's motion: compared with the file's base motion it gives gain, offset of the clocks, distortion, pitch and
 /// vertical motion. Where the cameras see the table itself, that is used instead, over whole runs. What lies askew at
 /// rest (wedges, offsets of drums) is seen at once, too.
 

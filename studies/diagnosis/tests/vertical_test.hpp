@@ -2,7 +2,7 @@
 /// Whether the table moves up and down, from how high what stands on it is.
 ///
 /// A block that rocks stands on one corner, and that corner is as high as the table: the height of its lowest corner,
-/// from its centre and its rotation, tells the table's height all through a run, not only while it rides. It is held
+/// from its centre and its rotation, gives the table's height throughout a run, not only while it rides. It is held
 /// against the base motion, and searched for a line: a frequency of the table's own that stands out in motion after
 /// motion, as no harmonic of the shaking or of the rocking does.
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a claim file says, as plain data: the claims of a paper about one structure, each with the criterion that
+/// The content of a claim file, as plain data: the claims of a paper about one structure, each with the criterion that
 /// decides it, over variants of one ordinary study. `claim_file.hpp` reads it, `README.md` describes the words.
 
 #include <algorithm>
@@ -41,7 +41,7 @@ enum class Amount {
 };
 inline constexpr std::size_t amount_count = 9;
 
-/// A number that the realizations of a cell (or of a row of cells) say, with an interval.
+/// A number estimated from the realizations of a cell (or of a row of cells), with an interval.
 struct Measure {
     enum class Kind {
         probability, ///< of an event in a cell
@@ -128,8 +128,8 @@ struct Reasons {
 
 struct Test {
     std::string id;            ///< "P11", "P14a"
-    std::string says;          ///< what the paper says
-    std::string contradiction; ///< what the paper itself says against it
+    std::string says;          ///< the statement of the paper
+    std::string contradiction; ///< the inconsistency within the paper
     Criterion criterion;
     std::vector<Range> ranges;     ///< at least one
     std::vector<std::string> only; ///< "AXIS=LEVEL": the variants that are judged; several of one axis: any of them

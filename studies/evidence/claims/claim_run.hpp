@@ -21,7 +21,7 @@ struct RunPlace {
 
 /// One sample for each variant, in the order of `variants(file.axes)`. A complete result file of the same study is
 /// read, not computed again; an unfinished one of the same study and the same code goes on; any other is replaced.
-/// A variant whose record is absent has no realizations and says so in `why_not`.
+/// A variant whose record is absent has no realizations and the reason in `why_not`.
 ///
 /// @return fewer samples than variants if the observer asked to stop
 /// @throws InputError for whatever is wrong with the study or a level's settings

@@ -58,7 +58,7 @@ std::string measure_text(const Measure& measure);
 std::string short_text(const Measure& measure);
 /// "at 2.15 m/s2", "from 1 to 8 Hz", "above 4 Hz"; empty for everything.
 std::string window_text(const Window& window, const char* unit);
-/// The criterion as a sentence, from its parameters alone: what the page says is what is computed.
+/// The criterion as a sentence, from its parameters alone, so that the text of the page is what is computed.
 std::string criterion_text(const ClaimFile& file, const Test& test);
 const char* to_string(Finding finding);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// From samples to what they say about a criterion, case by case.
+/// Evaluates a criterion on samples, case by case.
 
 #include "studies/evidence/claims/estimate.hpp"
 
@@ -22,8 +22,7 @@ inline constexpr double case_level = 0.95;
 /// All cases of a test: its ranges times its variants, or groups of them. Variants without a sample, or with one that
 /// was not run, and ranges that no frequency of the axis lies in, are left out; so are cases of a trend or an order in
 /// which nothing can be compared: one frequency alone, or every number beyond the same end of the axis.
-///
-/// Cells in which too few realizations are left to say anything (after `given`) are passed over.
+/// Cells with too few realizations (after `given`) are skipped.
 ///
 /// bound  holds if the interval of every number lies on the right side (`any`: of one), fails if that of one lies on
 ///        the wrong side (`any`: of every one); the number that decided is the worst one (`any`: the best).

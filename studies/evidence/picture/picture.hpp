@@ -26,7 +26,7 @@ struct Series {
 };
 
 /// Curves and marks over one another.
-/// @param right axis of the series that ask for it
+/// @param right axis of the series that use it
 /// @param key gnuplot's place of the legend
 std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series,
                    const std::string& key = "top right", const PictureAxis& right = {});

@@ -49,7 +49,7 @@ Cases chosen(const std::vector<std::string>& names)
             std::string known;
             for (const Case& c : all)
                 known += (known.empty() ? "" : ", ") + c.name;
-            throw InputError(fmt::format("'{}' is no verification case.\n  There are: {}.", name, known));
+            throw InputError(fmt::format("'{}' is not a verification case.\n  Known: {}.", name, known));
         }
     }
     return some;

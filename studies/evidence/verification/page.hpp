@@ -21,7 +21,7 @@ std::vector<RunCase> run_cases(const Cases& cases);
 
 /// Markdown. Failures first, if there are any, then subject by subject.
 /// @param images folder of the pictures as seen from the page, with '/' at the end
-/// @param made_by line that says with what it was computed
+/// @param made_by line with the version and machine of the computation
 std::string page(const std::vector<RunCase>& runs, const std::string& images, const std::string& made_by);
 
 /// Draws the pictures of all cases, those of the convergences included.

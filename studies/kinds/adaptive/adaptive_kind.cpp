@@ -26,7 +26,7 @@ SurfaceTable table_of(AdaptiveAllocation& allocation, const ResultHeader& header
         table.method.push_back(cell.method);
     }
     table.interval = fmt::format("adaptive {}", adaptive_level);
-    table.half_width = allocation.looks().half_width();
+    table.half_width = allocation.analyses().half_width();
     table.rounds = allocation.rounds();
     return table;
 }
@@ -38,18 +38,18 @@ void foretell(AdaptiveAllocation& allocation, const SurfaceTable& table, const s
               std::uint64_t budget, Progress& progress)
 {
     set_share(progress, mean_of(table));
-    const AdaptiveLooks& looks = allocation.looks();
+    const InterimAnalyses& analyses = allocation.analyses();
     progress.expected = 0;
     for (std::size_t cell = 0; cell < asked.size(); ++cell) {
         std::uint64_t n = asked[cell];
-        if (!looks.narrow({table.lower[cell], table.upper[cell]}) && table.trials[cell] > 0) {
+        if (!analyses.narrow({table.lower[cell], table.upper[cell]}) && table.trials[cell] > 0) {
             const double share = static_cast<double>(table.collapses[cell]) / static_cast<double>(table.trials[cell]);
             const auto narrow_at = [&](std::uint64_t trials) {
                 const auto collapses = std::llround(share * static_cast<double>(trials));
-                return looks.narrow(looks.interval(trials, static_cast<std::uint64_t>(collapses)));
+                return analyses.narrow(analyses.interval(trials, static_cast<std::uint64_t>(collapses)));
             };
-            while (n < looks.trials().back() && !narrow_at(n))
-                n = looks.after(n);
+            while (n < analyses.trials().back() && !narrow_at(n))
+                n = analyses.after(n);
         }
         progress.expected += n;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a fragility study says: curves of all its limit states with their intervals, whether their form holds, and
+/// Results of a fragility study: curves of all its limit states with their intervals, tests of their form, and
 /// where the scatter comes from.
 
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"

@@ -195,7 +195,7 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
                                "not independent, and intervals that assume independence would be too narrow.",
                                f.motions, f.structures, describe_measure(f.measure)));
     for (const std::string& line : f.says)
-        page.box("warn", "Mind", line);
+        page.box("warn", "Note", line);
     picture();
     HtmlTable table{"lrrrrr", {"limit state", "reached", "median", "95 %", "dispersion", "95 %"}, {}, ""};
     for (const StateFragility& s : f.states) {

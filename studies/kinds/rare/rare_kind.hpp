@@ -19,7 +19,7 @@ class RareKind : public Kind {
 public:
     using Kind::Kind;
 
-    /// Plain draws: where its chains will lead nobody knows.
+    /// Independent draws: the states of the chains are not known in advance.
     std::uint64_t drawn_first() const override;
     /// Chains are gone through again by the outcomes that are there.
     bool plan(Rounds& rounds) override;

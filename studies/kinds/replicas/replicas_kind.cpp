@@ -58,9 +58,10 @@ Picture ReplicasKind::picture(const ResultReader& reader, const std::string& res
         return SurfaceKind::picture(reader, results, request);
     check_complete(reader, results);
     if (request.name == "twins")
-        return {
-            "twins", "Predictability of the verdict", "",
-            [this](const std::string& title, const std::filesystem::path& file) { plot_flips(twins_, title, file); }};
+        return {"twins", "Predictability of the verdict", "",
+                [this](const std::string& title, const std::filesystem::path& file) {
+                    plot_discordance(twins_, title, file);
+                }};
     return {"predictability", "Predictability horizon of the motion", "",
             [this](const std::string& title, const std::filesystem::path& file) { plot_growth(twins_, title, file); }};
 }
@@ -84,7 +85,9 @@ void ReplicasKind::sections(PageWriter& writer) const
             writer.picture(
                 "Predictability of the verdict: a map for each kind of perturbed replica, with contours of the "
                 "probability of collapse.",
-                [&](const std::filesystem::path& png) { plot_flips(twins_, "Predictability of the verdict", png); });
+                [&](const std::filesystem::path& png) {
+                    plot_discordance(twins_, "Predictability of the verdict", png);
+                });
         },
         [&] {
             writer.picture("Growth of the separation, and the predictability horizon of the motion.",

@@ -16,7 +16,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// @param rows by index
-void count_flips(const Study& study, const std::vector<ReplicaRow>& rows, Twins& out)
+void count_discordant(const Study& study, const std::vector<ReplicaRow>& rows, Twins& out)
 {
     const std::uint64_t n = study.originals();
     const auto cells = static_cast<std::size_t>(study.cells());
@@ -42,10 +42,10 @@ void count_flips(const Study& study, const std::vector<ReplicaRow>& rows, Twins&
                                       ? static_cast<double>(collapsed[cell]) / static_cast<double>(valid[cell])
                                       : std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k < out.kinds.size(); ++k) {
-        TwinFlips& kind = out.kinds[k];
-        kind.all = flip_ratio(counts[k]);
+        KindDiscordance& kind = out.kinds[k];
+        kind.all = discordance_ratio(counts[k]);
         for (const PairCounts& c : counts[k]) {
-            const FlipShare share = flip_share(c);
+            const DiscordantShare share = discordant_share(c);
             kind.cells.push_back(share);
             if (share.trials == 0)
                 continue;
@@ -150,7 +150,7 @@ Twins twins_of(const Study& study, const ResultHeader& header, std::vector<Repli
         out.moves += kind.by == TwinBy::move;
     }
     std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
-    count_flips(study, rows, out);
+    count_discordant(study, rows, out);
     for (std::size_t k = 0; k < out.moves; ++k) {
         const bool begins_beyond = std::all_of(pairs.begin(), pairs.end(), [&](const FollowedTwin& pair) {
             return pair.kind != k || pair.start >= out.tolerance;

@@ -1,12 +1,12 @@
 #pragma once
-/// What a surface with twins says: how sure the verdict of each cell is, what decides it, and how long it can be
-/// foretold.
+/// Results of a surface with perturbed replicas: predictability of the verdict of each cell, its sources, and the
+/// predictability horizon.
 
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/kinds/replicas/flips.hpp"
+#include "studies/kinds/replicas/discordance.hpp"
 
 #include <array>
 #include <cstdint>
@@ -16,13 +16,13 @@
 namespace stylobate {
 
 /// One kind of twin over the surface.
-struct TwinFlips {
+struct KindDiscordance {
     Twin kind;
-    std::string name;             ///< "moved by 1e-12 m"
-    std::vector<FlipShare> cells; ///< (nf x np)
-    FlipRatio all;
+    std::string name;                   ///< "moved by 1e-12 m"
+    std::vector<DiscordantShare> cells; ///< (nf x np)
+    DiscordanceRatio all;
     std::array<std::uint64_t, 3> classes{}; ///< cells by the `Sureness` that their interval lies within
-    std::uint64_t open = 0;                 ///< cells with too few pairs to say; those without a pair not counted
+    std::uint64_t open = 0;                 ///< undecided cells (too few pairs); those without a pair are not counted
 };
 
 /// How the separation of twins of one kind grows.
@@ -47,11 +47,11 @@ struct Twins {
     std::uint64_t followed = 0;     ///< of these
     double tolerance = 0;
     std::vector<double> probability; ///< (nf x np) of collapse, of the originals; NaN without a valid one
-    std::vector<TwinFlips> kinds;
+    std::vector<KindDiscordance> kinds;
     std::vector<TwinGrowth> growth;  ///< of the moves that begin below the tolerance
     std::uint64_t invalid_pairs = 0; ///< with an invalid member: left out
     /// (nf x np) number of the smallest move at which the verdict is not certain, by its interval; as many as there are
-    /// moves: it is certain at all of them; one more: too few pairs to say.
+    /// moves: it is certain at all of them; one more: undecided (too few pairs).
     std::vector<std::size_t> lost_at;
     std::size_t moves = 0; ///< the first so many kinds
 };

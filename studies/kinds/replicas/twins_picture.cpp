@@ -23,7 +23,7 @@ const std::vector<MapClass>& classes()
 }
 
 /// A place within the class; NaN, which is grey, where there are too few pairs to say.
-double class_place(const FlipShare& share)
+double class_place(const DiscordantShare& share)
 {
     const std::optional<Sureness> verdict = share.verdict();
     return verdict ? classes()[static_cast<std::size_t>(*verdict)].from : std::numeric_limits<double>::quiet_NaN();
@@ -59,7 +59,7 @@ double top_of(const std::vector<double>& values, double share)
 
 } // namespace
 
-void plot_flips(const Twins& twins, const std::string& title, const std::filesystem::path& png)
+void plot_discordance(const Twins& twins, const std::string& title, const std::filesystem::path& png)
 {
     MapPicture picture = on_axes(twins);
     picture.title = title;
@@ -67,10 +67,10 @@ void plot_flips(const Twins& twins, const std::string& title, const std::filesys
         "{} pairs in each cell for each kind of perturbed replica · verdict: collapsed or not", twins.realizations);
     picture.columns = twins.kinds.size() > 4 ? 4 : static_cast<int>(twins.kinds.size());
     picture.key = fmt::format("{} · grey: {}", key, too_few_pairs);
-    for (const TwinFlips& kind : twins.kinds) {
+    for (const KindDiscordance& kind : twins.kinds) {
         MapPanel panel;
         panel.title = fmt::format("{}: {:.2g} % discordant", kind.name, 100 * kind.all.all.probability);
-        for (const FlipShare& share : kind.cells)
+        for (const DiscordantShare& share : kind.cells)
             panel.value.push_back(class_place(share));
         panel.classes = classes();
         picture.panels.push_back(std::move(panel));

@@ -55,7 +55,7 @@ std::string lost_text(const Twins& twins)
 std::string open_text(const Twins& twins)
 {
     std::uint64_t open = 0, all = 0;
-    for (const TwinFlips& kind : twins.kinds) {
+    for (const KindDiscordance& kind : twins.kinds) {
         open += kind.open;
         all += kind.open + kind.classes[0] + kind.classes[1] + kind.classes[2];
     }
@@ -102,9 +102,9 @@ std::string twins_text(const Twins& twins)
     std::string text = fmt::format(
         "  discordant pairs (95 % intervals); relative to independent realizations; cells that are {} / {} / {} / {}\n",
         sureness_names[0], sureness_names[1], sureness_names[2], too_few_pairs);
-    for (const TwinFlips& kind : twins.kinds)
+    for (const KindDiscordance& kind : twins.kinds)
         text += fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {} / {}\n", kind.name,
-                            kind.all.all.flips, kind.all.all.trials, percent(kind.all.all.probability),
+                            kind.all.all.discordant, kind.all.all.trials, percent(kind.all.all.probability),
                             percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
                             interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2],
                             kind.open);
@@ -122,7 +122,7 @@ std::string twins_text(const Twins& twins)
 Json twins_json(const Twins& twins)
 {
     Json kinds = Json::list();
-    for (const TwinFlips& kind : twins.kinds) {
+    for (const KindDiscordance& kind : twins.kinds) {
         Json cells = Json::object();
         for (std::size_t i = 0; i < sureness_names.size(); ++i)
             cells.member(sureness_names[i], kind.classes[i]);
@@ -130,7 +130,7 @@ Json twins_json(const Twins& twins)
         kinds.item(Json::object()
                        .member("name", kind.name)
                        .member("pairs", kind.all.all.trials)
-                       .member("flips", kind.all.all.flips)
+                       .member("flips", kind.all.all.discordant)
                        .member("probability", kind.all.all.probability)
                        .member("lower", kind.all.all.lower)
                        .member("upper", kind.all.all.upper)
@@ -167,7 +167,7 @@ Json twins_json(const Twins& twins)
         .member("growth", growths);
 }
 
-void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& flips,
+void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& verdicts,
                    const std::function<void()>& growth)
 {
     page.section("Predictability of the verdict");
@@ -177,14 +177,14 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
         "and a coin flip where more than {:g} % are (two independent tosses of a fair coin differ in 50 %). A class is "
         "assigned only where the 95 % interval of that share lies within it.",
         twins.realizations, 100 * certain_below, 100 * coin_flip_above));
-    flips();
+    verdicts();
     HtmlTable table{"lrrrrrrrrr",
-                    {"twin", "differ", "share", "95 %", "of independent", "95 %", "certain", "probable", "coin flip",
-                     too_few_pairs},
+                    {"replica", "discordant", "share", "95 %", "relative to independent", "95 %", "certain", "probable",
+                     "coin flip", too_few_pairs},
                     {},
                     "Pairs over all cells, and cells by class"};
-    for (const TwinFlips& kind : twins.kinds)
-        table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.flips, kind.all.all.trials),
+    for (const KindDiscordance& kind : twins.kinds)
+        table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.discordant, kind.all.all.trials),
                               percent(kind.all.all.probability), percents(kind.all.all.lower, kind.all.all.upper),
                               number(kind.all.ratio), interval(kind.all.lower, kind.all.upper),
                               fmt::format("{}", kind.classes[0]), fmt::format("{}", kind.classes[1]),
@@ -194,7 +194,7 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
               "same cell. It is the fraction of the verdict's variance in a cell that is due to the quantity in which "
               "the replicas differ.");
     if (const std::string open = open_text(twins); !open.empty())
-        page.box("warn", "Mind", open);
+        page.box("warn", "Note", open);
     page.paragraph(
         fmt::format("The smallest displacement at which the verdict is not certain, and the number of cells: {}.",
                     lost_text(twins)));
@@ -220,11 +220,11 @@ std::string twins_csv(const Twins& twins)
     std::string text = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,pairs,flips,probability,lower,upper,"
                        "independent,class\n";
     for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
-        for (const TwinFlips& kind : twins.kinds) {
-            const FlipShare& s = kind.cells[cell];
+        for (const KindDiscordance& kind : twins.kinds) {
+            const DiscordantShare& s = kind.cells[cell];
             CsvRow row(text);
             add_cell(row, twins, cell);
-            row << kind.name << s.trials << s.flips << s.probability << s.lower << s.upper << s.independent
+            row << kind.name << s.trials << s.discordant << s.probability << s.lower << s.upper << s.independent
                 << (s.verdict()    ? sureness_names[static_cast<std::size_t>(*s.verdict())]
                     : s.trials > 0 ? too_few_pairs
                                    : "");

@@ -15,8 +15,8 @@ namespace stylobate {
 std::string twins_text(const Twins& twins);
 Json twins_json(const Twins& twins);
 
-/// The section of a result's page. @param flips, growth put these pictures into the page
-void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& flips,
+/// The section of a result's page. @param verdicts, growth put these pictures into the page
+void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& verdicts,
                    const std::function<void()>& growth);
 
 /// `twins.csv`: each cell and kind.
@@ -25,7 +25,7 @@ std::string twins_csv(const Twins& twins);
 std::string predictability_csv(const Twins& twins);
 
 /// Predictability of the verdict, a map for each kind of twin.
-void plot_flips(const Twins& twins, const std::string& title, const std::filesystem::path& png);
+void plot_discordance(const Twins& twins, const std::string& title, const std::filesystem::path& png);
 /// Exponents and horizons. @throws InputError if no pair was followed
 void plot_growth(const Twins& twins, const std::string& title, const std::filesystem::path& png);
 

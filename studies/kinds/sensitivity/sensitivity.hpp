@@ -1,8 +1,7 @@
 #pragma once
 /// Which factors the outcomes of a sensitivity study depend on, from its realizations.
-///
-/// The outcomes are told of every valid realization, so that the factors stay independent; what only some of them have
-/// would be told of a selection whose factors depend on each other, and of which no indices are defined:
+/// The outcomes are defined for every valid realization, so that the factors stay independent. A quantity that only
+/// some realizations have would refer to a selection with dependent factors, for which no indices are defined:
 ///
 ///   collapse            1 if a block has fallen, else 0: the mean is the probability
 ///   time_upright        time of the first fall, or the longest end of any realization where it stood
@@ -57,7 +56,7 @@ private:
 /// For the end of a run.
 std::string sensitivity_text(const SensitivityTable& table);
 Json sensitivity_json(const SensitivityTable& table);
-/// A table for each outcome, with what there is to say of it.
+/// A table for each outcome, with its remarks.
 void add_sensitivity(HtmlPage& page, const SensitivityTable& table);
 
 /// What must be known of a table: factors without effect, outcomes that do not vary, rows left out.

@@ -21,7 +21,7 @@ std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks);
 /// By `output.trajectories` and `output.most_mb`. Realizations differ in length; the longest of the first 32 stands for
 /// all, and those that fall earlier take less.
 /// @param file of the study, for the message
-/// @throws InputError if what the study asks for is larger than `output.most_mb`, with the estimate and what to set
+/// @throws InputError if the requested trajectories are larger than `output.most_mb`, with the estimate and what to set
 KeptTrajectories plan_trajectories(const Experiment& experiment, const std::string& file);
 
 } // namespace stylobate

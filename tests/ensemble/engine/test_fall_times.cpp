@@ -17,7 +17,7 @@ namespace {
 
 const std::string inputs = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/";
 
-/// Of every block the steps from which on it was outside its limits until the next look, by the criterion itself:
+/// Of every block the steps from which on it was outside its limits until the next check, by the criterion itself:
 /// centre below a part of its height at rest above the base, or turned beyond atan(b / h).
 std::vector<std::set<std::uint64_t>> starts_of(const Study& study, std::uint64_t index)
 {
@@ -51,7 +51,7 @@ std::vector<std::set<std::uint64_t>> starts_of(const Study& study, std::uint64_t
     return starts;
 }
 
-/// @return how many falls were not at a look
+/// @return how many falls were not at a check
 int expect_exact(const Study& study)
 {
     const std::vector<Outcome> outcomes = outcomes_of(study, {best_isa(), 2});
@@ -144,7 +144,7 @@ TEST(FallTimes, NeitherColumnOfASymmetricColonnadeIsFirst)
     RecordProperty("first", std::to_string(first[0]) + " " + std::to_string(first[1]) + " " + std::to_string(together));
 }
 
-/// A look finds two blocks outside: the steps tell which was first, and the order of their numbers does not.
+/// A check finds two blocks outside: the steps tell which was first, and the order of their numbers does not.
 TEST(FallTimes, OfTwoBlocksFoundAtOneLook)
 {
     const Realization r = Experiment(column({})).sampler().realization(0);
@@ -153,10 +153,10 @@ TEST(FallTimes, OfTwoBlocksFoundAtOneLook)
     const auto ended = [&](int inside_3, int inside_5) {
         LimitStates limits(r, {}, 0, 1 << 20);
         std::vector<int> inside(r.blocks.size(), chunk_steps - 1);
-        limits.look(r, chunk_steps, std::vector<BlockMotion>(r.blocks.size()), inside);
+        limits.check(r, chunk_steps, std::vector<BlockMotion>(r.blocks.size()), inside);
         inside[3] = inside_3;
         inside[5] = inside_5;
-        limits.look(r, 2 * chunk_steps, moved, inside);
+        limits.check(r, 2 * chunk_steps, moved, inside);
         limits.conclude(r);
         Outcome o;
         limits.write(r, o);

@@ -372,31 +372,32 @@ TEST(LimitStates, FollowAScript)
     OutcomeSpec spec;
     LimitStates limits(r, spec, 0, 128);
     std::vector<BlockMotion> moved(r.blocks.size());
-    const std::vector<int> inside(r.blocks.size(), chunk_steps - 1); // what is outside at a look is so by its last step
-    const auto look = [&](std::uint64_t steps) { limits.look(r, steps, moved, inside); };
-    look(64);
+    const std::vector<int> inside(r.blocks.size(),
+                                  chunk_steps - 1); // what is outside at a check is so by its last step
+    const auto check = [&](std::uint64_t steps) { limits.check(r, steps, moved, inside); };
+    check(64);
     EXPECT_FALSE(limits.fallen());
     moved[1].theta_rad = 1.0; // beyond atan(60 / 50) = 0.876, and back in time
-    look(128);
+    check(128);
     EXPECT_TRUE(limits.undecided());
     moved[1].theta_rad = 0.5;
-    look(192);
+    check(192);
     EXPECT_FALSE(limits.undecided());
     EXPECT_FALSE(limits.fallen());
     moved[4].x_m = 0.046; // the left seat ends at 0.03, the epistyle's left end lies at -0.03 + 0.046
-    look(256);
+    check(256);
     moved[4].x_m = 0.061; // beyond it
-    look(320);
+    check(320);
     moved[3].theta_rad = -1.2; // to stay
-    look(384);
-    look(448);
+    check(384);
+    check(448);
     EXPECT_FALSE(limits.fallen());
-    look(512);
+    check(512);
     EXPECT_TRUE(limits.fallen());
     moved[4].y_m = -0.1; // low: at once
-    look(576);
+    check(576);
     moved[0].y_m = -0.011; // of 0.025: below 0.6 of it
-    look(640);
+    check(640);
     Outcome o;
     limits.write(r, o);
     const double dt = r.step_s;
@@ -416,7 +417,7 @@ TEST(LimitStates, WhatHasTurnedAtTheEndHasFallen)
     std::vector<BlockMotion> moved(r.blocks.size());
     moved[0].theta_rad = 0.6; // beyond atan(60 / 100) = 0.540
     moved[2].theta_rad = 1.0; // not beyond atan(150 / 60) = 1.190
-    limits.look(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1));
+    limits.check(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1));
     EXPECT_FALSE(limits.fallen());
     limits.conclude(r);
     Outcome o;

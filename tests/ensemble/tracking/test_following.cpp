@@ -1,4 +1,4 @@
-/// The model along measured motion: free windows go on as the observer would have, bit by bit; the pull is the
+/// The model along measured motion: free windows go on as the observer would have, bit by bit; the nudging is the
 /// oscillator that it says it is; and nobody's neighbours matter.
 
 #include "ensemble/engine/lanes.hpp"
@@ -119,7 +119,7 @@ FollowJob alone(const Study& study, std::uint64_t index)
     return job;
 }
 
-/// Jobs of different steps, targets and lengths; each is pulled towards what another realization did.
+/// Jobs of different steps, targets and lengths; each is nudged towards what another realization did.
 std::vector<FollowJob> mixed_jobs(int count)
 {
     const Study study = noise_study();
@@ -138,7 +138,7 @@ std::vector<FollowJob> mixed_jobs(int count)
         }
         job.realization.step_s /= 1 + 0.2 * i;
         job.targets = targets;
-        job.pull_rad_s = 60;
+        job.nudge_rad_s = 60;
         job.windows = windows_every(0.15 + 0.02 * (i % 3), 9, 0.2);
         jobs.push_back(job);
     }
@@ -232,7 +232,7 @@ TEST(Following, ThePullIsADampedOscillator)
     for (auto* v : {&targets->theta_rad, &targets->velocity_m_s, &targets->rotation_rad_s})
         v->assign(values, 0.0);
     job.targets = targets;
-    job.pull_rad_s = 20;
+    job.nudge_rad_s = 20;
     job.watched_s = times(0.01, 0.4, 0.01);
     const FollowResult result = run({job}).front();
     const double w = 20, z = 0.7, wd = w * std::sqrt(1 - z * z);
@@ -276,7 +276,7 @@ TEST(Following, HowOftenThePullIsSetMakesNoDifference)
 {
     std::vector<FollowJob> often = mixed_jobs(2), seldom = often;
     for (FollowJob* job : {&often[0], &often[1]}) {
-        job->pull_steps = 1;
+        job->nudge_steps = 1;
         job->watched_s = times(0.1, 1.5, 0.05);
     }
     for (FollowJob* job : {&seldom[0], &seldom[1]})
@@ -295,7 +295,7 @@ TEST(Following, HowOftenThePullIsSetMakesNoDifference)
 
 TEST(Following, TheObserverTracksWhatAFreeRunLoses)
 {
-    // the truth, and a model of another friction and half the stiffness that is pulled along it
+    // the truth, and a model of another friction and half the stiffness that is nudged along it
     const Study study = noise_study(6);
     const auto seen_at = times(0, 1.8, 0.002);
     FollowJob truth = alone(study, 2);
@@ -307,19 +307,19 @@ TEST(Following, TheObserverTracksWhatAFreeRunLoses)
         joint.friction *= 0.9;
         joint.normal_stiffness_n_m2 *= 0.5;
     }
-    FollowJob pulled = loose;
-    pulled.targets = targets_of(seen, *seen_at, blocks);
-    pulled.pull_rad_s = 60;
-    const std::vector<FollowResult> results = run({loose, pulled});
+    FollowJob nudged = loose;
+    nudged.targets = targets_of(seen, *seen_at, blocks);
+    nudged.nudge_rad_s = 60;
+    const std::vector<FollowResult> results = run({loose, nudged});
     const auto apart = [&](const Readings& r) {
         double sum = 0;
         for (std::size_t k = 0; k < seen.x_m.size(); ++k)
             sum += (r.x_m[k] - seen.x_m[k]) * (r.x_m[k] - seen.x_m[k]);
         return std::sqrt(sum / static_cast<double>(seen.x_m.size()));
     };
-    const double free_apart = apart(results[0].watched), pulled_apart = apart(results[1].watched);
-    EXPECT_LT(pulled_apart, 0.5e-3);
-    EXPECT_GT(free_apart, 4 * pulled_apart);
+    const double free_apart = apart(results[0].watched), nudged_apart = apart(results[1].watched);
+    EXPECT_LT(nudged_apart, 0.5e-3);
+    EXPECT_GT(free_apart, 4 * nudged_apart);
 }
 
 TEST(Following, NothingPullsWhereNothingWasSeen)

@@ -183,7 +183,7 @@ TEST(FollowingTargets, ScalesGoWithThePendulumTime)
 {
     const FollowScales small = follow_scales(0.048, 9.81), large = follow_scales(1.5, 9.81);
     EXPECT_NEAR(small.window_s, 0.2, 1e-9);
-    EXPECT_NEAR(small.pull_rad_s, 60, 1e-9);
+    EXPECT_NEAR(small.nudge_rad_s, 60, 1e-9);
     EXPECT_NEAR(large.window_s / small.window_s, std::sqrt(1.5 / 0.048), 1e-9);
-    EXPECT_NEAR(large.pull_rad_s, 24, 1);
+    EXPECT_NEAR(large.nudge_rad_s, 24, 1);
 }

@@ -317,7 +317,7 @@ TEST(PlanarImpact, BadTablesAreRefusedWithTheirPlace)
     };
     const std::string head = "i,x_i,th_i,vx_i,vy_i,w_i,n_th,d_th\n";
     EXPECT_NE(message("i,x_i\n1,2\n").find("th_i"), std::string::npos);
-    EXPECT_NE(message((head + "0,0.3,0,0.4,-2,1,0,x\n").c_str()).find(":2: d_th = 'x' is no number"),
+    EXPECT_NE(message((head + "0,0.3,0,0.4,-2,1,0,x\n").c_str()).find(":2: d_th = 'x' is not a number"),
               std::string::npos);
     EXPECT_NE(message((head + "0,0.3,0,0.4\n").c_str()).find(":2: 4 cells"), std::string::npos);
     EXPECT_NE(message((head + "0,0.3,0,400,-2,1,0,0.03\n").c_str()).find(":2: vx_i = 400 is outside"),

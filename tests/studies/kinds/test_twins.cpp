@@ -6,7 +6,7 @@
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/kinds/replicas/flips.hpp"
+#include "studies/kinds/replicas/discordance.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 
 #include <gtest/gtest.h>
@@ -326,26 +326,26 @@ TEST(Slope, IsThatOfTheNormalEquations)
     EXPECT_NEAR(slope.value(), (n * ty - t * y) / (n * tt - t * t), 1e-9);
 }
 
-TEST(Flips, SharesByHand)
+TEST(Discordance, SharesByHand)
 {
-    const FlipShare share = flip_share({.neither = 3, .original = 1, .twin = 2, .both = 4});
+    const DiscordantShare share = discordant_share({.neither = 3, .original = 1, .twin = 2, .both = 4});
     EXPECT_EQ(share.trials, 10U);
-    EXPECT_EQ(share.flips, 3U);
+    EXPECT_EQ(share.discordant, 3U);
     EXPECT_DOUBLE_EQ(share.probability, 0.3);
     // 5 originals and 6 twins collapsed: 5 x 4 + 5 x 6 of 100 comparisons differ, 3 of these within a pair
     EXPECT_DOUBLE_EQ(share.independent, 47.0 / 90);
     EXPECT_FALSE(share.verdict());
-    EXPECT_EQ(flip_share({.neither = 1000}).verdict(), Sureness::certain);
-    EXPECT_EQ(flip_share({.neither = 500, .original = 500}).verdict(), Sureness::coin_flip);
-    EXPECT_FALSE(flip_share({}).verdict());
+    EXPECT_EQ(discordant_share({.neither = 1000}).verdict(), Sureness::certain);
+    EXPECT_EQ(discordant_share({.neither = 500, .original = 500}).verdict(), Sureness::coin_flip);
+    EXPECT_FALSE(discordant_share({}).verdict());
     // eight pairs of which none differs: the share may be a quarter
-    EXPECT_FALSE(flip_share({.neither = 8}).verdict());
-    EXPECT_GT(flip_share({.neither = 8}).upper, 0.25);
-    EXPECT_FALSE(flip_share({.neither = fewest_pairs() - 1}).verdict());
-    EXPECT_EQ(flip_share({.neither = fewest_pairs()}).verdict(), Sureness::certain);
+    EXPECT_FALSE(discordant_share({.neither = 8}).verdict());
+    EXPECT_GT(discordant_share({.neither = 8}).upper, 0.25);
+    EXPECT_FALSE(discordant_share({.neither = fewest_pairs() - 1}).verdict());
+    EXPECT_EQ(discordant_share({.neither = fewest_pairs()}).verdict(), Sureness::certain);
     // the 97.5 % point of Beta(1/2, n + 1/2) is about 5.0239 / 2 / n, half the point of chi-square of one degree
     EXPECT_NEAR(static_cast<double>(fewest_pairs()), 5.0239 / 2 / 0.05, 2);
-    EXPECT_TRUE(std::isnan(flip_share({}).probability));
+    EXPECT_TRUE(std::isnan(discordant_share({}).probability));
     EXPECT_EQ(sureness(0.049), Sureness::certain);
     EXPECT_EQ(sureness(0.05), Sureness::probable);
     EXPECT_EQ(sureness(0.25), Sureness::probable);
@@ -364,7 +364,7 @@ PairCounts simulated(std::mt19937_64& random, double p, double decided, int pair
     return c;
 }
 
-TEST(Flips, TheRatioIsTheShareThatTwinsDoNotHaveInCommon)
+TEST(Discordance, TheRatioIsTheShareThatTwinsDoNotHaveInCommon)
 {
     // 600 simulated surfaces: 24 cells of 16 pairs. The interval of 95 % misses the truth in 30 of them on average;
     // more than 55, or fewer than 12, come by chance once in 10^5.
@@ -378,10 +378,10 @@ TEST(Flips, TheRatioIsTheShareThatTwinsDoNotHaveInCommon)
             for (int c = 0; c < cells; ++c) {
                 const double p = (c + 0.5) / cells;
                 counts.push_back(simulated(random, p, truth, 16));
-                independent += flip_share(counts.back()).independent;
+                independent += discordant_share(counts.back()).independent;
                 wanted += 2 * p * (1 - p);
             }
-            const FlipRatio ratio = flip_ratio(counts);
+            const DiscordanceRatio ratio = discordance_ratio(counts);
             mean += ratio.ratio / surfaces;
             missed += truth < ratio.lower || truth > ratio.upper;
         }
@@ -392,15 +392,15 @@ TEST(Flips, TheRatioIsTheShareThatTwinsDoNotHaveInCommon)
     }
 }
 
-TEST(Flips, WhereNothingFlipsTheRatioHasAnUpperLimit)
+TEST(Discordance, WhereNoPairIsDiscordantTheRatioHasAnUpperLimit)
 {
-    const FlipRatio none = flip_ratio({{.neither = 10, .both = 10}, {.neither = 5, .both = 15}});
+    const DiscordanceRatio none = discordance_ratio({{.neither = 10, .both = 10}, {.neither = 5, .both = 15}});
     EXPECT_EQ(none.ratio, 0);
     EXPECT_EQ(none.lower, 0);
     EXPECT_GT(none.upper, 0.02);
     EXPECT_LT(none.upper, 0.3);
-    EXPECT_TRUE(std::isnan(flip_ratio({{.neither = 20}}).ratio)) << "nobody differs from anybody";
-    EXPECT_TRUE(std::isnan(flip_ratio({}).ratio));
+    EXPECT_TRUE(std::isnan(discordance_ratio({{.neither = 20}}).ratio)) << "nobody differs from anybody";
+    EXPECT_TRUE(std::isnan(discordance_ratio({}).ratio));
 }
 
 TEST(Growth, MeansAndMedians)

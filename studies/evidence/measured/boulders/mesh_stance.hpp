@@ -1,5 +1,5 @@
 #pragma once
-/// What the photogrammetric shape of a body says of its rocking: leaning over its edges in each direction.
+/// Rocking properties from the photogrammetric shape of a body: tilting over its edges in each direction.
 
 #include <array>
 #include <filesystem>

@@ -31,7 +31,7 @@ std::vector<DoublePulse> read_double_pulses(const std::filesystem::path& file)
         const bool stood = marker.find("no overturning") != std::string::npos;
         if (!stood && marker.find("overturning") == std::string::npos)
             throw InputError(file.string(), static_cast<long>(row) + 2,
-                             fmt::format("marker = '{}' says neither 'overturning' nor 'no overturning'", marker));
+                             fmt::format("marker = '{}' is neither 'overturning' nor 'no overturning'", marker));
         const DoublePulse test{table.number(row, "BD_m"), table.number(row, "v_peak_m_s"), !stood};
         if (!(test.distance_m > 0 && test.velocity_m_s > 0))
             throw InputError(file.string(), static_cast<long>(row) + 2, "distance and velocity must be above 0");

@@ -75,7 +75,7 @@ double Table::number(std::size_t row, const std::string& heading) const
     double value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size())
-        throw InputError(file_, line_of(row), fmt::format("{} = '{}' is no number", heading, cell));
+        throw InputError(file_, line_of(row), fmt::format("{} = '{}' is not a number", heading, cell));
     return value;
 }
 

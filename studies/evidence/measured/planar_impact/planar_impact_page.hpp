@@ -8,7 +8,7 @@
 
 namespace stylobate::measured::impact {
 
-/// Markdown. @param made_by line that says with what it was computed
+/// Markdown. @param made_by line with the version and machine of the computation
 std::string page_text(const ImpactStudy& study, const std::string& made_by);
 
 /// planar_impact_{errors,place,sliding}.png.

@@ -1,5 +1,5 @@
 #pragma once
-/// Everything that the page of planar impacts tells: laws fitted on one half of the impacts and judged on the other,
+/// The results on the page of planar impacts: laws fitted on one half of the impacts and tested on the other,
 /// what the errors depend on, and how well the measurement lets one know.
 
 #include "studies/evidence/measured/planar_impact/planar_impact_cause.hpp"
@@ -95,7 +95,7 @@ struct ImpactStudy {
     double step_error = 0;                ///< mean change of the extended law's velocities at a tenth of the step
 };
 
-/// @param progress is told what is done
+/// @param progress is called with a description of each stage
 ImpactStudy study_impacts(std::vector<Impact> impacts, const std::function<void(const std::string&)>& progress);
 
 /// p of the null that two laws err alike: mean difference of paired errors (each counted as 0.6 at most) against random

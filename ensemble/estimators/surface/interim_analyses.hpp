@@ -1,21 +1,21 @@
 #pragma once
 /// The interim analyses of a cell of a surface, and an interval that is valid under them.
 ///
-/// The trials of a cell come in batches: after n_1 < n_2 < ... trials there is an interim analysis (a "look" in the
-/// names below), and the cell is finished at the first one whose interval is at most 2 h wide (h: the requested half
+/// The trials of a cell come in batches: after n_1 < n_2 < ... trials there is an interim analysis, and the
+/// cell is finished at the first one whose interval is at most 2 h wide (h: the requested half
 /// width). An interval that is valid for a number of trials fixed beforehand need not be valid then, because the number
 /// depends on the trials. This rule, however, depends on the width of an interval and not on its position, and the
 /// width depends on the trials through p (1 - p) / n alone: the effect is small. It is known exactly. The probability
-/// of every path (collapses so far at each look) is binomial, so the coverage
+/// of every path (collapses so far at each analysis) is binomial, so the coverage
 ///
-///   C(p) = sum over looks k and counts s at which the rule stops:  P(reaches n_k with s, p) [p in I(n_k, s)]
+///   C(p) = sum over analyses k and counts s at which the rule stops:  P(reaches n_k with s, p) [p in I(n_k, s)]
 ///
 /// is a finite sum. The interval is Jeffreys' (see `interval.hpp`) at the lowest level, in steps of 0.001, at which the
-/// average of C over p is at least the requested level, also when the looks end early (budget) at any of them. Looks
-/// from 8 on with h = 0.05 and 0.95: level 0.953, average 0.951, and the worst p has 0.880, no worse than Jeffreys'
-/// with a fixed number (0.878). With a count of 1/2 the cell is finished after 408 trials, without a collapse after 28;
-/// all cells with the trials of the worst one would need 382. A confidence sequence, which is valid for every stopping
-/// rule, would need about twice as many.
+/// average of C over p is at least the requested level, also when the analyses end early (budget) at any of them.
+/// Analyses from 8 on with h = 0.05 and 0.95: level 0.953, average 0.951, and the worst p has 0.880, no worse than
+/// Jeffreys' with a fixed number (0.878). With a count of 1/2 the cell is finished after 408 trials, without a collapse
+/// after 28; all cells with the trials of the worst one would need 382. A confidence sequence, which is valid for every
+/// stopping rule, would need about twice as many.
 ///
 /// Source: group-sequential sampling, Jennison & Turnbull, "Group Sequential Methods with Applications to Clinical
 /// Trials" (2000), chapter 12; fixed-width intervals of a proportion with exact coverage, Frey, "Fixed-width sequential
@@ -30,24 +30,24 @@
 namespace stylobate {
 
 /// The interim analyses of one cell, and its interval at them.
-class AdaptiveLooks {
+class InterimAnalyses {
 public:
-    /// @param first      trials at the first look
+    /// @param first      trials at the first analysis
     /// @param most       and at the last one
     /// @param half_width h, in (0, 0.5)
     /// @param level      confidence, in (0, 1)
     /// @pre 1 <= first <= most
-    AdaptiveLooks(std::uint64_t first, std::uint64_t most, double half_width, double level);
+    InterimAnalyses(std::uint64_t first, std::uint64_t most, double half_width, double level);
 
     /// n_1 ... n_K: each about a fifth more than the one before, in multiples of 4; up to where every count suffices.
     const std::vector<std::uint64_t>& trials() const { return trials_; }
-    /// The first look with more trials than these; the last one if there is none.
+    /// The first analysis with more trials than these; the last one if there is none.
     std::uint64_t after(std::uint64_t trials) const;
     double half_width() const { return half_width_; }
     double level() const { return level_; }
     /// Level of Jeffreys' interval that gives the requested coverage.
     double interval_level() const { return interval_level_; }
-    /// Also for numbers of trials between the looks: an invalid realization is not a trial.
+    /// Also for numbers of trials between the analyses: an invalid realization is not a trial.
     BinomialInterval interval(std::uint64_t trials, std::uint64_t collapses) const;
     /// Whether an interval is narrow enough.
     bool narrow(const BinomialInterval& interval) const { return interval.upper - interval.lower <= 2 * half_width_; }
@@ -56,19 +56,19 @@ public:
         double coverage = 0; ///< C(p)
         double trials = 0;   ///< mean number of them at the end
     };
-    /// Exactly, for a cell whose probability is p. @param looks number after which it ends in any case
-    Expected expected(double p, std::size_t looks) const;
+    /// Exactly, for a cell whose probability is p. @param analyses number after which it ends in any case
+    Expected expected(double p, std::size_t analyses) const;
 
 private:
     struct Count {
         bool stops;
         BinomialInterval interval;
     };
-    /// For every look and count of collapses, up to where every count stops.
+    /// For every analysis and count of collapses, up to where every count stops.
     using Rule = std::vector<std::vector<Count>>;
     Rule rule_at(double interval_level) const;
-    /// By number of looks, from 1 on.
-    std::vector<Expected> expected_by_looks(const Rule& rule, double p) const;
+    /// By number of analyses, from 1 on.
+    std::vector<Expected> expected_by_analyses(const Rule& rule, double p) const;
     bool is_right(const Rule& rule) const;
 
     std::vector<std::uint64_t> trials_;

@@ -1,4 +1,4 @@
-#include "studies/kinds/replicas/flips.hpp"
+#include "studies/kinds/replicas/discordance.hpp"
 
 #include "ensemble/numerics/interval.hpp"
 
@@ -19,25 +19,26 @@ double independent_share(const PairCounts& c)
 {
     const auto n = static_cast<double>(c.trials()), a = static_cast<double>(c.original + c.both),
                b = static_cast<double>(c.twin + c.both);
-    return n < 2 ? nan : (a * (n - b) + (n - a) * b - static_cast<double>(c.flips())) / (n * (n - 1));
+    return n < 2 ? nan : (a * (n - b) + (n - a) * b - static_cast<double>(c.discordant())) / (n * (n - 1));
 }
 
 } // namespace
 
-Sureness sureness(double flip_probability)
+Sureness sureness(double discordant_probability)
 {
-    return flip_probability < certain_below      ? Sureness::certain
-           : flip_probability <= coin_flip_above ? Sureness::probable
-                                                 : Sureness::coin_flip;
+    return discordant_probability < certain_below      ? Sureness::certain
+           : discordant_probability <= coin_flip_above ? Sureness::probable
+                                                       : Sureness::coin_flip;
 }
 
-FlipShare flip_share(const PairCounts& counts)
+DiscordantShare discordant_share(const PairCounts& counts)
 {
-    FlipShare share;
+    DiscordantShare share;
     share.trials = counts.trials();
-    share.flips = counts.flips();
-    share.probability = share.trials > 0 ? static_cast<double>(share.flips) / static_cast<double>(share.trials) : nan;
-    const BinomialInterval interval = jeffreys(share.trials, share.flips, level);
+    share.discordant = counts.discordant();
+    share.probability =
+        share.trials > 0 ? static_cast<double>(share.discordant) / static_cast<double>(share.trials) : nan;
+    const BinomialInterval interval = jeffreys(share.trials, share.discordant, level);
     share.lower = interval.lower;
     share.upper = interval.upper;
     share.independent = independent_share(counts);
@@ -52,7 +53,7 @@ std::uint64_t fewest_pairs()
     return pairs;
 }
 
-FlipRatio flip_ratio(const std::vector<PairCounts>& cells)
+DiscordanceRatio discordance_ratio(const std::vector<PairCounts>& cells)
 {
     PairCounts all;
     double pairs = 0, independent = 0;
@@ -66,19 +67,19 @@ FlipRatio flip_ratio(const std::vector<PairCounts>& cells)
             pairs += n;
             independent += n * independent_share(c);
         }
-    FlipRatio ratio;
-    ratio.all = flip_share(all);
+    DiscordanceRatio ratio;
+    ratio.all = discordant_share(all);
     ratio.all.independent = pairs > 0 ? independent / pairs : nan;
-    const double flips = static_cast<double>(all.flips());
-    ratio.ratio = independent > 0 ? flips / independent : nan;
+    const double discordant = static_cast<double>(all.discordant());
+    ratio.ratio = independent > 0 ? discordant / independent : nan;
     ratio.lower = ratio.upper = ratio.ratio;
     if (!(independent > 0))
         return ratio;
-    if (all.flips() == 0) { // nothing to take a variance of
+    if (all.discordant() == 0) { // nothing to take a variance of
         ratio.upper = ratio.all.upper / ratio.all.independent;
         return ratio;
     }
-    // What a pair adds to flips - ratio x independent: the latter by Hajek's projection, pair i against all others
+    // What a pair adds to discordant - ratio x independent: the latter by Hajek's projection, pair i against all others
     double variance = 0;
     for (const PairCounts& c : cells) {
         if (c.trials() < 2)

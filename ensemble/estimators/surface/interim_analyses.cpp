@@ -1,4 +1,4 @@
-#include "ensemble/estimators/surface/adaptive_looks.hpp"
+#include "ensemble/estimators/surface/interim_analyses.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -31,7 +31,7 @@ std::vector<double> binomial(std::uint64_t n, double p)
 
 } // namespace
 
-AdaptiveLooks::AdaptiveLooks(std::uint64_t first, std::uint64_t most, double half_width, double level)
+InterimAnalyses::InterimAnalyses(std::uint64_t first, std::uint64_t most, double half_width, double level)
     : half_width_(half_width), level_(level), interval_level_(level)
 {
     assert(first >= 1 && first <= most && half_width > 0 && half_width < 0.5 && level > 0 && level < 1);
@@ -49,18 +49,18 @@ AdaptiveLooks::AdaptiveLooks(std::uint64_t first, std::uint64_t most, double hal
     trials_.resize(rule_.size());
 }
 
-std::uint64_t AdaptiveLooks::after(std::uint64_t trials) const
+std::uint64_t InterimAnalyses::after(std::uint64_t trials) const
 {
     const auto next = std::upper_bound(trials_.begin(), trials_.end(), trials);
     return next == trials_.end() ? trials_.back() : *next;
 }
 
-BinomialInterval AdaptiveLooks::interval(std::uint64_t trials, std::uint64_t collapses) const
+BinomialInterval InterimAnalyses::interval(std::uint64_t trials, std::uint64_t collapses) const
 {
     return jeffreys(trials, collapses, interval_level_);
 }
 
-AdaptiveLooks::Rule AdaptiveLooks::rule_at(double interval_level) const
+InterimAnalyses::Rule InterimAnalyses::rule_at(double interval_level) const
 {
     Rule rule;
     for (const std::uint64_t n : trials_) {
@@ -77,10 +77,10 @@ AdaptiveLooks::Rule AdaptiveLooks::rule_at(double interval_level) const
     return rule;
 }
 
-std::vector<AdaptiveLooks::Expected> AdaptiveLooks::expected_by_looks(const Rule& rule, double p) const
+std::vector<InterimAnalyses::Expected> InterimAnalyses::expected_by_analyses(const Rule& rule, double p) const
 {
-    std::vector<Expected> by_looks;
-    Expected stopped;                  // at the looks before
+    std::vector<Expected> by_analyses;
+    Expected stopped;                  // at the analyses before
     std::vector<double> reaches = {1}; // each count of collapses, not stopped before
     std::uint64_t n_before = 0;
     for (std::size_t k = 0; k < rule.size(); ++k) {
@@ -103,28 +103,28 @@ std::vector<AdaptiveLooks::Expected> AdaptiveLooks::expected_by_looks(const Rule
                 now[s] = 0;
             }
         }
-        by_looks.push_back(ends);
+        by_analyses.push_back(ends);
         reaches = std::move(now);
         n_before = n;
     }
-    return by_looks;
+    return by_analyses;
 }
 
-bool AdaptiveLooks::is_right(const Rule& rule) const
+bool InterimAnalyses::is_right(const Rule& rule) const
 {
     std::vector<double> sum(rule.size(), 0);
     for (int i = 0; i < parts; ++i) {
-        const std::vector<Expected> expected = expected_by_looks(rule, 0.5 * (i + 0.5) / parts);
+        const std::vector<Expected> expected = expected_by_analyses(rule, 0.5 * (i + 0.5) / parts);
         for (std::size_t k = 0; k < sum.size(); ++k)
             sum[k] += expected[k].coverage;
     }
     return *std::min_element(sum.begin(), sum.end()) >= level_ * parts;
 }
 
-AdaptiveLooks::Expected AdaptiveLooks::expected(double p, std::size_t looks) const
+InterimAnalyses::Expected InterimAnalyses::expected(double p, std::size_t analyses) const
 {
-    assert(looks >= 1 && looks <= trials_.size());
-    return expected_by_looks(rule_, p)[looks - 1];
+    assert(analyses >= 1 && analyses <= trials_.size());
+    return expected_by_analyses(rule_, p)[analyses - 1];
 }
 
 std::uint64_t uniform_trials(double half_width, double level)
