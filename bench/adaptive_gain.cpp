@@ -47,7 +47,7 @@ std::vector<Known> known_surfaces()
     std::vector<Known> all;
     all.push_back(known("smooth, as a fragility surface", fragility));
     all.push_back(
-        known("smooth, all of it between", [](double r, double c) { return 0.5 * (c - 7.5) - 0.35 * (r - 7.5); }));
+        known("smooth, intermediate everywhere", [](double r, double c) { return 0.5 * (c - 7.5) - 0.35 * (r - 7.5); }));
     all.push_back(known("cliff: 0.001 and 0.999", [](double r, double c) {
         return c - 7.5 > 0.6 * (r - 7.5) + 1.5 * std::sin(r / 2) ? 6.9 : -6.9;
     }));
@@ -60,7 +60,7 @@ std::vector<Known> known_surfaces()
     all.push_back(known("rough: each cell off by 0.7 (logit)",
                         [&](double r, double c) { return 0.8 * (c - 7.5) - 0.5 * (r - 7.5) + departure(engine); }));
     // single cells that differ from all their neighbours: the worst kind
-    Known odd = known("single cells apart", [](double, double c) { return c < 5 ? -6.9 : 6.9; });
+    Known odd = known("isolated cells", [](double, double c) { return c < 5 ? -6.9 : 6.9; });
     for (const auto& [cell, p] : {std::pair(2 * 16 + 11, 0.95), {7 * 16 + 11, 0.9}, {12 * 16 + 11, 0.7}})
         odd.p[static_cast<std::size_t>(cell)] = p;
     all.push_back(odd);
@@ -163,7 +163,7 @@ SurfaceTable table_of(const std::string& file, const SurfaceTable* like)
     const ResultReader reader(file);
     SurfaceTable table = reader.surface();
     if (table.trials.empty())
-        throw InputError(file + ": holds no finished surface");
+        throw InputError(file + ": contains no finished surface");
     if (like && (table.frequency_hz != like->frequency_hz || table.pga_m_s2 != like->pga_m_s2))
         throw InputError(file + ": its surface has other axes than the reference");
     return table;

@@ -257,11 +257,11 @@ void share_coverage(std::uint64_t repeats)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("How often intervals of fragility estimates hold the truth, as Markdown tables");
+    CLI::App app("Coverage of the intervals of fragility estimates, as Markdown tables");
     std::uint64_t repeats = 10000;
     std::size_t resamples = 199;
     app.add_option("--repeats", repeats, "simulated campaigns of each kind")->check(CLI::Range(10, 1000000));
-    app.add_option("--resamples", resamples, "of each bootstrap")->check(CLI::Range(19, 100000));
+    app.add_option("--resamples", resamples, "resamples of each bootstrap")->check(CLI::Range(19, 100000));
     CLI11_PARSE(app, argc, argv);
     stylobate::share_coverage(repeats);
     stylobate::fit_sizes(repeats);

@@ -111,7 +111,7 @@ void ensembles(const ResultsFile& file)
 int main(int argc, char** argv)
 {
     if (argc != 2) {
-        fmt::print(stderr, "performance_page: give one file of results, as scripts/bench.sh writes it\n");
+        fmt::print(stderr, "performance_page: give one results file of scripts/bench.sh\n");
         return 2;
     }
     try {

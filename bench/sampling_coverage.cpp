@@ -89,8 +89,8 @@ std::vector<IndexTruth> functions()
              [](std::size_t rows, std::mt19937_64& random) { return sobol_design(rows, 3, 1, random, ishigami); }},
             {"a g-function of six factors", first, total,
              [g](std::size_t rows, std::mt19937_64& random) { return sobol_design(rows, 6, 1, random, g); }},
-            {"falls, 4 trials a point", Falls::first(), Falls::total(), falls(false)},
-            {"falls by chaos, 4 trials a point", Falls::first(), Falls::total(), falls(true)}};
+            {"falls, 4 trials per point", Falls::first(), Falls::total(), falls(false)},
+            {"chaotic falls, 4 trials per point", Falls::first(), Falls::total(), falls(true)}};
 }
 
 void index_coverage(std::size_t repeats)
@@ -143,7 +143,7 @@ void index_coverage(std::size_t repeats)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("How often intervals of rare events and of indices hold the truth, as Markdown tables");
+    CLI::App app("Coverage of the intervals of rare events and of Sobol indices, as Markdown tables");
     std::size_t repeats = 2000;
     app.add_option("--repeats", repeats, "estimates of each kind")->check(CLI::Range(10, 1000000));
     CLI11_PARSE(app, argc, argv);
