@@ -304,7 +304,7 @@ protected:
             EXPECT_TRUE(second["complete"].boolean);
             return;
         }
-        EXPECT_NE(again.out.find("complete already"), std::string::npos) << again.out;
+        EXPECT_NE(again.out.find("already complete"), std::string::npos) << again.out;
         // the rest is what the run said
         EXPECT_EQ(without_first_line(again.out), without_first_line(whole.out));
     }

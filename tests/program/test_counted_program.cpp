@@ -174,14 +174,14 @@ TEST_F(Counted, WhatIsLeftToDoWithoutRows)
     EXPECT_TRUE(same_bits(ResultReader(folder / "t.h5").row(fallen), rows.row(fallen)));
     const Ended plain = run({"replay", "counts.h5", "--realization", index});
     EXPECT_EQ(plain.status, 0);
-    EXPECT_NE(plain.out.find("keep no rows: there is nothing to compare"), std::string::npos) << plain.out;
+    EXPECT_NE(plain.out.find("have no rows of realizations: no comparison"), std::string::npos) << plain.out;
     expect_refused({"replay", "counts.h5", "--realization", "128"}, {"has realizations 0 to 127"});
 
     const JsonValue info = json_of(run({"info", "counts.h5", "--json"}));
     EXPECT_EQ(info["done"].number, 128);
     EXPECT_TRUE(info["complete"].boolean);
 
-    expect_refused({"export", "counts.h5", "--to", "png", "--picture", "order"}, {"keeps no rows", "counts.csv"});
+    expect_refused({"export", "counts.h5", "--to", "png", "--picture", "order"}, {"has no rows", "counts.csv"});
     const Ended report = run({"report", "counts.h5"});
     ASSERT_EQ(report.status, 0) << testing::PrintToString(report);
     const std::string page = read_bytes(folder / "counts.html");
@@ -198,7 +198,7 @@ TEST_F(Counted, WhatDoesNotGoWithoutRowsIsRefused)
         return settings;
     };
     const std::vector<std::string> settings = without_rows(short_surface(8));
-    const Words parts = {"output.realizations", "does not go with", "leave it out"};
+    const Words parts = {"output.realizations", "is not available with", "omit it"};
     expect_refused(run_words(column_study, with(settings, "surface.adaptive={budget=1000,minimum=8}")), parts);
     expect_refused(
         run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", {"output.realizations=\"none\""}), parts);

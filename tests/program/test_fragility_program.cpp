@@ -41,7 +41,7 @@ TEST_F(FragilityProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
     // any realization is there again, by the file's own word
     const Ended again = run(std::vector<std::string>{"replay", "whole.h5", "--realization", "911", "-o", "one.h5"});
     EXPECT_EQ(again.status, 0) << testing::PrintToString(again);
-    EXPECT_NE(again.out.find("the same bits"), std::string::npos) << again.out;
+    EXPECT_NE(again.out.find("bitwise identical"), std::string::npos) << again.out;
 }
 
 TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)

@@ -84,7 +84,7 @@ TEST_F(Diagnose, DataThatCannotBeDiagnosedAreRefusedInOneMessage)
     refuses({.no_blocks = true}, {"campaign.h5", "blocks/x_m, blocks/y_m, blocks/theta_rad"});
     refuses({.no_rotation = true}, {"campaign.h5", "no run has blocks/theta_rad"});
     refuses({.not_seen = true}, {"campaign.h5", "run 000", "NaN everywhere"});
-    refuses({.backwards = true}, {"campaign.h5", "run 000", "time_s", "A clock must grow"});
+    refuses({.backwards = true}, {"campaign.h5", "run 000", "time_s", "A clock must increase"});
     refuses({.half_width_m = 15000}, {"campaign.h5", "half_width_m", "15000", "block 0"});
     refuses({.rate_hz = 100}, {"campaign.h5", "samples every 0.01 s, too few"});
 }
@@ -119,7 +119,7 @@ TEST_F(Diagnose, ItSaysWhatItCouldNotJudge)
     EXPECT_EQ(ended.err, "");
     const JsonValue json = json_of(ended);
     EXPECT_EQ(json["verdict"].text, "none");
-    EXPECT_NE(json["text"].text.find("Not judged: "), std::string::npos) << json["text"].text;
+    EXPECT_NE(json["text"].text.find("Not tested: "), std::string::npos) << json["text"].text;
     for (const char* part : {"balance of forces", "the null distribution"})
         EXPECT_NE(json["text"].text.find(part), std::string::npos) << json["text"].text;
     EXPECT_EQ(names(), (Words{"campaign.h5", "d.h5"}));

@@ -169,7 +169,7 @@ TEST_F(Exports, TheStudysTitleIsThePicturesAndChangesNoStudy)
         Words settings = eight_realizations;
         settings.insert(settings.end(), more.begin(), more.end());
         const Ended again = run(run_words(column_study, settings, {"-o", "a.h5"}));
-        EXPECT_NE((again.out + again.err).find("complete already"), std::string::npos) << testing::PrintToString(again);
+        EXPECT_NE((again.out + again.err).find("already complete"), std::string::npos) << testing::PrintToString(again);
     }
     expect_refused(run_words(column_study, {"study.title=" + std::string(201, 'x')}, {"-o", "b.h5"}),
                    {"study.title", "200 bytes"});

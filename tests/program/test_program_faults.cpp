@@ -156,9 +156,9 @@ TEST_F(Faults, OutputsThatCannotBeWritten)
                                                     {".", {"folder"}}})
         expect_refused(words_for(eight_realizations, {"-o", output}), parts);
     expect_refused({"replay", "out.h5", "--realization", "0", "-o", "nowhere/t.h5"}, {"nowhere", "no such folder"});
-    expect_refused({"replay", "out.h5", "--realization", "0", "-o", "out.h5"}, {"out.h5", "the file that is read"});
+    expect_refused({"replay", "out.h5", "--realization", "0", "-o", "out.h5"}, {"out.h5", "the input file"});
     expect_refused({"export", "out.h5", "--to", "png", "-o", "nowhere/a.png"}, {"nowhere/a.png"});
-    expect_refused({"export", "out.h5", "--to", "png", "-o", "./out.h5"}, {"out.h5", "the file that is read"});
+    expect_refused({"export", "out.h5", "--to", "png", "-o", "./out.h5"}, {"out.h5", "the input file"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "nowhere/a"}, {"nowhere/a"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "file"}, {"file"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "out.h5"}, {"out.h5"});
@@ -248,7 +248,7 @@ TEST_F(Faults, ResultsOfAnotherStudyAndCompleteOnes)
     const auto complete = contents();
     const Ended again = run(words_for(eight_realizations)); // nothing is left to do, and that is no mistake
     EXPECT_EQ(again.status, 0) << testing::PrintToString(again);
-    EXPECT_NE(again.out.find("complete already"), std::string::npos) << again.out;
+    EXPECT_NE(again.out.find("already complete"), std::string::npos) << again.out;
     EXPECT_TRUE(contents() == complete);
     Words other = eight_realizations;
     other.push_back("contact.friction=0.7");

@@ -134,17 +134,18 @@ TEST_F(Kinds, ARecordThatDoesNotSayItsUnitIsOneAllTheSame)
     write_bytes(folder / "columns.txt", Burst{}.columns());
     const Ended told = run(Words{"info", "columns.txt"});
     EXPECT_EQ(told.status, 0) << testing::PrintToString(told);
-    for (const char* part : {"may be a record of ground motion", "do not say the unit", "stylobate record columns.txt"})
+    for (const char* part :
+         {"may be a record of ground motion", "do not contain the unit", "stylobate record columns.txt"})
         EXPECT_NE(told.out.find(part), std::string::npos) << told.out;
 }
 
 TEST_F(Kinds, WhatIsNoneIsSaid)
 {
     write_bytes(folder / "notes.txt", "some words\nof nobody\n");
-    expect_refused(Words{"info", "notes.txt"}, {"notes.txt: is none of the files that stylobate reads"});
+    expect_refused(Words{"info", "notes.txt"}, {"notes.txt: is not a file that stylobate reads"});
     expect_refused(Words{"info", "none.h5"}, {"none.h5", "there is no such file"});
     fs::create_directory(folder / "empty");
-    expect_refused(Words{"info", "empty"}, {"empty: is none of the files"});
+    expect_refused(Words{"info", "empty"}, {"empty: is not a file"});
     // damage is told as damage, not as another kind
     std::string bytes = read_bytes(folder / "diagnosis.h5");
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);

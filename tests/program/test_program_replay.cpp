@@ -78,7 +78,7 @@ TEST_F(Replay, ChoosesByCellAndOutcome)
     EXPECT_NE(told.out.find("number 2 of the " + std::to_string(fell[mixed].size()) + " that fell, of 8 at "),
               std::string::npos)
         << told.out;
-    EXPECT_NE(told.out.find("the same bits"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("bitwise identical"), std::string::npos) << told.out;
 
     refused("a.h5", {"--frequency", "9", "--fallen"}, "--frequency 9: the axis of a.h5 goes from 4 to 8 Hz");
     refused("a.h5", {"--pga", "3", "--fallen"}, "--pga 3: the axis of a.h5 goes from 4 to 25 m/s2");
@@ -86,10 +86,10 @@ TEST_F(Replay, ChoosesByCellAndOutcome)
     refused("a.h5", with({"--fallen", "--nth", "9"}), "--nth 9: only " + std::to_string(fell[mixed].size()) + " of 8");
     refused("a.h5", with({"--nth", "0"}), "counts from 1");
     refused("a.h5", {"--fallen", "--stood"}, "give one of them");
-    refused("a.h5", {"--realization", "3", "--fallen"}, "leave out");
+    refused("a.h5", {"--realization", "3", "--fallen"}, "omit the options");
     refused("a.h5", {"--realization", "128"}, "has realizations 0 to 127");
     refused("a.h5", {"--motion", "0"}, "not of a fragility study. Choose by --frequency and --pga.");
-    refused("a.h5", {}, "no realization is named");
+    refused("a.h5", {}, "no realization is given");
 }
 
 TEST_F(Replay, SaysWhereThereIsNone)
@@ -102,7 +102,7 @@ TEST_F(Replay, SaysWhereThereIsNone)
 
     settings.push_back("output.realizations=\"none\"");
     make(column_study, settings, "counted.h5");
-    refused("counted.h5", {"--fallen"}, "keeps no rows");
+    refused("counted.h5", {"--fallen"}, "has no rows");
     EXPECT_EQ(chosen("counted.h5", {"--frequency", "8", "--pga", "0.1", "--nth", "3"}), 3U * 2 * 4 + 2);
 }
 
@@ -133,7 +133,7 @@ TEST_F(Replay, TellsATotalCollapseOnlyWhereItIsKnown)
     const Ended first = replay("first.h5", {"--fallen"});
     EXPECT_NE(first.out.find("collapsed at"), std::string::npos) << first.out;
     EXPECT_EQ(first.out.find("total collapse"), std::string::npos) << first.out;
-    EXPECT_NE(first.out.find("followed until the first fall only"), std::string::npos) << first.out;
+    EXPECT_NE(first.out.find("computed only until the first fall"), std::string::npos) << first.out;
     EXPECT_EQ(json_of(replay("first.h5", {"--fallen", "--json"}))["total_collapse_time_s"].kind, JsonValue::Kind::null);
     const Ended standing = replay("first.h5", {"--stood"});
     EXPECT_EQ(standing.out.find("first fall"), std::string::npos) << standing.out;

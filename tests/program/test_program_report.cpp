@@ -120,7 +120,7 @@ TEST_F(Report, RefusesBadInputAndWritesNothing)
         expect_refused({"report", file, "-o", "page.pdf"}, {"page.pdf", ".html"});
         expect_refused({"report", file, "-o", "page.html"}, {"page.html", "nothing was written"});
         expect_refused({"report", file, "-o", "no/page.html"}, {"no/page.html", "nothing was written"});
-        expect_refused({"report", file, "-o", file}, {file, "the file that is read"});
+        expect_refused({"report", file, "-o", file}, {file, "the input file"});
     }
 }
 

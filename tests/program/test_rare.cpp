@@ -105,7 +105,7 @@ TEST_F(RareStatistics, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
     EXPECT_EQ(json_of(whole)["rare"]["probability"].number, table.probability);
     ASSERT_EQ(run({"report", "whole.h5", "--quiet"}).status, 0);
     EXPECT_NE(read_bytes(folder / "whole.html").find("Probability of collapse"), std::string::npos);
-    expect_refused({"replay", "whole.h5", "--realization", "3"}, {"none can be run again by itself"});
+    expect_refused({"replay", "whole.h5", "--realization", "3"}, {"it cannot be repeated alone"});
 }
 
 TEST_F(RareStatistics, RefusesWhatItCannotAnswer)

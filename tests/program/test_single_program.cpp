@@ -98,11 +98,11 @@ TEST_F(Single, MoreThanTheLimitIsRefusedWithTheEstimate)
 {
     expect_refused(
         run_words(mechanisms, seven_blocks(6, {"output.trajectories=all", "output.most_mb=6"})),
-        {"of 6 of 6 realizations take about 6.63 MB", "output.most_mb = 6", "output.most_mb = 7", "\"fit\""});
+        {"of 6 of 6 realizations need about 6.63 MB", "output.most_mb = 6", "output.most_mb = 7", "\"fit\""});
     expect_refused(run_words(mechanisms, seven_blocks(6, {"output.trajectories=5", "output.most_mb=5"})),
-                   {"of 5 of 6 realizations take about 5.52 MB"});
+                   {"of 5 of 6 realizations need about 5.52 MB"});
     expect_refused(run_words(mechanisms, seven_blocks(6, {"output.most_mb=1"})),
-                   {"of 1 of 6 realizations take about 1.1 MB", "output.trajectories = 0"});
+                   {"of 1 of 6 realizations need about 1.1 MB", "output.trajectories = 0"});
     expect_refused(run_words(column_study, {"output.trajectories=3"}), {"trajectories", "\"surface\""});
     expect_refused(run_words(mechanisms, {"output.trajectories=\"some\""}), {"\"fit\", \"all\""});
 }

@@ -134,7 +134,7 @@ TEST(BaseTable, SaysWhatIsWrong)
     expect_refused(rows("t,acceleration_m_s2", 50, one), {"begins with the column \"t\", not with time_s"});
     expect_refused(rows("# no names", 50, one), {"begins with the column \"column 1\""});
     expect_refused(rows("time_s,acceleration_m_s2", 5, one), {"5 samples", "at least 10"});
-    expect_refused(rows("time_s,acceleration_m_s2", 50, [](double) { return "0"; }), {"nothing shakes"});
+    expect_refused(rows("time_s,acceleration_m_s2", 50, [](double) { return "0"; }), {"there is no motion"});
     expect_refused(rows("time_s,displacement_m", 50, [](double) { return "0.1"; }), {"is 0.1 at all times"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, [](double t) { return digits(1e4 * acceleration(t)); }),
                    {"peak acceleration", "more than 1000", "a unit is wrong"});

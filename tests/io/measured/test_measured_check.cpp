@@ -90,14 +90,14 @@ TEST(MeasuredCheck, ContradictoryGeometryIsRefused)
 
 TEST(MeasuredCheck, ClocksAreChecked)
 {
-    expect_refused("A clock must grow", [](Campaign& c) { c.runs[0].time_s[9] = c.runs[0].time_s[8]; });
+    expect_refused("A clock must increase", [](Campaign& c) { c.runs[0].time_s[9] = c.runs[0].time_s[8]; });
     expect_refused("none is missing", [](Campaign& c) { c.runs[0].time_s[9] = nan_value; });
     expect_found(Severity::warning, "run 001, time_s", "1 gap", [](Campaign& c) {
         for (std::size_t i = 800; i < c.runs[1].time_s.size(); ++i)
             c.runs[1].time_s[i] += 0.004;
     });
     expect_found(Severity::note, "run 001, time_s", "resampled", [](Campaign& c) { c.runs[1].time_s[8] += 0.0005; });
-    expect_found(Severity::warning, "run 001, time_s", "the clock is believed",
+    expect_found(Severity::warning, "run 001, time_s", "the clock is used",
                  [](Campaign& c) { c.runs[1].rate_hz = 200; });
     expect_found(Severity::note, "run 001, base", "another one (\"table\")",
                  [](Campaign& c) { c.runs[1].base_clock = "table"; });
@@ -154,8 +154,8 @@ TEST(MeasuredCheck, MissingValuesAreToldOrRefused)
 
 TEST(MeasuredCheck, RestPlacesAreChecked)
 {
-    expect_found(Severity::note, "run 000, blocks/x_m",
-                 "12 mm from their planned places alike: the zero of the cameras", [](Campaign& c) {
+    expect_found(Severity::note, "run 000, blocks/x_m", "12 mm from their nominal positions: the zero of the cameras",
+                 [](Campaign& c) {
                      for (double& x : c.runs[0].blocks.x_m.values)
                          x += 0.012;
                  });
@@ -176,7 +176,7 @@ TEST(MeasuredCheck, CollapsesAreChecked)
     expect_found(Severity::warning, place, "outside the clock", [](Campaign& c) { c.runs[0].collapse_time_s = 9; });
     expect_found(Severity::warning, place, "block 2 lies on its side",
                  [](Campaign& c) { c.runs[0].blocks.theta_rad.values.back() = 1.5; });
-    expect_found(Severity::warning, place, "upright and in sight", [](Campaign& c) { c.runs[0].collapsed = true; });
+    expect_found(Severity::warning, place, "upright and visible", [](Campaign& c) { c.runs[0].collapsed = true; });
 }
 
 } // namespace

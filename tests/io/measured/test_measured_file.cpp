@@ -117,7 +117,7 @@ TEST(MeasuredFile, RoundTripOfCsvIsBitForBit)
     write_campaign(campaign, folder / "a");
     expect_same(campaign, read_campaign(folder / "a"));
     expect_same(campaign, read_campaign(folder / "a/campaign.toml"));
-    EXPECT_NE(refusal([&] { write_campaign(campaign, folder / "a"); }).find("is there already"), std::string::npos);
+    EXPECT_NE(refusal([&] { write_campaign(campaign, folder / "a"); }).find("exists already"), std::string::npos);
     EXPECT_NE(refusal([&] { write_campaign(campaign, folder / "none/a"); }), "");
     EXPECT_NE(refusal([&] { write_campaign(campaign, folder / "none/a.h5"); }), "");
 }
@@ -284,8 +284,8 @@ TEST(MeasuredFile, UnknownUnitsAndWrongTypesAreRefusedByName)
                                                     : ::testing::AssertionFailure() << part << " not in: " << text;
     };
     EXPECT_TRUE(has(message([](Foreign& f) { write_foreign(f, "furlong"); }), "blocks/x_m: its unit \"furlong\""));
-    EXPECT_TRUE(has(message([](Foreign& f) { f.text("/", "format", "stylobate"); }), "holds results"));
-    EXPECT_TRUE(has(message([](Foreign& f) { f.group("/runs"); }), "is no measured data"));
+    EXPECT_TRUE(has(message([](Foreign& f) { f.text("/", "format", "stylobate"); }), "contains results"));
+    EXPECT_TRUE(has(message([](Foreign& f) { f.group("/runs"); }), "is not a file of measured data"));
     EXPECT_TRUE(has(message([](Foreign& f) {
                         write_foreign(f);
                         f.data<float>("/runs/7/blocks/theta_rad", H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, {1, 400},
@@ -352,7 +352,7 @@ TEST(MeasuredFile, ColumnsOfCsvSayTheirUnits)
     refused("time_s,x0_furlong\n0,0\n", "Did you mean x0_m?");
     refused("time_s,x0_m\n0,0\n1\n", "x.csv:3: has 1 fields where there are 2 columns");
     refused("time_s,x0_m\n0,O\n", "x.csv:2: x0_m = \"O\" is no number");
-    refused("time_s,x0_m,x0_mm\n", "there twice");
+    refused("time_s,x0_m,x0_mm\n", "occurs twice");
     refused("", "no line of column names");
 }
 

@@ -192,10 +192,10 @@ TEST(MeasuredMotion, WhatCannotBeIsRefused)
                   r.base_acceleration_m_s2 = r.base_displacement_m = {};
               }).find("nothing of the base was measured"),
               std::string::npos);
-    EXPECT_NE(message([](MeasuredRun& r) { std::swap(r.time_s[5], r.time_s[6]); }).find("must grow"),
+    EXPECT_NE(message([](MeasuredRun& r) { std::swap(r.time_s[5], r.time_s[6]); }).find("must increase"),
               std::string::npos);
     EXPECT_NE(message([](MeasuredRun& r) { r.time_s.resize(3); }).find("too few"), std::string::npos);
-    EXPECT_NE(message([](MeasuredRun& r) { r.time_s.back() = 1e9; }).find("beyond sense"), std::string::npos);
+    EXPECT_NE(message([](MeasuredRun& r) { r.time_s.back() = 1e9; }).find("gap is too large"), std::string::npos);
 }
 
 TEST(MeasuredMotion, PracticeCampaignsFitWithinTheNoise)

@@ -49,9 +49,9 @@ TEST(MeasuredOutcomes, BadTablesAreRefused)
         EXPECT_NE(message.find(part), std::string::npos) << message;
     };
     expect_refused("", "no line of column names");
-    expect_refused("pga_g\n1\n", "no column says whether");
-    expect_refused("fell\n1\n", "no column says what shook");
-    expect_refused("fell,collapsed,pga_g\n", "another one says too");
+    expect_refused("pga_g\n1\n", "no column gives the outcome");
+    expect_refused("fell\n1\n", "no column gives the motion");
+    expect_refused("fell,collapsed,pga_g\n", "duplicates another one");
     expect_refused("fell,pga_g\nmaybe,1\n", "a.csv:2: fell = \"maybe\"");
     expect_refused("fell,pga_g\n1\n", "a.csv:2: has 1 fields");
     expect_refused("fell,pga_m_s2\n1,300\n", "outside (0, 100]");

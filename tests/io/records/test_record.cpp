@@ -110,7 +110,7 @@ TEST_F(RecordFiles, At2OfVelocityOrDisplacementIsRefused)
                                         {"DISPLACEMENT TIME SERIES IN UNITS OF CM", "displacement"}})
         for (const char* unit : {"", "g"})
             expect_says(refusal(replaced(at2(), line, words), unit),
-                        {"record.txt:3:", series, "is no acceleration", ".AT2"});
+                        {"record.txt:3:", series, "not an acceleration", ".AT2"});
     expect_says(refusal(replaced(at2(), line, "UNITS OF CM/S")), {"\"cm/s\" is not one of acceleration"});
 }
 
@@ -126,7 +126,7 @@ TEST_F(RecordFiles, At2SaysItsUnit)
         refusal(replaced(at2(), "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S")),
         {"record.txt:3:", "velocity"});
     const std::string silent = replaced(at2(), "IN UNITS OF G", "");
-    expect_says(refusal(silent), {"does not say the unit"});
+    expect_says(refusal(silent), {"does not contain the unit"});
     expect_samples(read_record(file(silent), "", "m/s2"), 23, 1);
     expect_says(refusal(at2(), "ft/s2"), {"unit = \"ft/s2\"", "\"mm/s2\""});
 }
@@ -151,7 +151,7 @@ TEST_F(RecordFiles, ColumnsWithAnySeparatorAndAnyFirstTime)
 
 TEST_F(RecordFiles, ColumnsUnitIsGivenNeverGuessed)
 {
-    expect_says(refusal(columns()), {"do not say the unit", "cm/s2"});
+    expect_says(refusal(columns()), {"do not contain the unit", "cm/s2"});
     for (const auto& [unit, canonical, factor] :
          {std::tuple{"g", "g", g}, {"m/s2", "m/s2", 1.0}, {"cm/s2", "cm/s2", 0.01}, {"gal", "cm/s2", 0.01}}) {
         const Record r = read_record(file(columns()), "", unit);
@@ -176,8 +176,8 @@ TEST_F(RecordFiles, ColumnsMayHaveCommentsAndNames)
     EXPECT_EQ(read_records(file("Time (s) Acc (m/s2)\n" + body), "m/s2")[1].component, "column 3");
     EXPECT_EQ(read_records(file("t a a\n" + body), "m/s2")[1].component, "column 3");
     // a damaged first row is not a line of names
-    expect_says(refusal("0.0O00,0.1,0.1\n" + body, "m/s2", "2"), {"no known format"});
-    expect_says(refusal("t a b\nof two lines\n" + body, "m/s2", "2"), {"no known format"});
+    expect_says(refusal("0.0O00,0.1,0.1\n" + body, "m/s2", "2"), {"an unknown format"});
+    expect_says(refusal("t a b\nof two lines\n" + body, "m/s2", "2"), {"an unknown format"});
 }
 
 TEST_F(RecordFiles, ComponentIsNamedAmongSeveral)
@@ -219,7 +219,7 @@ TEST_F(RecordFiles, ColumnsTimesMustBeUniform)
     expect_says(refusal(replaced(body, "0.0300  ", "0.0330  "), "m/s2"), {"record.txt:7:", "0.033"});
     const std::size_t row = body.find("0.0300"), next = body.find("0.0350");
     expect_says(refusal(body.substr(0, row) + body.substr(next), "m/s2"), {"record.txt:7:", "missing"});
-    expect_says(refusal(body.substr(0, next) + body.substr(row), "m/s2"), {"record.txt:8:", "doubled"});
+    expect_says(refusal(body.substr(0, next) + body.substr(row), "m/s2"), {"record.txt:8:", "duplicated"});
     // each step almost right, the whole not: a clock that drifts
     std::string drift;
     for (int i = 0; i < 100; ++i)
@@ -238,7 +238,7 @@ TEST_F(RecordFiles, ColumnsTimesMustBeUniform)
         milliseconds += fmt::format("{} {:.4f}\n", 5 * i, sample(i));
     expect_says(refusal(milliseconds, "m/s2"), {"sampling interval is 5 s"});
     // values without a time, several to a line
-    expect_says(refusal("0.1 0.2 0.3\n-0.1 0.2 0.1\n-0.2 0.1 0.3\n", "m/s2", "2"), {"does not grow"});
+    expect_says(refusal("0.1 0.2 0.3\n-0.1 0.2 0.1\n-0.2 0.1 0.3\n", "m/s2", "2"), {"does not increase"});
 }
 
 TEST_F(RecordFiles, ColumnsDamageIsNamedWithItsLine)
@@ -278,7 +278,7 @@ TEST_F(RecordFiles, WhatIsNoRecordIsRefused)
     expect_says(refusal("\r\n \n\t\n"), {"is empty"});
     expect_says(refusal(std::string("\x89HDF\r\n\x1a\n\0\0\0", 11)), {"binary"});
     expect_says(refusal(std::string("0.0 0.1\n0.1 0.\0 2\n", 18), "m/s2"), {"record.txt:2:", "0x00", "binary"});
-    expect_says(refusal("Dear reader,\nthis is a letter.\n", "g"), {"no known format", "peer-at2", "columns"});
+    expect_says(refusal("Dear reader,\nthis is a letter.\n", "g"), {"an unknown format", "peer-at2", "columns"});
     const auto message = [](const std::filesystem::path& path) {
         try {
             read_records(path, "g");

@@ -112,7 +112,7 @@ TEST(RecordFormat, StatesItsUnit)
     for (const auto& [content, unit] :
          {std::pair{csmip_v1(), "g"}, {csmip_v2(), "cm/s2"}, {bhrc(), "g/10"}, {usc(), "g/10"}, {smc(), "cm/s2"}}) {
         EXPECT_EQ(read(content, unit).front().unit, unit);
-        expect_says(message_for(content, "mm/s2"), {std::string("its unit is ") + unit, "given is mm/s2"});
+        expect_says(message_for(content, "mm/s2"), {std::string("in the file is ") + unit, "given is mm/s2"});
     }
     expect_says(message_for(replaced(bhrc(), "G/10", "FT/S2")), {"record.txt:12:", "\"FT/S2\" is not one of"});
     expect_says(message_for(replaced(csmip_v1(), "in units of g .", "in units of v .")), {"\"v\" is not one of"});
@@ -247,7 +247,7 @@ TEST(Csmip, WhatIsNoAccelerationIsRefused)
     std::string text = csmip_v2_channel(1, " 90 DEG", 25);
     const std::size_t acceleration = text.find("   25 POINTS OF ACCEL DATA");
     text.erase(acceleration, text.find("   25 POINTS OF VELOC") - acceleration);
-    expect_says(message_for(text), {"VELOC", "is no acceleration"});
+    expect_says(message_for(text), {"VELOC", "not an acceleration"});
     expect_says(message_for("CORRECTED ACCELEROGRAM 1\nCHAN 1: 90 DEG\nRESPONSE AND FOURIER AMPLITUDE SPECTRA\n"),
                 {"record.txt:1:", "truncated, or of spectra"});
 }
@@ -364,8 +364,8 @@ TEST(Usc, FieldsMayTouch)
 TEST(Usc, TimesThatLieAreRefused)
 {
     const auto with_time = [](int which, int ms) { return usc(21, [=](int i) { return i == which ? ms : 20 * i; }); };
-    expect_says(message_for(with_time(7, 120)), {"record.txt:29:", "0.12 s follows 0.12 s", "must grow"});
-    expect_says(message_for(with_time(7, 90)), {"record.txt:29:", "must grow"});
+    expect_says(message_for(with_time(7, 120)), {"record.txt:29:", "0.12 s follows 0.12 s", "must increase"});
+    expect_says(message_for(with_time(7, 90)), {"record.txt:29:", "must increase"});
     expect_says(message_for(usc(21, [](int i) { return 20 * i + (i > 9 ? 600 : 0); })),
                 {"record.txt:30:", "0.18 s to 0.8 s", "missing"});
     expect_says(message_for(replaced(usc(), "DURATION =   0.120", "DURATION =   0.220")),
@@ -380,7 +380,7 @@ TEST(Usc, CountsThatLieAndCutsAreRefused)
     for (const char* points : {"    19", "    20", "    22", "    23", "    16", "    26", "     x", "     1"})
         EXPECT_NE(message_for(replaced(text, "POINTS =     21", std::string("POINTS = ") + points)), "") << points;
     expect_says(message_for(replaced(text, "POINTS =     21", "POINTS = 9999999999999999999")),
-                {"record.txt:11:", "more than the file has room for"});
+                {"record.txt:11:", "more than the size of the file allows"});
     expect_says(message_for(text + "more\n"), {"\"more\" follows after all values"});
     expect_no_part_is_taken(text, text.size() - 1);
     const auto both = read(text + "/&\n" + usc(16)); // components one below the other
@@ -420,7 +420,7 @@ TEST(Smc, WhatIsNoAccelerationIsRefused)
 {
     EXPECT_EQ(read(smc(21, "1 UNCORRECTED ACCELEROGRAM")).size(), 1u);
     for (const char* kind : {"3 VELOCITY", "4 DISPLACEMENT", "5 RESPONSE SPECTRA", "6 FOURIER AMPLITUDE SPECTRA"})
-        expect_says(message_for(smc(21, kind)), {"record.txt:1:", kind, "is no acceleration"});
+        expect_says(message_for(smc(21, kind)), {"record.txt:1:", kind, "not an acceleration"});
 }
 
 TEST(Smc, LiesOfTheHeaderAndCutsAreRefused)

@@ -55,7 +55,7 @@ const std::map<std::string, std::string> may_be_unknown = {
 bool waits_for_its_reader(const std::string& file, const std::string& message)
 {
     const auto format = may_be_unknown.find(file);
-    return format != may_be_unknown.end() && message.find("is of no known format (") != std::string::npos &&
+    return format != may_be_unknown.end() && message.find("has an unknown format (") != std::string::npos &&
            message.find(", " + format->second + ",") == std::string::npos;
 }
 

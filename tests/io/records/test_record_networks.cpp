@@ -394,14 +394,14 @@ TEST(Unam, ThreeChannelsAndNoneOfTheirPadding)
 TEST(Unam, RowsBeyondTheCountMustBeCopiesOfTheLast)
 {
     const std::string good = unam(20, 0);
-    expect_says(message_for(good + "     0.001     0.002     0.003\n"), {"record.txt:48:", "20 rows", "no copy"});
-    expect_says(message_for(good + "     0.001\n"), {"record.txt:48:", "no copy"});
+    expect_says(message_for(good + "     0.001     0.002     0.003\n"), {"record.txt:48:", "20 rows", "not a copy"});
+    expect_says(message_for(good + "     0.001\n"), {"record.txt:48:", "not a copy"});
     // one of the padding rows is another
     std::string damaged = unam(20, 2);
     damaged[damaged.size() - 2] = damaged[damaged.size() - 2] == '9' ? '8' : '9';
-    expect_says(message_for(damaged), {"record.txt:49:", "no copy"});
+    expect_says(message_for(damaged), {"record.txt:49:", "not a copy"});
     // the rows after a count that is too small are no padding, unless the motion stands still there
-    expect_says(message_for(replaced(unam(20, 0), "/20/20/20", "/19/19/19")), {"record.txt:47:", "no copy"});
+    expect_says(message_for(replaced(unam(20, 0), "/20/20/20", "/19/19/19")), {"record.txt:47:", "not a copy"});
 }
 
 TEST(Unam, WhatContradictsItselfIsRefused)

@@ -172,7 +172,7 @@ TEST_F(AdaptiveStore, RefusesAnotherStudysFileAFinishedOneAndMoreRowsThanItsRoom
         writer->finish(&surface);
         EXPECT_THROW(writer->add(sample_row(1)), std::logic_error);
     }
-    EXPECT_NE(refusal(header()).find("is complete already"), std::string::npos) << refusal(header());
+    EXPECT_NE(refusal(header()).find("is already complete"), std::string::npos) << refusal(header());
 }
 
 } // namespace

@@ -172,7 +172,7 @@ TEST_F(ResultStore, HasOneWriterAtATime)
     writer->finish(nullptr);
     expect_part(refusal([&] { ResultWriter::resume(file, sample_header(10)); }), "another run");
     writer.reset();
-    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(10)); }), "complete already");
+    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(10)); }), "already complete");
 }
 
 struct Snapshot {
@@ -279,7 +279,7 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     expect_part(resume(file, [](ResultHeader& h) { h.block_names[2] = "epistyle 1"; }), "blocks have other names");
     expect_part(resume(file, [](ResultHeader& h) { h.block_names.pop_back(); }), "blocks have other names");
     expect_part(resume(file, [](ResultHeader& h) { h.frequency_hz[1] = 3; }), "axes");
-    expect_part(resume(complete), "complete already");
+    expect_part(resume(complete), "already complete");
 
     const auto create = [&](const fs::path& path) {
         return refusal([&] { ResultWriter::create(path, sample_header(300)); });

@@ -238,7 +238,7 @@ TEST_F(TallyStore, CountsAreThoseCountedByHand)
         EXPECT_EQ(reader.header().input_names, tally_header(total).input_names);
         EXPECT_EQ(reader.header().block_names, tally_header(total).block_names);
         EXPECT_EQ(bits(reader.surface().lower), bits(sample_surface().lower));
-        expect_part(refusal([&] { reader.row(0); }), "keeps no rows");
+        expect_part(refusal([&] { reader.row(0); }), "has no rows");
     }
 }
 
@@ -362,7 +362,7 @@ TEST_F(TallyStore, AnotherStudyIsRefusedAndNothingChanges)
     other.limit_states = {"collapse", "third"};
     expect_part(refusal([&] { TallyWriter::resume(file, other); }), "counts other limit states");
     expect_part(refusal([&] { TallyWriter::resume(file, tally_header(2000)); }), "1000 realizations instead of 2000");
-    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(1000)); }), "keeps no rows");
+    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(1000)); }), "has no rows");
     expect_part(refusal([&] { TallyWriter::create(file, tally_header(1000)); }), "exists already");
     other = tally_header(1000);
     other.code_version = "9";
@@ -379,7 +379,7 @@ TEST_F(TallyStore, AnotherStudyIsRefusedAndNothingChanges)
             writer->add(entry(i));
         writer->finish(sample_surface());
     }
-    expect_part(refusal([&] { TallyWriter::resume(file, tally_header(1000)); }), "is complete already");
+    expect_part(refusal([&] { TallyWriter::resume(file, tally_header(1000)); }), "is already complete");
     EXPECT_THROW(TallyWriter::create(folder / "x.h5", sample_header(10)), std::invalid_argument);
 }
 

@@ -187,8 +187,9 @@ TEST(Layout, RefusesEpistylesWithoutASeat)
     s = two_columns();
     s.epistyles[0].last_column = 0;
     s.columns[1].x_m = 1;
-    expect_refused(s, "epistyle 0 falls by itself: its centre of mass, at x = 0.045 m, is 15 mm outside its seats, "
-                      "which reach from -0.03 to 0.03 m. Move it.");
+    expect_refused(s,
+                   "epistyle 0 is not stable at rest: its centre of mass, at x = 0.045 m, is 15 mm outside its seats, "
+                   "which reach from -0.03 to 0.03 m. Move it.");
 }
 
 TEST(Layout, RefusesBlocksInOnePlace)
@@ -213,18 +214,20 @@ TEST(Layout, RefusesDrumsThatFallByThemselves)
     s.depth_m = 1;
     // corbelled: the upper two together lie beyond the lowest one's edge at 0.5, the topmost one is fine
     s.columns = {{.drums = {drum(1, 0.5, 100), drum(1, 0.5, 100, 0.45), drum(1, 0.5, 100, 0.6)}}};
-    expect_refused(s, "what stands on drum 0 of column 0 falls by itself: its centre of mass, at x = 0.525 m, is 25 mm "
-                      "outside the bed between drum 0 of column 0 and drum 1 of column 0, from -0.05 to 0.5 m. Lower "
-                      "the offsets.");
+    expect_refused(
+        s, "the blocks on drum 0 of column 0 are not stable at rest: their centre of mass, at x = 0.525 m, is 25 mm "
+           "outside the bed between drum 0 of column 0 and drum 1 of column 0, from -0.05 to 0.5 m. Lower "
+           "the offsets.");
     s.columns[0].drums[2].offset_m = 0.54;
     EXPECT_NO_THROW(lay_out(s)); // 0.495 on the lowest one, 0.33 on the ground
     s.columns[0].drums[2].offset_m = 1.46;
     expect_refused(s, "drum 2 of column 0 is beside drum 1 of column 0, not on it: they are 10 mm apart. Lower the "
                       "offset.");
     s.columns = {{.drums = {drum(0.4, 0.5, 100), drum(2, 0.5, 600, 0.15), drum(0.4, 0.5, 300, 0.4)}}};
-    expect_refused(s, "what stands on drum 0 of column 0 falls by itself: its centre of mass, at x = 0.233333 m, is "
-                      "33.33 mm outside the bed between drum 0 of column 0 and drum 1 of column 0, from -0.2 to 0.2 m. "
-                      "Lower the offsets.");
+    expect_refused(
+        s, "the blocks on drum 0 of column 0 are not stable at rest: their centre of mass, at x = 0.233333 m, is "
+           "33.33 mm outside the bed between drum 0 of column 0 and drum 1 of column 0, from -0.2 to 0.2 m. "
+           "Lower the offsets.");
     // on the table what is fixed holds whatever stands on it
     s.columns = {{.fixed_blocks = 1, .drums = {drum(1, 0.5, 100, 5), drum(1, 0.5, 100, 5)}}};
     EXPECT_NO_THROW(lay_out(s));
@@ -448,7 +451,7 @@ TEST(StructureRealization, RefusesDrawsThatCannotBeBuilt)
         }
     };
     expect_words(three_columns(), normal(Quantity::drum_height, Per::block, 0.8),
-                 {"perturbation.drum_height: in realization", "less than half of its 2.4 m", "stay level"});
+                 {"perturbation.drum_height: in realization", "less than half of its 2.4 m", "have equal heights"});
     expect_words(two_columns(), normal(Quantity::drum_width, Per::block, 0.02),
                  {"perturbation: in realization", "and drum", "overlap by", "drum_width"});
     expect_words(two_columns(), normal(Quantity::drum_offset, Per::block, 0.05),

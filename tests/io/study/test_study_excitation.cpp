@@ -130,8 +130,8 @@ TEST(StudyExcitation, RefusesSyntheticExcitationsThatMakeNoSense)
     refused(noise + "phase_rad = 1", 4, {"not used by excitation.kind = \"noise\""});
     refused(record + "band_pass_hz = 0.1", 3, {"is not two numbers in brackets", "[LOW, HIGH]"});
     refused(record + "band_pass_hz = [0.1]", 3, {"is not two numbers in brackets"});
-    refused(record + "band_pass_hz = [0.1, \"x\"]", 3, {"has \"x\" in it, which is a string, not a number"});
-    refused(record + "band_pass_hz = [0, 20]", 3, {"has 0 in it, which is outside [0.01, 1000]"});
+    refused(record + "band_pass_hz = [0.1, \"x\"]", 3, {"contains \"x\", which is a string, not a number"});
+    refused(record + "band_pass_hz = [0, 20]", 3, {"contains 0, which is outside [0.01, 1000]"});
     refused(record + "band_pass_hz = [20, 0.1]", 3, {"has 20 before 0.1", "the smaller one first"});
     refused(record + "band_pass_hz = [0.1, 20]\nbaseline = false", 3, {"excitation.baseline = false"});
 }

@@ -354,7 +354,7 @@ TEST(StudyFile, RefusesKeysThatTheKindDoesNotUse)
     lines = surface_lines();
     lines[15] = "kind = \"none\"";
     lines[16] = "duration_s = 2";
-    expect_refused(joined(lines), "temple.toml:15", {"excitation.kind = \"none\"", "shakes nothing"});
+    expect_refused(joined(lines), "temple.toml:15", {"excitation.kind = \"none\"", "has no motion"});
     lines[15] = "kind = \"record\"\nfile = \"a.at2\"";
     lines[16] = "time_scale = 2";
     expect_refused(joined(lines), "temple.toml:17", {"excitation.time_scale", "study.kind = \"surface\""});

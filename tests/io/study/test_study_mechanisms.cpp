@@ -221,12 +221,13 @@ TEST(StudyMechanisms, SaysWhichPlacesThereAre)
     expect_refused("wedge = { joint = 1, joints = [2], angle_rad = 0.001 }", {"and joint exclude each other"});
     expect_refused("wedge = { block = 1, angle_rad = 0.001 }", {"wedge.block"});
     expect_refused("drag = { block = 7, coefficient_n_s2_m2 = 0.1 }", {"drag.block = 7 is outside [0, 6]", "7 blocks"});
-    expect_refused("drag = { block = 0, coefficient_n_s2_m2 = 0.1 }", {"0 in it, which is fixed to the shaking table"});
-    expect_refused("wedge = { joints = [1, 1], angle_rad = 0.001 }", {"joint 1 comes twice"});
+    expect_refused("drag = { block = 0, coefficient_n_s2_m2 = 0.1 }",
+                   {"contains 0, which is fixed to the shaking table"});
+    expect_refused("wedge = { joints = [1, 1], angle_rad = 0.001 }", {"joint 1 occurs twice"});
     expect_refused("wedge = [ { joint = 1, angle_rad = 0.001 }, { joint = 1, angle_rad = 0.002 } ]",
-                   {"joint 1 comes twice", "Say once"});
+                   {"joint 1 occurs twice", "Give one entry"});
     expect_refused("wedge = [ { joint = 1, angle_rad = 0.001 }, { angle_rad = 0.002 } ]",
-                   {"acts everywhere", "joint 1 comes twice", "Say where"});
+                   {"acts everywhere", "joint 1 occurs twice", "Give the place"});
 }
 
 TEST(StudyMechanisms, OfTheBaseNeedAMotionThatHasThem)
@@ -239,7 +240,7 @@ TEST(StudyMechanisms, OfTheBaseNeedAMotionThatHasThem)
     for (const std::string kind : {"half_sine", "full_sine", "ricker", "pulse"}) {
         const std::string pulse = "kind = \"" + kind + "\"\nfrequency_hz = 2\npga_m_s2 = 3";
         expect_refused(study("harmonic_distortion = { second = 0.1 }", "", pulse), 17,
-                       {"is not used by excitation.kind = \"" + kind + "\"", "a pulse has no overtones"});
+                       {"is not used by excitation.kind = \"" + kind + "\"", "a pulse has no harmonics"});
         EXPECT_NO_THROW(parse_study(study("time_offset = { offset_s = 0.1 }", "", pulse), "temple.toml"));
     }
 }

@@ -286,7 +286,8 @@ TEST(StudyStructure, RefusesMisusedKeysOfColumns)
                    "temple.toml:10: unknown key structure.capital.count");
     expect_refused("depth_m = 1\ndrums = [ { width_m = 1, height_m = 1, mass_kg = 9, count = 2 }, "
                    "{ width_m = 1, height_m = 1, mass_kg = 9, offset_m = 0.51 } ]",
-                   "temple.toml:3: structure: what stands on drum 1 of column 0 falls by itself", {"10 mm outside"});
+                   "temple.toml:3: structure: the blocks on drum 1 of column 0 are not stable at rest",
+                   {"10 mm outside"});
 }
 
 TEST(StudyStructure, RefusesMisusedKeysOfColonnades)

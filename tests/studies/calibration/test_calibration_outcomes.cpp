@@ -202,10 +202,10 @@ TEST(OutcomeTests, WhatSaysTooLittleIsRefused)
         EXPECT_NE(message.find("t.csv"), std::string::npos) << message;
         EXPECT_NE(message.find(part), std::string::npos) << message;
     };
-    expect_refused("fell,pga_m_s2\n", {}, "nothing can be calibrated");
+    expect_refused("fell,pga_m_s2\n", {}, "a calibration is not possible");
     expect_refused("fell,amplitude_m,frequency_hz\n1,0.01,2\n", {}, "t.csv:2: an amplitude and a frequency are those");
     expect_refused("fell,pga_m_s2\n1,3\n", {"excitation={kind=\"none\",duration_s=1}"},
-                   "does not say how the base moved");
+                   "does not define the base motion");
     expect_refused("fell,motion_file\n1,absent.at2\n", {}, "t.csv:2: its motion cannot be used");
     expect_refused("fell,pga_m_s2,pgv_over_pga_s\n1,3,1e-9\n", {}, "outside [0.001, 1000]");
 }

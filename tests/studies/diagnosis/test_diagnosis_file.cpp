@@ -165,7 +165,7 @@ TEST_F(DiagnosisFile, AResultIsNoDiagnosisAndADiagnosisNoResult)
 {
     ResultHeader header = sample_header(3);
     auto writer = ResultWriter::create(folder / "result.h5", header);
-    EXPECT_NE(refusal([&] { read_diagnosis(folder / "result.h5"); }).find("holds no diagnosis"), std::string::npos);
+    EXPECT_NE(refusal([&] { read_diagnosis(folder / "result.h5"); }).find("contains no diagnosis"), std::string::npos);
 
     write_diagnosis(filled_diagnosis(), file);
     EXPECT_NE(refusal([&] { ResultReader reader(file); }), "");

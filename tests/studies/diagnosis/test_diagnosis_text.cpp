@@ -108,7 +108,7 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndKeepsItsLinesShort)
         EXPECT_NE(place, std::string::npos) << words << "\n" << text;
         return place;
     };
-    EXPECT_LT(at("Verdict: The cause: joint_friction"), at("What is wrong"));
+    EXPECT_LT(at("Verdict: The cause: joint_friction"), at("Errors"));
     EXPECT_LT(at("Joint 0 has less friction than the others"), at("Candidates"));
     at("ratio 0.57 (0.49 to 0.66)");
     at("could not be judged");
@@ -138,8 +138,8 @@ TEST(DiagnosisWords, ComposeTheVerdictWhereTheDiagnosisHasNoWordsOfItsOwn)
     Diagnosis d = filled_diagnosis();
     d.verdict_text.clear();
     EXPECT_EQ(verdict_words(d), "joint_friction at joint 0: a joint with another friction, ratio 0.57 "
-                                "(0.49 to 0.66), probability 0.83. These data cannot tell joint_friction and stribeck "
-                                "apart. What remains is at block 3, x, and depends on velocity.");
+                                "(0.49 to 0.66), probability 0.83. These data do not distinguish joint_friction and "
+                                "stribeck. The remaining error is at block 3, x, and depends on velocity.");
     EXPECT_EQ(interval_words({}, 2.0), "up to 2");
     EXPECT_EQ(interval_words(2.0, {}), "2 or more");
     EXPECT_EQ(estimate_words({}, {}, {}, "m"), "not known");
