@@ -375,7 +375,7 @@ private:
         if (!d_.command.empty())
             page_.block(d_.command);
         if (!d_.study_toml.empty()) {
-            page_.heading("The baseline study, every default filled in");
+            page_.heading("The baseline study with all defaults");
             page_.block(d_.study_toml);
         }
     }

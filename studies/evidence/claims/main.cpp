@@ -75,7 +75,7 @@ int run(const Options& o)
             samples.push_back(run_variants(file, place, options, console));
         }
         if (samples.back().size() < planned.size()) {
-            fmt::print(stderr, "Interrupted. The same command continues where this one stopped.\n");
+            fmt::print(stderr, "Interrupted. The same command continues the run.\n");
             return exit_interrupted;
         }
         for (const Test& test : file.tests) {
