@@ -27,10 +27,10 @@ void lift(LaneSet& set, double height)
 {
     const double time = chunk_steps * set.realization(0).step_s;
     for (const double sign : {1.0, -1.0}) {
-        set.pull(0, 1, 0, sign * height / (time * time), 0);
+        set.nudge(0, 1, 0, sign * height / (time * time), 0);
         set.advance();
     }
-    set.pull(0, 1, 0, 0, 0);
+    set.nudge(0, 1, 0, 0, 0);
 }
 
 } // namespace
@@ -44,9 +44,9 @@ TEST(Drag, SlowsAsOneOverTime)
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
-    set.pull(0, 1, 300, 400, 0);
+    set.nudge(0, 1, 300, 400, 0);
     set.advance();
-    set.pull(0, 1, 0, 0, 0);
+    set.nudge(0, 1, 0, 0, 0);
     const Snapshot a = set.snapshot(0);
     set.advance(0, 1);
     const Snapshot b = set.snapshot(0);
