@@ -266,7 +266,7 @@ private:
 
     void again()
     {
-        page_.section("How to do it again");
+        page_.section("Reproduction");
         page_.facts(
             {{"Measured data", c_.measured}, {"Program", "stylobate " + c_.code_version}, {"This calibration", file_}});
         page_.paragraph("With the first of the studies below as START.toml:");

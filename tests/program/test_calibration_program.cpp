@@ -56,7 +56,8 @@ TEST_F(CalibrationProgram, WhatAnInterruptKeepsIsSaidAndUsed)
     // the first line of the file is there at once; a set of this campaign is some kilobytes
     EXPECT_EQ(interrupted_at(words, sets, 1000, folder / "said.txt"), 130);
     const std::string said = read_bytes(folder / "said.txt");
-    EXPECT_NE(said.find("parameter sets are kept in c_sets.bin. The same command goes on"), std::string::npos) << said;
+    EXPECT_NE(said.find("parameter sets are kept in c_sets.bin. The same command continues"), std::string::npos)
+        << said;
     EXPECT_TRUE(fs::exists(sets));
     EXPECT_FALSE(fs::exists(folder / "c.h5"));
     EXPECT_FALSE(fs::exists(folder / "c_calibrated.toml"));

@@ -48,7 +48,7 @@ TEST_F(Exports, TheEndingDecidesOrIsRefused)
     EXPECT_EQ(written({"--to", "png", "-o", "s.png"}), "s.png");
     EXPECT_TRUE(begins("s.png", "\x89PNG"));
 
-    expect_refused({"export", "a.h5", "--to", "png", "-o", "x.svg"}, {"x.svg", "--to png", "ending"});
+    expect_refused({"export", "a.h5", "--to", "png", "-o", "x.svg"}, {"x.svg", "--to png", "extension"});
     expect_refused({"export", "a.h5", "--to", "png", "-o", "x.jpg"}, {"x.jpg", ".png, .svg or .pdf"});
     expect_refused({"export", "a.h5", "--to", "png", "-o", "x"}, {"-o x", ".png, .svg or .pdf"});
     expect_refused({"export", "a.h5", "-o", "x.gif"}, {"x.gif", ".png, .svg or .pdf"});

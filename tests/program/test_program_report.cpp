@@ -68,7 +68,7 @@ TEST_F(Report, OfASingleRealizationAndOfAReplay)
     expect_has(html, {"Kind of study: replay", "Realization 7 ", "8 Hz, PGA 16 m/s²", "Drawn in this realization",
                       "Motion", "--realization 7 -o seven.h5"});
     // not the axes of the surface that it is from
-    const std::string facts = html.substr(html.find("What was run</h2>"), html.find("The structure at rest"));
+    const std::string facts = html.substr(html.find("The study</h2>"), html.find("The structure at rest"));
     EXPECT_EQ(facts.substr(0, facts.find("<figure>")).find("2 from"), std::string::npos) << facts;
 }
 

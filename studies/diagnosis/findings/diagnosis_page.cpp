@@ -362,7 +362,7 @@ private:
 
     void again()
     {
-        page_.section("How to do it again");
+        page_.section("Reproduction");
         std::vector<std::pair<std::string, Html>> facts = {
             {"Measured data",
              d_.measured_file + (d_.measured_fingerprint.empty() ? "" : ", " + d_.measured_fingerprint)},

@@ -339,7 +339,7 @@ TEST(Plausible, AKeySilencesOneCheck)
         }
     };
     refused("[\"frictoin\"]", "Did you mean \"friction\"?");
-    refused("[1]", "no check");
+    refused("[1]", "not a check");
     refused("\"pga\"", "not a list");
 }
 

@@ -125,7 +125,7 @@ TEST(MeasuredCheck, SensorsAreChecked)
     });
     expect_found(Severity::note, "run 000, base", "the command",
                  [](Campaign& c) { c.runs[0].base_source = BaseSource::command; });
-    expect_found(Severity::warning, acceleration, "noise_sd says 0.002",
+    expect_found(Severity::warning, acceleration, "noise_sd is 0.002",
                  [](Campaign& c) { c.runs[0].base_acceleration_m_s2.noise_sd = 0.002; });
     expect_found(Severity::warning, "run 000, blocks/x_m, block 1", "filtered before?",
                  [](Campaign& c) { c.runs[0].blocks.x_m.noise_sd = 5e-4; });
@@ -163,7 +163,7 @@ TEST(MeasuredCheck, RestPlacesAreChecked)
         for (std::size_t i = 1; i < c.runs[0].blocks.x_m.values.size(); i += 3)
             c.runs[0].blocks.x_m.values[i] += 0.005;
     });
-    expect_found(Severity::warning, "run 000, blocks/theta_rad, block 2", "turned by 0.03", [](Campaign& c) {
+    expect_found(Severity::warning, "run 000, blocks/theta_rad, block 2", "rotated by 0.03", [](Campaign& c) {
         for (std::size_t i = 2; i < c.runs[0].blocks.theta_rad.values.size(); i += 3)
             c.runs[0].blocks.theta_rad.values[i] += 0.03;
     });

@@ -118,7 +118,7 @@ TEST_F(RecordFiles, At2SaysItsUnit)
 {
     EXPECT_EQ(read_record(file(at2()), "", "g").unit, "g");
     for (const std::string unit : {"m/s2", "cm/s2", "gal", "mm/s2"})
-        expect_says(refusal(at2(), unit), {"record.txt:3:", "its unit is g"});
+        expect_says(refusal(at2(), unit), {"record.txt:3:", "in the file is g"});
     EXPECT_DOUBLE_EQ(read_record(file(replaced(at2(), "UNITS OF G", "UNITS OF CM/S/S")), "", "").acceleration_m_s2[0],
                      -0.0005);
     expect_says(refusal(replaced(at2(), "UNITS OF G", "UNITS OF FURLONG")), {"record.txt:3:", "furlong"});

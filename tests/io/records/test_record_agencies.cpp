@@ -216,7 +216,7 @@ TEST(Csmip, CountsThatLieAreRefused)
     const std::string data_line = "    23 Accelerogram points";
     for (const char* count : {"    21", "    22", "    24", "    25", "    15", "    31"})
         expect_says(message_for(replaced(v1, data_line, std::string(count) + " Accelerogram points")),
-                    {"record.txt:28:", "values follow, and line 11 says"});
+                    {"record.txt:28:", "values follow, but line 11 states"});
     const std::string silent = replaced(v1, "No. of Points =  23", "");
     EXPECT_EQ(message_for(silent), "");
     for (const char* count : {"    21", "    22", "    24", "    25", "    15", "    31"})

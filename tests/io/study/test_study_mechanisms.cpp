@@ -213,9 +213,9 @@ TEST(StudyMechanisms, SaysWhichPlacesThereAre)
 {
     expect_refused("wedge = { joint = 6, angle_rad = 0.001 }",
                    {"wedge.joint = 6 is outside [0, 5]", "6 joints", "0 is drum 1 of column 0 on drum 0 of column 0"});
-    expect_refused("wedge = { joints = [0, 7], angle_rad = 0.001 }", {"joints", "has 7 in it", "[0, 5]", "6 joints"});
-    expect_refused("wedge = { joints = [0, 1.5], angle_rad = 0.001 }", {"has 1.5 in it"});
-    expect_refused("wedge = { joints = [-1], angle_rad = 0.001 }", {"has -1 in it"});
+    expect_refused("wedge = { joints = [0, 7], angle_rad = 0.001 }", {"joints", "contains 7", "[0, 5]", "6 joints"});
+    expect_refused("wedge = { joints = [0, 1.5], angle_rad = 0.001 }", {"contains 1.5"});
+    expect_refused("wedge = { joints = [-1], angle_rad = 0.001 }", {"contains -1"});
     expect_refused("wedge = { joints = [], angle_rad = 0.001 }", {"mechanisms.wedge.joints", "is empty"});
     expect_refused("wedge = { joints = 2, angle_rad = 0.001 }", {"not a list", "joints = [NUMBER, ...]"});
     expect_refused("wedge = { joint = 1, joints = [2], angle_rad = 0.001 }", {"and joint exclude each other"});

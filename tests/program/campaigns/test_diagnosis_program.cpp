@@ -76,7 +76,7 @@ TEST_F(DiagnosisProgram, APitchingTableIsNamed)
     EXPECT_EQ(count_of(page, ">measured, ± 2 sd of the noise</text>"), 4u); // x and rotation in two runs
     EXPECT_EQ(count_of(page, ">calibrated baseline, restarted in each window</text>"), 4u);
     EXPECT_GT(count_of(page, ">error above noise and a short lag</text>"), 1u);
-    const std::size_t chart = page.find("aria-label=\"What each cause would explain");
+    const std::size_t chart = page.find("aria-label=\"Gain of each cause");
     ASSERT_NE(chart, std::string::npos);
     const std::string svg = page.substr(chart, page.find("</svg>", chart) - chart);
     EXPECT_NE(svg.find(">named as the cause</text>"), std::string::npos);
