@@ -46,8 +46,8 @@ std::vector<Known> known_surfaces()
     const auto fragility = [](double r, double c) { return 1.2 * (c - 5) - 0.5 * (r - 8); };
     std::vector<Known> all;
     all.push_back(known("smooth, as a fragility surface", fragility));
-    all.push_back(
-        known("smooth, intermediate everywhere", [](double r, double c) { return 0.5 * (c - 7.5) - 0.35 * (r - 7.5); }));
+    all.push_back(known("smooth, intermediate everywhere",
+                        [](double r, double c) { return 0.5 * (c - 7.5) - 0.35 * (r - 7.5); }));
     all.push_back(known("cliff: 0.001 and 0.999", [](double r, double c) {
         return c - 7.5 > 0.6 * (r - 7.5) + 1.5 * std::sin(r / 2) ? 6.9 : -6.9;
     }));
