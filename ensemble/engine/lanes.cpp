@@ -332,10 +332,18 @@ void LaneSet::fill_extension(int lane)
     const double per = r.base.pitch_rad_s2_m / (r.step_s * r.step_s);
     for (std::size_t k = 0; k < chunk_steps; ++k) {
         const int step = static_cast<int>(k);
-        bundle_.at(OfPitch::angle, step, lane) = per * (before[k] + 10 * now[k] + after[k]) / 12;
-        bundle_.at(OfPitch::increment, step, lane) = per * (after[k] - before[k]) / (2 * reach);
+        const Turn turn = turn_of(r, reach, before[k], now[k], after[k]);
+        bundle_.at(OfPitch::angle, step, lane) = turn.angle_rad;
+        bundle_.at(OfPitch::increment, step, lane) = turn.increment_rad;
         bundle_.at(OfPitch::second, step, lane) = per * ((after[k] - now[k]) - (now[k] - before[k])) / (reach * reach);
     }
+}
+
+/// @param reach steps between the three second differences of the base's displacement [m]
+LaneSet::Turn LaneSet::turn_of(const Realization& r, double reach, double before, double now, double after)
+{
+    const double per = r.base.pitch_rad_s2_m / (r.step_s * r.step_s);
+    return {per * (before + 10 * now + after) / 12, per * (after - before) / (2 * reach)};
 }
 
 void LaneSet::nudge(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)

@@ -121,6 +121,13 @@ private:
     void begin_followed(int lane, int phase, std::uint64_t step);
     std::size_t state_registers() const { return bundle_registers(topology_) - chunk_steps; }
     std::array<double, chunk_steps> base_chunk(int lane, double first_step) const;
+    /// The rotation of the base and its change in a step.
+    struct Turn {
+        double angle_rad = 0, increment_rad = 0;
+    };
+    static Turn turn_of(const Realization& r, double reach, double before, double now, double after);
+    /// When so many steps of the chunk have been done.
+    Turn turn(int lane, int phase) const;
     /// Makes the tables of the base's motion of the next chunk.
     void fill_tables();
     /// Tables of the vertical motion and of the base's rotation for the next chunk.

@@ -63,6 +63,18 @@ void LaneSet::step_followed(int first, int last)
                 first_step_[lane] += chunk_steps;
 }
 
+LaneSet::Turn LaneSet::turn(int lane, int phase) const
+{
+    if (phase < chunk_steps)
+        return {bundle_.at(OfPitch::angle, phase, lane), bundle_.at(OfPitch::increment, phase, lane)};
+    // the first row of the next chunk, which is not in the table yet: where a chunk ends depends on when the lane was
+    // loaded, and must not be seen
+    const Realization& r = realization(lane);
+    const double first = first_step_[lane], reach = std::max(1.0, std::round(motion(lane).spacing_s() / r.step_s));
+    return turn_of(r, reach, base_chunk(lane, first - reach).front(), base_chunk(lane, first).front(),
+                   base_chunk(lane, first + reach).front());
+}
+
 BlockMotion LaneSet::moved(int lane, int block, int phase, double behind) const
 {
     const int k = place_of_[static_cast<std::size_t>(block)];
@@ -70,8 +82,7 @@ BlockMotion LaneSet::moved(int lane, int block, int phase, double behind) const
         return {};
     BlockMotion m = centre(k, lane);
     if (realization(lane).base.pitch_rad_s2_m != 0) {
-        // at the end of a chunk the table still holds the rotation of one step before
-        const double phi = bundle_.at(OfPitch::angle, std::min(phase, chunk_steps - 1), lane);
+        const double phi = turn(lane, phase).angle_rad;
         const Block& at = realization(lane).blocks[static_cast<std::size_t>(block)];
         const double x = at.x_m + m.x_m, y = at.y_m + m.y_m, s = std::sin(phi), c = std::cos(phi);
         m = {x * c - y * s - at.x_m, x * s + y * c - at.y_m, m.theta_rad + phi};
@@ -94,9 +105,9 @@ BlockMotion LaneSet::increment(int lane, int block, int phase) const
         d.y_m -= e * std::cos(theta) * d.theta_rad;
     }
     if (realization(lane).base.pitch_rad_s2_m != 0) {
-        const double turn = bundle_.at(OfPitch::increment, std::min(phase, chunk_steps - 1), lane);
+        const double w = turn(lane, phase).increment_rad;
         const Block& at = realization(lane).blocks[static_cast<std::size_t>(block)];
-        d = {d.x_m - turn * at.y_m, d.y_m + turn * at.x_m, d.theta_rad + turn};
+        d = {d.x_m - w * at.y_m, d.y_m + w * at.x_m, d.theta_rad + w};
     }
     return d;
 }

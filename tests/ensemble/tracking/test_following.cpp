@@ -198,9 +198,9 @@ TEST(Following, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
     }
 }
 
-TEST(Following, LaneNeighboursInstructionSetAndThreadsDoNotMatter)
+/// Each job by itself or among the others, in any lane: the same bits.
+void expect_same_everywhere(const std::vector<FollowJob>& jobs)
 {
-    const std::vector<FollowJob> jobs = mixed_jobs(11);
     std::vector<Bits> want;
     for (const FollowJob& job : jobs)
         want.push_back(bits_of(run({job}, {Isa::scalar, 1}).front())); // each by itself
@@ -213,6 +213,19 @@ TEST(Following, LaneNeighboursInstructionSetAndThreadsDoNotMatter)
     const std::vector<FollowResult> reversed = run({jobs.rbegin(), jobs.rend()});
     for (std::size_t i = 0; i < jobs.size(); ++i)
         EXPECT_EQ(bits_of(reversed[jobs.size() - 1 - i]), want[i]) << "job " << i;
+}
+
+TEST(Following, LaneNeighboursInstructionSetAndThreadsDoNotMatter)
+{
+    expect_same_everywhere(mixed_jobs(11));
+}
+
+TEST(Following, NorDoTheyOnATableThatPitches)
+{
+    std::vector<FollowJob> jobs = mixed_jobs(11);
+    for (std::size_t i = 0; i < jobs.size(); i += 2)
+        jobs[i].realization.base.pitch_rad_s2_m = 1e-3;
+    expect_same_everywhere(jobs);
 }
 
 TEST(Following, ThePullIsADampedOscillator)
