@@ -96,6 +96,133 @@ JointForce joint_force(const Realization& r, int index, const BedLaw* law, const
     return f;
 }
 
+/// A full bed, which carries tension too: the first guess.
+JointForce full_bed(const Realization& r, const Joint& joint, const Pose& l, const Pose& u)
+{
+    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+    const double left = std::max(lower.x_m - lower.half_width_m, upper.x_m - upper.half_width_m);
+    const double right = std::min(lower.x_m + lower.half_width_m, upper.x_m + upper.half_width_m);
+    const double length = std::max(right - left, 1e-6 * upper.half_width_m), middle = 0.5 * (left + right);
+    const double face = lower.y_m + lower.half_height_m;
+    JointForce f;
+    const Row opening = relative_motion(0, 1, middle, face, l, u);
+    const Row sliding = relative_motion(1, 0, middle, face, l, u);
+    Row turning = Row::Zero();
+    turning(2) = -1;
+    turning(5) = 1;
+    const double k_n = joint.normal_stiffness_n_m2 * length;
+    f.stiffness = k_n * opening * opening.transpose() + joint.tangential_stiffness_n_m * sliding * sliding.transpose() +
+                  k_n * length * length / 12 * turning * turning.transpose();
+    f.force = k_n * length * length / 12 * joint.extension.wedge_rad * turning; // what would turn it by its wedge
+    return f;
+}
+
+/// The forces on the free blocks in some pose and their tangent: K d = residual is Newton's step.
+class Equilibrium {
+public:
+    Equilibrium(const Realization& r, std::vector<double>& spring_n)
+        : r_(r), spring_n_(spring_n), first_(r.blocks.size(), -1)
+    {
+        Eigen::Index size = 0;
+        for (std::size_t b = 0; b < r.blocks.size(); ++b)
+            if (!r.blocks[b].fixed) {
+                first_[b] = size;
+                size += 3;
+            }
+        weight_ = Eigen::VectorXd::Zero(size);
+        scale_.resize(size);
+        for (std::size_t b = 0; b < r.blocks.size(); ++b) {
+            if (first_[b] < 0)
+                continue;
+            const double m = r.blocks[b].mass_kg, g = r.gravity_m_s2;
+            weight_(first_[b]) = m * g * std::sin(r.base_tilt_rad);
+            weight_(first_[b] + 1) = -m * g * std::cos(r.base_tilt_rad);
+            scale_.segment<3>(first_[b]) = Eigen::Vector3d(m * g, m * g, m * g * r.blocks[b].half_width_m);
+        }
+        if (rests_otherwise(r))
+            for (int j = 0; j < r.beds(); ++j)
+                laws_.push_back(bed_law(r, j));
+        K_.resize(size, size);
+        residual_.resize(size);
+    }
+
+    /// Full beds at these poses, without friction's limit. They leave behind the least stiffness with which a block
+    /// that has lost all its contacts does not make the tangent singular.
+    void assume_full_beds(const std::vector<Pose>& at)
+    {
+        K_.setZero();
+        residual_ = weight_;
+        for (int j = 0; j < r_.beds(); ++j) {
+            const Joint& joint = r_.joints[static_cast<std::size_t>(j)];
+            add(joint, full_bed(r_, joint, at[static_cast<std::size_t>(joint.lower)],
+                                at[static_cast<std::size_t>(joint.upper)]));
+        }
+        least_ = 1e-9 * K_.diagonal();
+    }
+
+    /// @return largest force on a block that is not balanced, over the block's weight
+    double evaluate(const std::vector<Pose>& at)
+    {
+        K_.setZero();
+        residual_ = weight_;
+        for (std::size_t b = 0; b < r_.blocks.size(); ++b) // a centre of mass beside the middle
+            if (first_[b] >= 0) {
+                const double e = r_.blocks[b].extension.eccentricity_m;
+                residual_(first_[b] + 2) +=
+                    e * (std::cos(at[b].theta) * weight_(first_[b] + 1) - std::sin(at[b].theta) * weight_(first_[b]));
+            }
+        spring_n_.assign(r_.joints.size(), 0);
+        for (std::size_t j = 0; j < r_.joints.size(); ++j) {
+            const Joint& joint = r_.joints[j];
+            const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
+            const JointForce f =
+                joint_force(r_, static_cast<int>(j), j < laws_.size() ? &laws_[j] : nullptr, at[l], at[u]);
+            spring_n_[j] = f.spring;
+            add(joint, f);
+        }
+        return residual_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    }
+
+    void stiffen() { K_.diagonal() += least_; }
+    Eigen::VectorXd step() const { return K_.ldlt().solve(residual_); }
+
+    /// The poses after a part of a step.
+    std::vector<Pose> moved(const std::vector<Pose>& from, const Eigen::VectorXd& by, double part) const
+    {
+        std::vector<Pose> to = from;
+        for (std::size_t b = 0; b < to.size(); ++b)
+            if (first_[b] >= 0) {
+                to[b].x += part * by(first_[b]);
+                to[b].y += part * by(first_[b] + 1);
+                to[b].theta += part * by(first_[b] + 2);
+            }
+        return to;
+    }
+
+private:
+    void add(const Joint& joint, const JointForce& f)
+    {
+        const std::size_t both[2] = {static_cast<std::size_t>(joint.lower), static_cast<std::size_t>(joint.upper)};
+        for (int a = 0; a < 2; ++a) {
+            if (first_[both[a]] < 0)
+                continue;
+            residual_.segment<3>(first_[both[a]]) += f.force.segment<3>(3 * a);
+            for (int b = 0; b < 2; ++b)
+                if (first_[both[b]] >= 0)
+                    K_.block<3, 3>(first_[both[a]], first_[both[b]]) += f.stiffness.block<3, 3>(3 * a, 3 * b);
+        }
+    }
+
+    const Realization& r_;
+    std::vector<double>& spring_n_;   ///< (joints) of the last poses [N]
+    std::vector<Eigen::Index> first_; ///< (blocks) of the three unknowns of a block; -1: fixed
+    Eigen::VectorXd weight_, scale_;  ///< of the blocks in the base's frame; what an unbalanced force is measured by
+    std::vector<BedLaw> laws_;        ///< (beds) with extensions, else empty
+    Eigen::MatrixXd K_;
+    Eigen::VectorXd residual_, least_;
+};
+
 } // namespace
 
 Overlap<double> overlap_of(const Block& lower, const Pose& l, const Block& upper, const Pose& u)
@@ -133,109 +260,20 @@ double bed_elastic_n(const Realization& r, int bed, const Pose& l, const Pose& u
 
 double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double>& spring_n)
 {
-    std::vector<Eigen::Index> first(r.blocks.size(), -1);
-    Eigen::Index size = 0;
-    for (std::size_t b = 0; b < r.blocks.size(); ++b)
-        if (!r.blocks[b].fixed) {
-            first[b] = size;
-            size += 3;
-        }
-    Eigen::VectorXd weight = Eigen::VectorXd::Zero(size), scale(size);
-    for (std::size_t b = 0; b < r.blocks.size(); ++b) {
-        if (first[b] < 0)
-            continue;
-        const double m = r.blocks[b].mass_kg, g = r.gravity_m_s2;
-        weight(first[b]) = m * g * std::sin(r.base_tilt_rad);
-        weight(first[b] + 1) = -m * g * std::cos(r.base_tilt_rad);
-        scale.segment<3>(first[b]) = Eigen::Vector3d(m * g, m * g, m * g * r.blocks[b].half_width_m);
-    }
+    Equilibrium balance(r, spring_n);
+    balance.assume_full_beds(poses);
+    poses = balance.moved(poses, balance.step(), 1);
 
-    std::vector<BedLaw> laws; // with extensions
-    if (rests_otherwise(r))
-        for (int j = 0; j < r.beds(); ++j)
-            laws.push_back(bed_law(r, j));
-
-    Eigen::MatrixXd K(size, size);
-    Eigen::VectorXd residual(size);
-    const auto add = [&](const Joint& joint, const JointForce& f) {
-        const std::size_t both[2] = {static_cast<std::size_t>(joint.lower), static_cast<std::size_t>(joint.upper)};
-        for (int a = 0; a < 2; ++a) {
-            if (first[both[a]] < 0)
-                continue;
-            residual.segment<3>(first[both[a]]) += f.force.segment<3>(3 * a);
-            for (int b = 0; b < 2; ++b)
-                if (first[both[b]] >= 0)
-                    K.block<3, 3>(first[both[a]], first[both[b]]) += f.stiffness.block<3, 3>(3 * a, 3 * b);
-        }
-    };
-    const auto evaluate = [&](const std::vector<Pose>& at) {
-        K.setZero();
-        residual = weight;
-        for (std::size_t b = 0; b < r.blocks.size(); ++b) // a centre of mass beside the middle
-            if (first[b] >= 0) {
-                const double e = r.blocks[b].extension.eccentricity_m;
-                residual(first[b] + 2) +=
-                    e * (std::cos(at[b].theta) * weight(first[b] + 1) - std::sin(at[b].theta) * weight(first[b]));
-            }
-        spring_n.assign(r.joints.size(), 0);
-        for (std::size_t j = 0; j < r.joints.size(); ++j) {
-            const Joint& joint = r.joints[j];
-            const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
-            const JointForce f =
-                joint_force(r, static_cast<int>(j), j < laws.size() ? &laws[j] : nullptr, at[l], at[u]);
-            spring_n[j] = f.spring;
-            add(joint, f);
-        }
-        return residual.cwiseQuotient(scale).cwiseAbs().maxCoeff();
-    };
-    const auto moved = [&](const Eigen::VectorXd& by, double part) {
-        std::vector<Pose> to = poses;
-        for (std::size_t b = 0; b < to.size(); ++b)
-            if (first[b] >= 0) {
-                to[b].x += part * by(first[b]);
-                to[b].y += part * by(first[b] + 1);
-                to[b].theta += part * by(first[b] + 2);
-            }
-        return to;
-    };
-
-    // first guess: full beds, which carry tension too
-    K.setZero();
-    residual = weight;
-    for (int j = 0; j < r.beds(); ++j) {
-        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
-        const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
-        const Block &lower = r.blocks[l], &upper = r.blocks[u];
-        const double left = std::max(lower.x_m - lower.half_width_m, upper.x_m - upper.half_width_m);
-        const double right = std::min(lower.x_m + lower.half_width_m, upper.x_m + upper.half_width_m);
-        const double length = std::max(right - left, 1e-6 * upper.half_width_m), middle = 0.5 * (left + right);
-        const double face = lower.y_m + lower.half_height_m;
-        JointForce f;
-        const Row opening = relative_motion(0, 1, middle, face, poses[l], poses[u]);
-        const Row sliding = relative_motion(1, 0, middle, face, poses[l], poses[u]);
-        Row turning = Row::Zero();
-        turning(2) = -1;
-        turning(5) = 1;
-        const double k_n = joint.normal_stiffness_n_m2 * length;
-        f.stiffness = k_n * opening * opening.transpose() +
-                      joint.tangential_stiffness_n_m * sliding * sliding.transpose() +
-                      k_n * length * length / 12 * turning * turning.transpose();
-        f.force = k_n * length * length / 12 * joint.extension.wedge_rad * turning; // what would turn it by its wedge
-        add(joint, f);
-    }
-    // a block that has lost all its contacts must not make the tangent singular
-    const Eigen::VectorXd least = 1e-9 * K.diagonal();
-    poses = moved(K.ldlt().solve(residual), 1);
-
-    double lacks = evaluate(poses);
+    // Newton's method; a step that does not better the balance is halved
+    double lacks = balance.evaluate(poses);
     for (int i = 0; i < most_iterations && lacks > balanced; ++i) {
-        K.diagonal() += least;
-        const Eigen::VectorXd by = K.ldlt().solve(residual);
+        balance.stiffen();
+        const Eigen::VectorXd by = balance.step();
         double part = 1, found = lacks;
         std::vector<Pose> to;
         for (int k = 0; k < most_halvings; ++k, part *= 0.5) {
-            to = moved(by, part);
-            found = evaluate(to);
+            to = balance.moved(poses, by, part);
+            found = balance.evaluate(to);
             if (found < lacks)
                 break;
         }
@@ -244,7 +282,7 @@ double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double
         poses = to;
         lacks = found;
     }
-    return evaluate(poses);
+    return balance.evaluate(poses);
 }
 
 } // namespace stylobate

@@ -74,76 +74,117 @@ double halton(std::size_t i, std::size_t base)
 
 constexpr std::array<std::size_t, 12> primes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
 
-} // namespace
+/// The scores about the middle of the points, each point weighted by how near it is to the best.
+struct WeightedScores {
+    Vector centre, least, most; ///< (d) of the points
+    Matrix design;              ///< (points x coefficients)
+    Matrix scores;              ///< (points x units)
+    Vector total;               ///< (points) over the units
+};
 
-ScoreSurface fit_surface(const std::vector<ScoredPoint>& points, const std::vector<std::size_t>& group,
-                         const std::vector<bool>& use)
+/// Far below the best the form does not hold, and need not. The level below which a point counts for little is where
+/// half of the points are, so that it is known from the points themselves.
+Vector weights_of(const Vector& total)
 {
-    ScoreSurface surface;
-    if (points.empty())
-        return surface;
-    const std::size_t dimensions = points.front().at.size();
-    const Eigen::Index d = index(dimensions), n = index(points.size());
-    const Eigen::Index coefficients = 1 + d + d * (d + 1) / 2;
-    std::vector<std::size_t> units;
-    for (std::size_t i = 0; i < group.size(); ++i)
-        if (use.empty() || use[i])
-            units.push_back(i);
-    if (n < coefficients + 2 || units.empty())
-        return surface;
-    surface.fitted = true;
-
-    Vector centre = Vector::Zero(d), total(n), least = Vector::Ones(d), most = Vector::Zero(d);
-    Matrix scores(n, index(units.size()));
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const ScoredPoint& point = points[static_cast<std::size_t>(i)];
-        centre += to_vector(point.at) / static_cast<double>(n);
-        least = least.cwiseMin(to_vector(point.at));
-        most = most.cwiseMax(to_vector(point.at));
-        for (std::size_t u = 0; u < units.size(); ++u)
-            scores(i, index(u)) = point.scores[units[u]];
-        total(i) = scores.row(i).sum();
-    }
-    // Far below the best the form does not hold, and need not. The level below which a point counts for little is where
-    // half of the points are, so that it is known from the points themselves.
     std::vector<double> below;
-    for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index i = 0; i < total.size(); ++i)
         below.push_back(total.maxCoeff() - total(i));
     std::vector<double> sorted = below;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
     const double level = std::max(sorted[sorted.size() / 2], 2.0);
-    Matrix design(n, coefficients);
-    for (Eigen::Index i = 0; i < n; ++i) {
+    Vector weights(total.size());
+    for (Eigen::Index i = 0; i < total.size(); ++i) {
         const double far = below[static_cast<std::size_t>(i)] / (2 * level);
-        const double weight = std::sqrt(1 / (1 + far * far * far * far));
-        design.row(i) = weight * terms(to_vector(points[static_cast<std::size_t>(i)].at) - centre).transpose();
-        scores.row(i) *= weight;
-        total(i) *= weight;
+        weights(i) = std::sqrt(1 / (1 + far * far * far * far));
     }
-    // the smallest ridge that keeps the solution finite where points lie on a face of the cube
-    Matrix normal = design.transpose() * design;
-    normal.diagonal().array() += 1e-9 * normal.trace() / static_cast<double>(coefficients);
+    return weights;
+}
+
+WeightedScores weighted_scores(const std::vector<ScoredPoint>& points, const std::vector<std::size_t>& units)
+{
+    const std::size_t dimensions = points.front().at.size();
+    const Eigen::Index d = index(dimensions), n = index(points.size());
+    WeightedScores w{Vector::Zero(d),
+                     Vector::Ones(d),
+                     Vector::Zero(d),
+                     Matrix(n, terms(Vector::Zero(d)).size()),
+                     Matrix(n, index(units.size())),
+                     Vector(n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const ScoredPoint& point = points[static_cast<std::size_t>(i)];
+        w.centre += to_vector(point.at) / static_cast<double>(n);
+        w.least = w.least.cwiseMin(to_vector(point.at));
+        w.most = w.most.cwiseMax(to_vector(point.at));
+        for (std::size_t u = 0; u < units.size(); ++u)
+            w.scores(i, index(u)) = point.scores[units[u]];
+        w.total(i) = w.scores.row(i).sum();
+    }
+    const Vector weights = weights_of(w.total);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double weight = weights(i);
+        w.design.row(i) = weight * terms(to_vector(points[static_cast<std::size_t>(i)].at) - w.centre).transpose();
+        w.scores.row(i) *= weight;
+        w.total(i) *= weight;
+    }
+    return w;
+}
+
+/// (coefficients x units) by least squares, with the smallest ridge that keeps the solution finite where points lie on
+/// a face of the cube.
+Matrix fitted_coefficients(const WeightedScores& w)
+{
+    Matrix normal = w.design.transpose() * w.design;
+    normal.diagonal().array() += 1e-9 * normal.trace() / static_cast<double>(w.design.cols());
     const Eigen::LDLT<Matrix> solver(normal);
-    const Matrix unit_coefficients = solver.solve(design.transpose() * scores);
-    const Vector sum = unit_coefficients.rowwise().sum();
+    return solver.solve(w.design.transpose() * w.scores);
+}
 
-    // curvature, without directions in which the form rises to all sides, and with the prior
-    const Matrix precision = Matrix::Identity(d, d) / (prior_deviation * prior_deviation);
-    const Matrix raw = curvature(sum, d);
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(raw);
-    const Matrix h =
-        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose() +
-        precision;
-    // the best point, one parameter after the other; beyond its points the form says nothing
-    const Vector slope = sum.segment(1, d);
-    Vector best = Vector::Zero(d); // from the centre
-    for (int sweep = 0; sweep < 500; ++sweep)
-        for (Eigen::Index i = 0; i < d; ++i) {
-            const double pull = slope(i) - h.row(i).dot(best) + h(i, i) * best(i);
-            best(i) = std::clamp(pull / h(i, i), least(i) - centre(i), most(i) - centre(i));
+/// Curvature of the sum of the scores, without directions in which the form rises to all sides, and with the prior.
+struct Curvature {
+    explicit Curvature(const Matrix& raw)
+        : precision(Matrix::Identity(raw.rows(), raw.rows()) / (prior_deviation * prior_deviation)), eigen(raw),
+          h(eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose() +
+            precision)
+    {
+    }
+
+    /// From the scatter of the slopes. A direction in which the slopes are too uncertain for its curvature is not known
+    /// better than before.
+    Matrix covariance(const Matrix& scatter_of_slopes) const
+    {
+        Vector held = eigen.eigenvalues().cwiseMax(0).array() + 1 / (prior_deviation * prior_deviation);
+        for (Eigen::Index k = 0; k < h.rows(); ++k) {
+            const Vector e = eigen.eigenvectors().col(k);
+            held(k) = std::max(held(k), std::sqrt(e.dot((scatter_of_slopes + precision) * e)) / prior_deviation);
         }
-    surface.largest = terms(best).dot(sum);
+        const Matrix least_inverse =
+            eigen.eigenvectors() * held.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+        return Matrix(least_inverse * (scatter_of_slopes + precision) * least_inverse);
+    }
 
+    Matrix precision; ///< of the prior
+    Eigen::SelfAdjointEigenSolver<Matrix> eigen;
+    Matrix h;
+};
+
+/// The best point from the centre, one parameter after the other; beyond its points the form says nothing.
+Vector best_point(const Vector& slope, const Matrix& h, const WeightedScores& w)
+{
+    Vector best = Vector::Zero(slope.size());
+    for (int sweep = 0; sweep < 500; ++sweep)
+        for (Eigen::Index i = 0; i < slope.size(); ++i) {
+            const double pull = slope(i) - h.row(i).dot(best) + h(i, i) * best(i);
+            best(i) = std::clamp(pull / h(i, i), w.least(i) - w.centre(i), w.most(i) - w.centre(i));
+        }
+    return best;
+}
+
+/// Covariance of the best point, from how much the slopes there differ between units, and no smaller than what the
+/// groups say where there are enough of them, each parameter by its own factor.
+Matrix covariance_of(const Matrix& unit_coefficients, const std::vector<std::size_t>& units,
+                     const std::vector<std::size_t>& group, const Vector& best, const Curvature& curved)
+{
+    const Eigen::Index d = best.size();
     Matrix slopes(d, index(units.size()));
     std::map<std::size_t, Vector> grouped;
     for (std::size_t u = 0; u < units.size(); ++u) {
@@ -156,38 +197,59 @@ ScoreSurface fit_surface(const std::vector<ScoredPoint>& points, const std::vect
     Eigen::Index g = 0;
     for (const auto& [key, sum_of] : grouped)
         by_group.col(g++) = sum_of;
-    const Matrix inverse = h.inverse();
-    // A direction in which the slopes are too uncertain for its curvature is not known better than before.
-    const auto covariance = [&](const Matrix& j) {
-        Vector held = eigen.eigenvalues().cwiseMax(0).array() + 1 / (prior_deviation * prior_deviation);
-        for (Eigen::Index k = 0; k < d; ++k) {
-            const Vector e = eigen.eigenvectors().col(k);
-            held(k) = std::max(held(k), std::sqrt(e.dot((j + precision) * e)) / prior_deviation);
-        }
-        const Matrix least_inverse =
-            eigen.eigenvectors() * held.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-        return Matrix(least_inverse * (j + precision) * least_inverse);
-    };
-    Matrix cov = covariance(scatter(slopes));
-    if (grouped.size() > dimensions) {
-        // no smaller than what the runs say, each parameter by its own factor
-        const Matrix of_runs = covariance(scatter(by_group));
+    Matrix cov = curved.covariance(scatter(slopes));
+    if (index(grouped.size()) > d) {
+        const Matrix of_runs = curved.covariance(scatter(by_group));
         const Vector factor = (of_runs.diagonal().array() / cov.diagonal().array()).max(1).sqrt();
         cov = factor.asDiagonal() * cov * factor.asDiagonal();
     }
+    return cov;
+}
 
+/// Standard deviation of the points about the form, with their weights.
+double roughness_of(const WeightedScores& w, const Vector& sum)
+{
     double square = 0, weights = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const double r = total(i) - design.row(i).dot(sum);
+    for (Eigen::Index i = 0; i < w.total.size(); ++i) {
+        const double r = w.total(i) - w.design.row(i).dot(sum);
         square += r * r;
-        weights += design(i, 0) * design(i, 0);
+        weights += w.design(i, 0) * w.design(i, 0);
     }
-    surface.roughness = std::sqrt(square / std::max(weights - static_cast<double>(coefficients), 1.0));
+    return std::sqrt(square / std::max(weights - static_cast<double>(w.design.cols()), 1.0));
+}
+
+} // namespace
+
+ScoreSurface fit_surface(const std::vector<ScoredPoint>& points, const std::vector<std::size_t>& group,
+                         const std::vector<bool>& use)
+{
+    ScoreSurface surface;
+    if (points.empty())
+        return surface;
+    const std::size_t dimensions = points.front().at.size();
+    const Eigen::Index d = index(dimensions);
+    std::vector<std::size_t> units;
+    for (std::size_t i = 0; i < group.size(); ++i)
+        if (use.empty() || use[i])
+            units.push_back(i);
+    if (index(points.size()) < terms(Vector::Zero(d)).size() + 2 || units.empty())
+        return surface;
+    surface.fitted = true;
+
+    const WeightedScores w = weighted_scores(points, units);
+    const Matrix unit_coefficients = fitted_coefficients(w);
+    const Vector sum = unit_coefficients.rowwise().sum();
+    const Curvature curved(curvature(sum, d));
+    const Vector best = best_point(sum.segment(1, d), curved.h, w);
+    const Matrix cov = covariance_of(unit_coefficients, units, group, best, curved), inverse = curved.h.inverse();
+
+    surface.largest = terms(best).dot(sum);
+    surface.roughness = roughness_of(w, sum);
     surface.correlation.resize(dimensions * dimensions);
     surface.along.resize(dimensions * dimensions);
     for (std::size_t i = 0; i < dimensions; ++i) {
-        surface.best.push_back(std::clamp(best(index(i)) + centre(index(i)), 0.0, 1.0));
-        surface.reach.push_back((most(index(i)) - least(index(i))) / 2);
+        surface.best.push_back(std::clamp(best(index(i)) + w.centre(index(i)), 0.0, 1.0));
+        surface.reach.push_back((w.most(index(i)) - w.least(index(i))) / 2);
         surface.deviation.push_back(std::sqrt(cov(index(i), index(i))));
         surface.overdispersion.push_back(cov(index(i), index(i)) / inverse(index(i), index(i)));
         for (std::size_t j = 0; j < dimensions; ++j) {

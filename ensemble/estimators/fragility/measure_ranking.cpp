@@ -78,6 +78,89 @@ bool nothing_adds(const std::vector<Sufficiency>& tests, double level)
     return tests.empty() || smallest >= (1 - level) / static_cast<double>(tests.size());
 }
 
+struct Fitted {
+    RankedMeasure measure;
+    std::vector<double> by_record; ///< log likelihood; empty: no curve
+};
+
+/// The log likelihood of one probability for all runs.
+double log_likelihood_of_mean(const BinomialCounts& counts)
+{
+    const double trials = counts.trials.sum(), share = counts.reached.sum() / trials;
+    return share > 0 && share < 1 ? trials * (share * std::log(share) + (1 - share) * std::log1p(-share)) : 0;
+}
+
+/// A curve in one measure alone, and what each feature of the records would add to it.
+/// @param mean log likelihood without any measure   @param trials all runs
+Fitted fitted_alone(const FragilityData& data, std::size_t column, const std::string& name,
+                    const std::vector<std::string>& features, const std::vector<std::vector<double>>& values,
+                    double level, double mean, double trials)
+{
+    Fitted fitted;
+    RankedMeasure& measure = fitted.measure;
+    measure.name = name;
+    measure.column = column;
+    const FragilityData alone = with_measure(data, column);
+    if (alone.points() < 2)
+        return fitted;
+    const FittedCurve curve = fitted_curve(alone, log_predictors(alone), Link::probit);
+    if (curve.fit.maximum != Maximum::inside)
+        return fitted;
+    const double slope = curve.fit.coefficients[1];
+    const Limits limits = jackknife_limits(curve, jackknife(curve), CurveTarget::slope(), level);
+    measure.dispersion = slope > 0 ? 1 / slope : std::numeric_limits<double>::infinity();
+    measure.dispersion_limits = {limits.upper > 0 ? 1 / limits.upper : 0,
+                                 limits.lower > 0 ? 1 / limits.lower : std::numeric_limits<double>::infinity()};
+    measure.gain = (curve.fit.log_likelihood - mean) / trials;
+    fitted.by_record = log_likelihood_by_record(curve);
+    for (std::size_t f = 0; f < features.size(); ++f)
+        measure.sufficiency.push_back(sufficiency_of(alone, features[f], values[f], level));
+    measure.sufficient = nothing_adds(measure.sufficiency, level);
+    return fitted;
+}
+
+/// How much less a measure tells than the best, over all runs.
+struct Behind {
+    double sum; ///< of the log likelihood
+    Limits limits;
+};
+
+/// The comparison of Vuong, "Likelihood ratio tests for model selection and non-nested hypotheses", Econometrica 57
+/// (1989) 307, with the record as the unit.
+Behind behind(const std::vector<double>& best, const std::vector<double>& own, double level)
+{
+    const double n = static_cast<double>(best.size());
+    const double t = quantile(complement(boost::math::students_t_distribution<double>(n - 1), (1 - level) / 2));
+    double sum = 0, square = 0;
+    for (std::size_t g = 0; g < best.size(); ++g)
+        sum += best[g] - own[g];
+    for (std::size_t g = 0; g < best.size(); ++g)
+        square += std::pow(best[g] - own[g] - sum / n, 2);
+    const double reach = t * std::sqrt(n / (n - 1) * square);
+    return {sum, {sum - reach, sum + reach}};
+}
+
+/// The sentence of a measure. @param best the first one's name; empty: this is the first
+std::string sentence(const RankedMeasure& measure, double less, const std::string& best, std::size_t features,
+                     double level)
+{
+    std::string says =
+        fmt::format("{}: dispersion {:.3f} [{:.3f}, {:.3f}], information {:.3f} nat per run", measure.name,
+                    measure.dispersion, measure.dispersion_limits.lower, measure.dispersion_limits.upper, measure.gain);
+    if (!best.empty())
+        says += fmt::format(", {:.3f} [{:.3f}, {:.3f}] less than {}{}", less, measure.behind.lower,
+                            measure.behind.upper, best, measure.behind.lower <= 0 ? ", which is not significant" : "");
+    if (features > 0) {
+        std::string adds;
+        for (const Sufficiency& test : measure.sufficiency)
+            if (test.p_value < (1 - level) / static_cast<double>(features))
+                adds += fmt::format("{}{} (p = {:.2g})", adds.empty() ? "" : ", ", test.feature, test.p_value);
+        says += adds.empty() ? "; no insufficiency found with these records"
+                             : "; not sufficient: " + adds + " adds information";
+    }
+    return says + '.';
+}
+
 } // namespace
 
 std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std::vector<std::string>& names,
@@ -92,80 +175,27 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
         throw InputError(fmt::format("fragility: {} records are too few to rank measures, at least {}.", data.records,
                                      least_records));
     const BinomialCounts counts = counts_of(data);
-    const double trials = counts.trials.sum(), share = counts.reached.sum() / trials;
-    const double mean =
-        share > 0 && share < 1 ? trials * (share * std::log(share) + (1 - share) * std::log1p(-share)) : 0;
-
-    struct Fitted {
-        RankedMeasure measure;
-        std::vector<double> by_record;
-    };
+    const double trials = counts.trials.sum(), mean = log_likelihood_of_mean(counts);
     std::vector<Fitted> all;
-    for (std::size_t j = 0; j < data.measures; ++j) {
-        Fitted fitted;
-        RankedMeasure& measure = fitted.measure;
-        measure.name = names[j];
-        measure.column = j;
-        const FragilityData alone = with_measure(data, j);
-        if (alone.points() > 1) {
-            const FittedCurve curve = fitted_curve(alone, log_predictors(alone), Link::probit);
-            if (curve.fit.maximum == Maximum::inside) {
-                const double slope = curve.fit.coefficients[1];
-                const Limits limits = jackknife_limits(curve, jackknife(curve), CurveTarget::slope(), level);
-                measure.dispersion = slope > 0 ? 1 / slope : std::numeric_limits<double>::infinity();
-                measure.dispersion_limits = {limits.upper > 0 ? 1 / limits.upper : 0,
-                                             limits.lower > 0 ? 1 / limits.lower
-                                                              : std::numeric_limits<double>::infinity()};
-                measure.gain = (curve.fit.log_likelihood - mean) / trials;
-                fitted.by_record = log_likelihood_by_record(curve);
-                for (std::size_t f = 0; f < features.size(); ++f)
-                    measure.sufficiency.push_back(sufficiency_of(alone, features[f], values[f], level));
-                measure.sufficient = nothing_adds(measure.sufficiency, level);
-            }
-        }
-        all.push_back(std::move(fitted));
-    }
+    for (std::size_t j = 0; j < data.measures; ++j)
+        all.push_back(fitted_alone(data, j, names[j], features, values, level, mean, trials));
     std::stable_sort(all.begin(), all.end(), [](const Fitted& a, const Fitted& b) {
         return a.by_record.empty() != b.by_record.empty() ? b.by_record.empty() : a.measure.gain > b.measure.gain;
     });
 
-    const double n = static_cast<double>(data.records);
-    const double t = quantile(complement(boost::math::students_t_distribution<double>(n - 1), (1 - level) / 2));
     std::vector<RankedMeasure> ranked;
     for (const Fitted& fitted : all) {
         RankedMeasure measure = fitted.measure;
         if (fitted.by_record.empty()) {
             measure.sufficient = false;
             measure.says = fmt::format("{}: no curve with this measure alone, so it is not ranked.", measure.name);
-            ranked.push_back(measure);
-            continue;
+        } else {
+            const auto [sum, limits] = behind(all.front().by_record, fitted.by_record, level);
+            measure.behind = {limits.lower / trials, limits.upper / trials};
+            measure.says =
+                sentence(measure, sum / trials, &fitted == &all.front() ? std::string() : all.front().measure.name,
+                         features.size(), level);
         }
-        // the comparison of Vuong, "Likelihood ratio tests for model selection and non-nested hypotheses", Econometrica
-        // 57 (1989) 307, with the record as the unit
-        const std::vector<double>& best = all.front().by_record;
-        double sum = 0, square = 0;
-        for (std::size_t g = 0; g < data.records; ++g)
-            sum += best[g] - fitted.by_record[g];
-        for (std::size_t g = 0; g < data.records; ++g)
-            square += std::pow(best[g] - fitted.by_record[g] - sum / n, 2);
-        const double reach = t * std::sqrt(n / (n - 1) * square);
-        measure.behind = {(sum - reach) / trials, (sum + reach) / trials};
-        measure.says = fmt::format("{}: dispersion {:.3f} [{:.3f}, {:.3f}], information {:.3f} nat per run",
-                                   measure.name, measure.dispersion, measure.dispersion_limits.lower,
-                                   measure.dispersion_limits.upper, measure.gain);
-        if (&fitted != &all.front())
-            measure.says += fmt::format(", {:.3f} [{:.3f}, {:.3f}] less than {}{}", sum / trials, measure.behind.lower,
-                                        measure.behind.upper, all.front().measure.name,
-                                        measure.behind.lower <= 0 ? ", which is not significant" : "");
-        if (!features.empty()) {
-            std::string adds;
-            for (const Sufficiency& test : measure.sufficiency)
-                if (test.p_value < (1 - level) / static_cast<double>(features.size()))
-                    adds += fmt::format("{}{} (p = {:.2g})", adds.empty() ? "" : ", ", test.feature, test.p_value);
-            measure.says += adds.empty() ? "; no insufficiency found with these records"
-                                         : "; not sufficient: " + adds + " adds information";
-        }
-        measure.says += '.';
         ranked.push_back(measure);
     }
     return ranked;

@@ -40,70 +40,48 @@ void make_monotone(std::vector<StripeShare>& stripes)
             stripes[i++].monotone = pool.reached / pool.trials;
 }
 
-} // namespace
+/// The decrease between two stripes.
+struct Fall {
+    std::size_t from, to;
+    double size;               ///< in standard errors
+    Eigen::VectorXd by_record; ///< in standard errors
+};
 
-StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_t seed)
+/// (records x stripes) the influence of each record on each share.
+Eigen::MatrixXd influence(const FragilityData& data, const std::vector<StripeShare>& stripes)
 {
-    if (data.measures != 1)
-        throw InputError(fmt::format("fragility: shares by stripe need one intensity measure, not {}.", data.measures));
-    const std::size_t stripes = data.points(), records = data.records;
-    StripeShares found;
-    found.level = level;
-    found.stripes.resize(stripes);
-    std::vector<std::vector<RecordCount>> counts(stripes);
-    for (const FragilityRow& row : data.rows) {
-        StripeShare& stripe = found.stripes[row.point];
-        counts[row.point].push_back({row.trials, row.reached});
-        stripe.records += 1;
-        stripe.trials += row.trials;
-        stripe.reached += row.reached;
-    }
-    // the influence of each record on each share
     Eigen::MatrixXd pull =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(records), static_cast<Eigen::Index>(stripes));
-    for (std::size_t j = 0; j < stripes; ++j) {
-        found.stripes[j].intensity = data.intensity[j];
-        found.stripes[j].share = found.stripes[j].reached / found.stripes[j].trials;
-    }
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data.records), static_cast<Eigen::Index>(stripes.size()));
     for (const FragilityRow& row : data.rows)
-        pull(row.record, row.point) =
-            (row.reached - found.stripes[row.point].share * row.trials) / found.stripes[row.point].trials;
-    for (std::size_t j = 0; j < stripes; ++j) {
-        StripeShare& stripe = found.stripes[j];
-        stripe.limits = record_share_limits(counts[j], level);
-        stripe.band = record_share_limits(counts[j], 1 - (1 - level) / static_cast<double>(stripes));
-    }
-    for (std::size_t j = 1; j < stripes; ++j)
-        found.stripes[j].band.lower = std::max(found.stripes[j].band.lower, found.stripes[j - 1].band.lower);
-    for (std::size_t j = stripes; j-- > 1;)
-        found.stripes[j - 1].band.upper = std::min(found.stripes[j - 1].band.upper, found.stripes[j].band.upper);
-    make_monotone(found.stripes);
+        pull(row.record, row.point) = (row.reached - stripes[row.point].share * row.trials) / stripes[row.point].trials;
+    return pull;
+}
 
-    // the largest decrease between two stripes, and its null distribution
-    struct Fall {
-        std::size_t from, to;
-        double size;
-        Eigen::VectorXd by_record; ///< in standard errors
-    };
+/// Of every stripe to every stronger one, where the records make it uncertain.
+std::vector<Fall> falls_of(const FragilityData& data, const std::vector<StripeShare>& stripes)
+{
+    const Eigen::MatrixXd pull = influence(data, stripes);
+    const std::size_t records = data.records;
     std::vector<Fall> falls;
-    for (std::size_t i = 0; i < stripes; ++i)
-        for (std::size_t j = i + 1; j < stripes; ++j) {
+    for (std::size_t i = 0; i < stripes.size(); ++i)
+        for (std::size_t j = i + 1; j < stripes.size(); ++j) {
             const Eigen::VectorXd by_record =
                 pull.col(static_cast<Eigen::Index>(i)) - pull.col(static_cast<Eigen::Index>(j));
             const double error =
                 std::sqrt(static_cast<double>(records) / std::max(1.0, static_cast<double>(records) - 1)) *
                 by_record.norm();
             if (error > 1e-12)
-                falls.push_back({i, j, (found.stripes[i].share - found.stripes[j].share) / error, by_record / error});
+                falls.push_back({i, j, (stripes[i].share - stripes[j].share) / error, by_record / error});
         }
-    found.says = "The shares do not fall significantly with the intensity.";
-    if (falls.empty())
-        return found;
-    const Fall largest =
-        *std::max_element(falls.begin(), falls.end(), [](const Fall& a, const Fall& b) { return a.size < b.size; });
+    return falls;
+}
+
+/// The share of random signs of the records under which some decrease is as large as the largest one seen.
+double p_of_largest(const std::vector<Fall>& falls, const Fall& largest, std::uint64_t seed)
+{
     constexpr std::uint64_t flips = 1999;
     int as_large = 1;
-    Eigen::VectorXd sign(static_cast<Eigen::Index>(records));
+    Eigen::VectorXd sign(largest.by_record.size());
     for (std::uint64_t flip = 0; flip < flips; ++flip) {
         for (Eigen::Index g = 0; g < sign.size(); ++g)
             sign[g] = random_bits(seed, flip, Stream::bootstrap, static_cast<std::uint64_t>(g)) >> 63 ? 1 : -1;
@@ -112,7 +90,53 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
                         ? 1
                         : 0;
     }
-    found.p_monotone = as_large / (flips + 1.0);
+    return as_large / (flips + 1.0);
+}
+
+/// Limits of each share, and the band that holds all of them.
+void set_limits(const std::vector<std::vector<RecordCount>>& counts, double level, std::vector<StripeShare>& stripes)
+{
+    for (std::size_t j = 0; j < stripes.size(); ++j) {
+        stripes[j].limits = record_share_limits(counts[j], level);
+        stripes[j].band = record_share_limits(counts[j], 1 - (1 - level) / static_cast<double>(stripes.size()));
+    }
+    for (std::size_t j = 1; j < stripes.size(); ++j)
+        stripes[j].band.lower = std::max(stripes[j].band.lower, stripes[j - 1].band.lower);
+    for (std::size_t j = stripes.size(); j-- > 1;)
+        stripes[j - 1].band.upper = std::min(stripes[j - 1].band.upper, stripes[j].band.upper);
+}
+
+} // namespace
+
+StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_t seed)
+{
+    if (data.measures != 1)
+        throw InputError(fmt::format("fragility: shares by stripe need one intensity measure, not {}.", data.measures));
+    StripeShares found;
+    found.level = level;
+    found.stripes.resize(data.points());
+    std::vector<std::vector<RecordCount>> counts(data.points());
+    for (const FragilityRow& row : data.rows) {
+        StripeShare& stripe = found.stripes[row.point];
+        counts[row.point].push_back({row.trials, row.reached});
+        stripe.records += 1;
+        stripe.trials += row.trials;
+        stripe.reached += row.reached;
+    }
+    for (std::size_t j = 0; j < found.stripes.size(); ++j) {
+        found.stripes[j].intensity = data.intensity[j];
+        found.stripes[j].share = found.stripes[j].reached / found.stripes[j].trials;
+    }
+    set_limits(counts, level, found.stripes);
+    make_monotone(found.stripes);
+
+    found.says = "The shares do not fall significantly with the intensity.";
+    const std::vector<Fall> falls = falls_of(data, found.stripes);
+    if (falls.empty())
+        return found;
+    const Fall& largest =
+        *std::max_element(falls.begin(), falls.end(), [](const Fall& a, const Fall& b) { return a.size < b.size; });
+    found.p_monotone = p_of_largest(falls, largest, seed);
     if (found.p_monotone < 1 - level) {
         const StripeShare &from = found.stripes[largest.from], &to = found.stripes[largest.to];
         found.says =

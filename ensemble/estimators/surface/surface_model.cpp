@@ -262,95 +262,99 @@ double probability_of(double logit)
 
 } // namespace
 
+void SurfaceModel::update(std::size_t cell, const SurfaceTrials& data, bool same_grid)
+{
+    const auto changed = [&](std::size_t c) {
+        return !same_grid || last_.trials[c] != data.trials[c] || last_.collapses[c] != data.collapses[c];
+    };
+    const Window window = window_of(data, cell);
+    Neighbours& said = neighbours_[cell];
+    const bool around =
+        std::any_of(window.cell.begin(), window.cell.begin() + window.size, [&](auto c) { return changed(c); });
+    if (around || said.mean.empty()) {
+        said.mean.clear();
+        said.variance.clear();
+        Vector a = Vector::Zero(window.size);
+        for (const Setting& setting : settings()) {
+            const Prediction prediction = predict(setting, window, data, a);
+            said.mean.push_back(prediction.mean);
+            said.variance.push_back(prediction.variance);
+        }
+    }
+    if (around || changed(cell)) {
+        const Density own = likelihood(data.trials[cell], data.collapses[cell]);
+        said.evidence.clear();
+        for (std::size_t t = 0; t < settings().size(); ++t) {
+            double sum = 0;
+            visit_normal(said.mean[t], said.variance[t], [&](std::size_t i, double d) { sum += d * own[i]; });
+            said.evidence.push_back(sum * logit_step);
+        }
+        said.evidence_alone = 0;
+        for (std::size_t i = 0; i < points; ++i)
+            said.evidence_alone += grid().alone[i] * own[i] * logit_step;
+    }
+}
+
+SurfaceEstimate SurfaceModel::combined(std::size_t cell, const SurfaceTrials& data) const
+{
+    const Window window = window_of(data, cell);
+    const std::size_t count = settings().size();
+    std::vector<double> score(count * wrong.size(), 0);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(window.size); ++k) {
+        const Neighbours& said = neighbours_[window.cell[k]];
+        for (std::size_t t = 0; t < count; ++t)
+            for (std::size_t e = 0; e < wrong.size(); ++e)
+                score[t * wrong.size() + e] +=
+                    log_of((1 - wrong[e]) * said.evidence[t] + wrong[e] * said.evidence_alone);
+    }
+    const double best = *std::max_element(score.begin(), score.end());
+    const Density own = likelihood(data.trials[cell], data.collapses[cell]);
+    Density density{};
+    double alone = 0;
+    const Neighbours& said = neighbours_[cell];
+    for (std::size_t t = 0; t < count; ++t) {
+        double weight = 0;
+        for (std::size_t e = 0; e < wrong.size(); ++e) {
+            const double w = exp_of(std::max(score[t * wrong.size() + e] - best, -700.0));
+            weight += w * (1 - wrong[e]);
+            alone += w * wrong[e];
+        }
+        if (weight > 1e-9)
+            visit_normal(said.mean[t], said.variance[t],
+                         [&](std::size_t i, double d) { density[i] += weight * d * own[i]; });
+    }
+    double together = 0;
+    for (std::size_t i = 0; i < points; ++i)
+        together += density[i];
+    double apart = 0;
+    for (std::size_t i = 0; i < points; ++i) {
+        const double d = alone * grid().alone[i] * own[i];
+        apart += d;
+        density[i] += d;
+    }
+    const double sum = together + apart, tail = (1 - level_) / 2;
+    SurfaceEstimate estimate;
+    double mean = 0;
+    for (std::size_t i = 0; i < points; ++i)
+        mean += grid().p[i] * density[i];
+    estimate.probability = mean / sum;
+    estimate.believed = together > apart;
+    estimate.interval.lower = data.collapses[cell] == 0 ? 0 : probability_of(quantile_of(density, sum, tail));
+    estimate.interval.upper =
+        data.collapses[cell] == data.trials[cell] ? 1 : probability_of(quantile_of(density, sum, 1 - tail));
+    return estimate;
+}
+
 std::vector<SurfaceEstimate> SurfaceModel::estimate(const SurfaceTrials& data)
 {
     assert(data.trials.size() == data.cells() && data.collapses.size() == data.cells());
     const std::size_t cells = data.cells();
     const bool same_grid = last_.rows == data.rows && last_.columns == data.columns;
     neighbours_.resize(cells);
-    const auto changed = [&](std::size_t cell) {
-        return !same_grid || last_.trials[cell] != data.trials[cell] || last_.collapses[cell] != data.collapses[cell];
-    };
-
-    tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t cell) {
-        const Window window = window_of(data, cell);
-        Neighbours& said = neighbours_[cell];
-        const bool around =
-            std::any_of(window.cell.begin(), window.cell.begin() + window.size, [&](auto c) { return changed(c); });
-        if (around || said.mean.empty()) {
-            said.mean.clear();
-            said.variance.clear();
-            Vector a = Vector::Zero(window.size);
-            for (const Setting& setting : settings()) {
-                const Prediction prediction = predict(setting, window, data, a);
-                said.mean.push_back(prediction.mean);
-                said.variance.push_back(prediction.variance);
-            }
-        }
-        if (around || changed(cell)) {
-            const Density own = likelihood(data.trials[cell], data.collapses[cell]);
-            said.evidence.clear();
-            for (std::size_t t = 0; t < settings().size(); ++t) {
-                double sum = 0;
-                visit_normal(said.mean[t], said.variance[t], [&](std::size_t i, double d) { sum += d * own[i]; });
-                said.evidence.push_back(sum * logit_step);
-            }
-            said.evidence_alone = 0;
-            for (std::size_t i = 0; i < points; ++i)
-                said.evidence_alone += grid().alone[i] * own[i] * logit_step;
-        }
-    });
+    tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t cell) { update(cell, data, same_grid); });
     last_ = data;
-
     std::vector<SurfaceEstimate> estimates(cells);
-    const double tail = (1 - level_) / 2;
-    tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t cell) {
-        const Window window = window_of(data, cell);
-        const std::size_t count = settings().size();
-        std::vector<double> score(count * wrong.size(), 0);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(window.size); ++k) {
-            const Neighbours& said = neighbours_[window.cell[k]];
-            for (std::size_t t = 0; t < count; ++t)
-                for (std::size_t e = 0; e < wrong.size(); ++e)
-                    score[t * wrong.size() + e] +=
-                        log_of((1 - wrong[e]) * said.evidence[t] + wrong[e] * said.evidence_alone);
-        }
-        const double best = *std::max_element(score.begin(), score.end());
-        const Density own = likelihood(data.trials[cell], data.collapses[cell]);
-        Density density{};
-        double alone = 0;
-        const Neighbours& said = neighbours_[cell];
-        for (std::size_t t = 0; t < count; ++t) {
-            double weight = 0;
-            for (std::size_t e = 0; e < wrong.size(); ++e) {
-                const double w = exp_of(std::max(score[t * wrong.size() + e] - best, -700.0));
-                weight += w * (1 - wrong[e]);
-                alone += w * wrong[e];
-            }
-            if (weight > 1e-9)
-                visit_normal(said.mean[t], said.variance[t],
-                             [&](std::size_t i, double d) { density[i] += weight * d * own[i]; });
-        }
-        double together = 0;
-        for (std::size_t i = 0; i < points; ++i)
-            together += density[i];
-        double apart = 0;
-        for (std::size_t i = 0; i < points; ++i) {
-            const double d = alone * grid().alone[i] * own[i];
-            apart += d;
-            density[i] += d;
-        }
-        const double sum = together + apart;
-        SurfaceEstimate& estimate = estimates[cell];
-        double mean = 0;
-        for (std::size_t i = 0; i < points; ++i)
-            mean += grid().p[i] * density[i];
-        estimate.probability = mean / sum;
-        estimate.believed = together > apart;
-        estimate.interval.lower = data.collapses[cell] == 0 ? 0 : probability_of(quantile_of(density, sum, tail));
-        estimate.interval.upper =
-            data.collapses[cell] == data.trials[cell] ? 1 : probability_of(quantile_of(density, sum, 1 - tail));
-    });
+    tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t cell) { estimates[cell] = combined(cell, data); });
     return estimates;
 }
 

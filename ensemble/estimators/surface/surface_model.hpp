@@ -73,6 +73,11 @@ private:
         std::vector<double> evidence; ///< of the cell's trials under N(m_t, v_t) (settings)
         double evidence_alone = 0;    ///< and under B
     };
+    /// Computes again what the trials of a cell and of its window have changed.
+    void update(std::size_t cell, const SurfaceTrials& data, bool same_grid);
+    /// The interval of a cell: its own trials under the prior of its neighbours.
+    SurfaceEstimate combined(std::size_t cell, const SurfaceTrials& data) const;
+
     double level_;
     SurfaceTrials last_;
     std::vector<Neighbours> neighbours_; ///< by cell, of `last_`

@@ -66,6 +66,95 @@ void set_probabilities(std::vector<JudgedCause>& judged, const DecisionRule& rul
         j.probability = j.considered ? 0.97 * std::exp(std::min(j.surprise, most_surprise) - first) / sum : 0;
 }
 
+/// What the direct tests of base and sensors found is named (rule 1).
+std::vector<JudgedCause> named_directly(const DirectResult& direct)
+{
+    std::vector<JudgedCause> named;
+    for (const CauseFit& fit : direct.found) {
+        JudgedCause j;
+        j.fit = fit;
+        j.channel = Channel::direct;
+        j.considered = true;
+        j.surprise = fit.gain;
+        j.chance = 0;
+        j.probability = direct_probability;
+        named.push_back(std::move(j));
+    }
+    return named;
+}
+
+/// A wedge or an offset seen at rest explains what it makes of the motion.
+bool known_at_rest(const DirectResult& direct, const JudgedCause& j)
+{
+    return std::any_of(direct.found.begin(), direct.found.end(), [&](const CauseFit& fit) {
+        const std::string& m = fit.cause.mechanism;
+        return (m == "wedge" || m == "drum_offset") &&
+               (j.fit.cause.mechanism == "eccentricity" || j.fit.cause.mechanism == "corner_loss");
+    });
+}
+
+/// The most surprising one considered whose mechanism is not named yet; null: none.
+const JudgedCause* next_named(const std::vector<JudgedCause>& list, const DirectResult& direct,
+                              const std::vector<JudgedCause>& named)
+{
+    for (const JudgedCause& j : list) {
+        if (!j.considered || known_at_rest(direct, j))
+            continue;
+        if (std::none_of(named.begin(), named.end(),
+                         [&](const JudgedCause& other) { return other.fit.cause.mechanism == j.fit.cause.mechanism; }))
+            return &j;
+    }
+    return nullptr;
+}
+
+/// Rules 3 and 4. @return what the named ones explain by the balance of forces [nats]
+double name_causes(const DirectResult& direct, const std::vector<JudgedCause>& judged, const DecisionRule& rule,
+                   const std::function<std::vector<JudgedCause>(const JudgedCause&)>& again, Decided& out)
+{
+    const JudgedCause* first = next_named(judged, direct, out.named);
+    if (first == nullptr)
+        return 0;
+    for (const JudgedCause& j : judged)
+        if (j.considered && j.fit.cause.mechanism != first->fit.cause.mechanism &&
+            j.surprise > first->surprise - rule.apart && !known_at_rest(direct, j))
+            out.in_set.push_back(j);
+    out.named.push_back(*first);
+    double explained = first->channel == Channel::balance ? first->fit.gain : 0;
+    const std::vector<JudgedCause> rest = again(*first);
+    if (const JudgedCause* second = next_named(rest, direct, out.named)) {
+        // what is in the first one's set already is no second cause unless it stands by itself
+        out.named.push_back(*second);
+        explained += second->channel == Channel::balance ? second->fit.gain : 0;
+        std::erase_if(out.in_set,
+                      [&](const JudgedCause& j) { return j.fit.cause.mechanism == second->fit.cause.mechanism; });
+    }
+    return explained;
+}
+
+/// Rule 5: forces of no known kind.
+/// @param explained by what is named [nats]
+void find_unexplained(const BalanceEvidence& balance, const ChanceGains& chance, const DecisionRule& rule,
+                      double explained, Decided& out)
+{
+    if (balance.structures.empty())
+        return;
+    const double chance95 = chance.quantile95_of_structures();
+    const StructureFit& best = balance.structures.front();
+    const double left =
+        best.gain_by_run.empty() ? 0 : best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end());
+    const bool clear = best.gain > chance95 + rule.structure_clear && best.gain_by_run.size() > 1 &&
+                       (left > rule.without_best * best.gain || left > chance95 + rule.clear);
+    double listed = explained;
+    for (const CauseFit& fit : balance.causes)
+        listed = std::max(listed, fit.gain);
+    if (clear && best.gain > listed + rule.structure_better) {
+        out.unexplained = best;
+        out.unexplained_chance = chance.probability_of_structure(best.gain);
+        std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
+        out.in_set.clear();
+    }
+}
+
 } // namespace
 
 bool matters(const CauseFit& fit)
@@ -108,79 +197,10 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
                const std::function<std::vector<JudgedCause>(const JudgedCause&)>& again)
 {
     Decided out;
-    for (const CauseFit& fit : direct.found) {
-        JudgedCause j;
-        j.fit = fit;
-        j.channel = Channel::direct;
-        j.considered = true;
-        j.surprise = fit.gain;
-        j.chance = 0;
-        j.probability = direct_probability;
-        out.named.push_back(std::move(j));
-    }
-    // a wedge or an offset seen at rest explains what it makes of the motion
-    const auto known = [&](const JudgedCause& j) {
-        return std::any_of(direct.found.begin(), direct.found.end(), [&](const CauseFit& fit) {
-            const std::string& m = fit.cause.mechanism;
-            return (m == "wedge" || m == "drum_offset") &&
-                   (j.fit.cause.mechanism == "eccentricity" || j.fit.cause.mechanism == "corner_loss");
-        });
-    };
-    const auto take = [&](std::vector<JudgedCause>& list) -> const JudgedCause* {
-        for (const JudgedCause& j : list) {
-            if (!j.considered || known(j))
-                continue;
-            const auto already = [&](const JudgedCause& other) {
-                return other.fit.cause.mechanism == j.fit.cause.mechanism;
-            };
-            if (std::any_of(out.named.begin(), out.named.end(), already))
-                continue;
-            return &j;
-        }
-        return nullptr;
-    };
-    const auto gather_set = [&](const std::vector<JudgedCause>& list, const JudgedCause& best) {
-        for (const JudgedCause& j : list)
-            if (j.considered && j.fit.cause.mechanism != best.fit.cause.mechanism &&
-                j.surprise > best.surprise - rule.apart && !known(j))
-                out.in_set.push_back(j);
-    };
-    double explained = 0;
-    if (const JudgedCause* first = take(judged)) {
-        const JudgedCause named = *first;
-        gather_set(judged, named);
-        out.named.push_back(named);
-        explained = named.channel == Channel::balance ? named.fit.gain : 0;
-        std::vector<JudgedCause> rest = again(named);
-        if (const JudgedCause* second = take(rest)) {
-            // what is in the first one's set already is no second cause unless it stands by itself
-            out.named.push_back(*second);
-            explained += second->channel == Channel::balance ? second->fit.gain : 0;
-            std::erase_if(out.in_set,
-                          [&](const JudgedCause& j) { return j.fit.cause.mechanism == second->fit.cause.mechanism; });
-        }
-    }
+    out.named = named_directly(direct);
+    const double explained = name_causes(direct, judged, rule, again, out);
     out.judged = std::move(judged);
-
-    // 5: forces of no known kind
-    const double chance95 = chance.quantile95_of_structures();
-    if (!balance.structures.empty()) {
-        const StructureFit& best = balance.structures.front();
-        const double left = best.gain_by_run.empty()
-                                ? 0
-                                : best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end());
-        const bool clear = best.gain > chance95 + rule.structure_clear && best.gain_by_run.size() > 1 &&
-                           (left > rule.without_best * best.gain || left > chance95 + rule.clear);
-        double listed = explained;
-        for (const CauseFit& fit : balance.causes)
-            listed = std::max(listed, fit.gain);
-        if (clear && best.gain > listed + rule.structure_better) {
-            out.unexplained = best;
-            out.unexplained_chance = chance.probability_of_structure(best.gain);
-            std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
-            out.in_set.clear();
-        }
-    }
+    find_unexplained(balance, chance, rule, explained, out);
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;
     // Most probable first. The second cause of the joints was judged with the first one given, among fewer rivals: it
     // is no surer than that.

@@ -3,15 +3,12 @@
 #include "ensemble/numerics/random.hpp"
 #include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/virtual_campaign.hpp"
-#include "studies/diagnosis/decision/window_evidence.hpp"
-#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -144,23 +141,65 @@ std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named)
     return causes;
 }
 
-std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
-                                         const std::vector<JudgedCause>& named, std::uint64_t seed,
-                                         const RunOptions& options, SimulationCount& count, Observer& observer)
+namespace {
+
+/// Runs to size the causes by and runs to predict: the motions by turns, in the order of their numbers.
+struct Halves {
+    std::vector<std::size_t> used, left;
+};
+
+/// Nothing where all runs have one motion.
+std::optional<Halves> halves_of(const Campaign& campaign)
 {
     std::set<int> motions;
     for (const MeasuredRun& run : campaign.runs)
         motions.insert(run.motion_id);
-    if (motions.size() < 2 || named.empty())
+    if (motions.size() < 2)
         return std::nullopt;
-    std::vector<std::size_t> used, left;
+    Halves halves;
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const auto at = std::distance(motions.begin(), motions.find(campaign.runs[r].motion_id));
-        (at % 2 == 1 ? left : used).push_back(r);
+        (at % 2 == 1 ? halves.left : halves.used).push_back(r);
     }
-    // sizes by the motions that are used
-    const Campaign training = of_runs(campaign, used);
-    const DirectResult direct = direct_tests(training, scales);
+    return halves;
+}
+
+/// What every simulation of a prediction needs.
+struct Simulating {
+    const Study& baseline;
+    std::uint64_t seed;
+    const RunOptions& options;
+    SimulationCount& count;
+    Observer& observer;
+
+    std::optional<Errors> errors(const Campaign& campaign, const std::vector<SizedCause>& causes) const
+    {
+        return errors_of(campaign, baseline, causes, options, count, observer);
+    }
+};
+
+/// Of the sizes that the named one lies between, the one that the windows of these runs like best; nothing if stopped.
+std::optional<double> size_by_windows(const CauseFit& fit, const Campaign& at, const Simulating& simulating)
+{
+    double best = fit.cause.neutral, least = std::numeric_limits<double>::infinity();
+    for (const double part : {0.0, 0.5, 0.75, 1.0, 1.33}) {
+        const double size = fit.cause.neutral + part * (fit.size - fit.cause.neutral);
+        const auto errors = simulating.errors(at, {{fit.cause, size}});
+        if (!errors)
+            return std::nullopt;
+        if (errors->rms() < least) {
+            least = errors->rms();
+            best = size;
+        }
+    }
+    return best;
+}
+
+/// The named causes with the sizes that these runs alone give them; nothing if stopped.
+std::optional<std::vector<JudgedCause>> sized_by(const Campaign& training, const DirectResult& direct,
+                                                 const TrackScales& scales, const std::vector<JudgedCause>& named,
+                                                 const Simulating& simulating)
+{
     const BalanceEvidence balance = balance_evidence(training, scales, direct.base_m);
     std::vector<JudgedCause> sized = named;
     for (JudgedCause& j : sized) {
@@ -174,49 +213,29 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
             const CauseFit again = balance.fit ? balance.fit->fit(cause) : CauseFit{};
             j.fit.size = balance.fit && possible(again) ? again.size : cause.neutral;
         } else {
-            // the sizes that the named one lies between, judged by the windows of these runs
-            const Campaign at = corrected(training, direct);
-            double best = cause.neutral, least = std::numeric_limits<double>::infinity();
-            for (const double part : {0.0, 0.5, 0.75, 1.0, 1.33}) {
-                const double size = cause.neutral + part * (j.fit.size - cause.neutral);
-                const auto errors = errors_of(at, baseline, {{cause, size}}, options, count, observer);
-                if (!errors)
-                    return std::nullopt;
-                if (errors->rms() < least) {
-                    least = errors->rms();
-                    best = size;
-                }
-            }
-            j.fit.size = best;
+            const std::optional<double> size = size_by_windows(j.fit, corrected(training, direct), simulating);
+            if (!size)
+                return std::nullopt;
+            j.fit.size = *size;
         }
     }
-    // the base of the runs left out, corrected by what the others showed
-    const Campaign rest = of_runs(campaign, left);
-    DirectResult applied = apply_corrections(rest, scales, direct);
-    const auto before = errors_of(rest, baseline, {}, options, count, observer);
-    const auto after = errors_of(corrected(rest, applied), baseline, model_causes(sized), options, count, observer);
-    if (!before || !after)
-        return std::nullopt;
-    ModelGain gain;
-    for (const std::size_t r : left)
-        gain.runs_left_out.push_back(campaign.runs[r].name);
-    if (before->rms() == 0) {
-        gain.text = "The held-out runs have no windows that could be predicted.";
-        return gain;
-    }
-    gain.error_before = 1;
-    gain.error_after = after->rms() / before->rms();
-    // drawn anew: runs
+    return sized;
+}
+
+/// 95 % interval of the ratio of errors, runs drawn anew; nothing where too few draws have any error.
+void resample_runs(const Errors& before, const Errors& after, std::uint64_t seed, ModelGain& gain)
+{
+    const std::size_t runs = before.squares.size();
     std::vector<double> ratios;
     for (std::uint64_t k = 0; k < resamples; ++k) {
         double sb = 0, nb = 0, sa = 0, na = 0;
-        for (std::size_t i = 0; i < left.size(); ++i) {
+        for (std::size_t i = 0; i < runs; ++i) {
             const auto r =
-                static_cast<std::size_t>(uniform01(seed, k, Stream::bootstrap, i) * static_cast<double>(left.size()));
-            sb += before->squares[r];
-            nb += before->counts[r];
-            sa += after->squares[r];
-            na += after->counts[r];
+                static_cast<std::size_t>(uniform01(seed, k, Stream::bootstrap, i) * static_cast<double>(runs));
+            sb += before.squares[r];
+            nb += before.counts[r];
+            sa += after.squares[r];
+            na += after.counts[r];
         }
         if (nb > 0 && na > 0 && sb > 0)
             ratios.push_back(std::sqrt(sa / na / (sb / nb)));
@@ -226,188 +245,89 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
         gain.low = ratios[static_cast<std::size_t>(0.025 * static_cast<double>(ratios.size()))];
         gain.high = ratios[static_cast<std::size_t>(0.975 * static_cast<double>(ratios.size()))];
     }
-    if (const MaybeReal floor = repeat_floor(campaign, left))
-        gain.floor = *floor / before->rms();
-    gain.text = fmt::format(
-        "Error of free windows over noise and a lag of the local motion, root mean square with residuals limited to "
-        "{:g}: {:.2f} before, {:.2f} after. Fitted to {} runs, tested on {} runs of other motions.",
-        most_residual, before->rms(), after->rms(), used.size(), left.size());
-
-    // which of them fall
-    const bool told =
-        std::all_of(left.begin(), left.end(), [&](std::size_t r) { return campaign.runs[r].collapsed.has_value(); });
-    if (told) {
-        CollapsePrediction collapse;
-        HealthyScatter scatter;
-        scatter.contacts = false;
-        const auto shares = [&](const Campaign& of, const std::vector<SizedCause>& causes) {
-            std::vector<double> share(of.runs.size(), 0);
-            const VirtualCampaigns made =
-                virtual_campaigns(of, baseline, seed, 0, collapse_ensemble, scatter, causes, options, observer);
-            count.simulations += made.simulations;
-            count.block_steps += made.block_steps;
-            for (const Campaign& c : made.campaigns)
-                for (std::size_t r = 0; r < c.runs.size(); ++r)
-                    share[r] += c.runs[r].collapsed.value_or(false) / static_cast<double>(collapse_ensemble);
-            return share;
-        };
-        const std::vector<double> p0 = shares(rest, {}), p1 = shares(corrected(rest, applied), model_causes(sized));
-        double b0 = 0, b1 = 0;
-        for (std::size_t r = 0; r < rest.runs.size(); ++r) {
-            const double fell = *rest.runs[r].collapsed;
-            b0 += std::pow(p0[r] - fell, 2) / static_cast<double>(rest.runs.size());
-            b1 += std::pow(p1[r] - fell, 2) / static_cast<double>(rest.runs.size());
-            collapse.right_before += (p0[r] > 0.5) == (fell > 0.5);
-            collapse.right_after += (p1[r] > 0.5) == (fell > 0.5);
-        }
-        collapse.runs = rest.runs.size();
-        collapse.score_before = b0;
-        collapse.score_after = b1;
-        collapse.text =
-            fmt::format("From {} simulations of each whole run, with the scatter of specimens and their placement.",
-                        collapse_ensemble);
-        gain.collapse = collapse;
-    }
-    return gain;
 }
 
-namespace {
-
-struct ProposedMotion {
-    std::string text;
-    double frequency_hz, amplitude_m_s2;
-    int cycles;
-};
-
-/// What a run ended with, as numbers: slip of every joint, and how far every joint opened.
-std::vector<double> outcome_of(const Specimen& s, const MeasuredRun& run)
+/// (runs) the share of simulations that collapse.
+std::vector<double> collapse_shares(const Campaign& of, const std::vector<SizedCause>& causes, const Simulating& s)
 {
-    const std::size_t n = s.half_width_m.size(), rows = run.blocks.x_m.values.size() / n;
-    std::vector<double> out;
-    std::size_t last = rows;
-    while (last > 0 && !std::isfinite(run.blocks.x_m.values[(last - 1) * n]))
-        --last;
-    for (const auto& [lower, upper] : s.joints) {
-        const auto u = static_cast<std::size_t>(upper);
-        const int base = lower; // clang 14 captures no structured binding
-        const auto apart = [&](std::size_t i, const Series& series) {
-            const double low = base < 0 ? 0 : series.values[i * n + static_cast<std::size_t>(base)];
-            return series.values[i * n + u] - low;
-        };
-        double open = 0;
-        for (std::size_t i = 0; i < last; ++i)
-            open = std::max(open, std::fabs(apart(i, run.blocks.theta_rad)));
-        out.push_back(last > 0 && lower >= 0 ? apart(last - 1, run.blocks.x_m) - apart(0, run.blocks.x_m) : 0);
-        out.push_back(open);
+    HealthyScatter scatter;
+    scatter.contacts = false;
+    std::vector<double> share(of.runs.size(), 0);
+    const VirtualCampaigns made =
+        virtual_campaigns(of, s.baseline, s.seed, 0, collapse_ensemble, scatter, causes, s.options, s.observer);
+    s.count.simulations += made.simulations;
+    s.count.block_steps += made.block_steps;
+    for (const Campaign& c : made.campaigns)
+        for (std::size_t r = 0; r < c.runs.size(); ++r)
+            share[r] += c.runs[r].collapsed.value_or(false) / static_cast<double>(collapse_ensemble);
+    return share;
+}
+
+/// Which of the runs left out fall. @pre all of them say whether they did
+CollapsePrediction predict_collapse(const Campaign& rest, const Campaign& rest_corrected,
+                                    const std::vector<SizedCause>& causes, const Simulating& simulating)
+{
+    CollapsePrediction collapse;
+    const std::vector<double> p0 = collapse_shares(rest, {}, simulating),
+                              p1 = collapse_shares(rest_corrected, causes, simulating);
+    double b0 = 0, b1 = 0;
+    for (std::size_t r = 0; r < rest.runs.size(); ++r) {
+        const double fell = *rest.runs[r].collapsed;
+        b0 += std::pow(p0[r] - fell, 2) / static_cast<double>(rest.runs.size());
+        b1 += std::pow(p1[r] - fell, 2) / static_cast<double>(rest.runs.size());
+        collapse.right_before += (p0[r] > 0.5) == (fell > 0.5);
+        collapse.right_after += (p1[r] > 0.5) == (fell > 0.5);
     }
-    out.push_back(run.collapsed.value_or(false));
-    return out;
+    collapse.runs = rest.runs.size();
+    collapse.score_before = b0;
+    collapse.score_after = b1;
+    collapse.text = fmt::format(
+        "From {} simulations of each whole run, with the scatter of specimens and their placement.", collapse_ensemble);
+    return collapse;
 }
 
 } // namespace
 
-std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
-                                  const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
-                                  SimulationCount& count, Observer& observer)
+std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+                                         const std::vector<JudgedCause>& named, std::uint64_t seed,
+                                         const RunOptions& options, SimulationCount& count, Observer& observer)
 {
-    std::vector<SizedCause> rivals = model_causes(causes);
-    if (rivals.size() < 2)
+    const std::optional<Halves> halves = halves_of(campaign);
+    if (!halves || named.empty())
         return std::nullopt;
-    rivals.resize(2);
-    const Specimen& s = campaign.specimen;
-    double width = std::numeric_limits<double>::infinity();
-    for (const double b : s.half_width_m)
-        width = std::min(width, b);
-    const double height = scales.time_s * scales.time_s * s.gravity_m_s2;
-    const double starts = s.gravity_m_s2 * std::min(s.friction_nominal.value_or(0.6), 2 * width / height);
-    std::vector<ProposedMotion> motions;
-    for (const double pace : {0.25, 0.5, 1.0})
-        for (const double over : {0.85, 1.3, 1.8}) {
-            ProposedMotion m{"", pace / scales.time_s, over * starts, 8};
-            m.text = fmt::format("harmonic, {:.3g} Hz, {:.3g} m/s2, 8 cycles with smooth ends", m.frequency_hz,
-                                 m.amplitude_m_s2);
-            motions.push_back(m);
-        }
-    Campaign proposed = campaign;
-    proposed.runs.clear();
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-        const ProposedMotion& m = motions[k];
-        MeasuredRun run;
-        run.name = fmt::format("{:03}", k);
-        run.motion_id = static_cast<int>(k);
-        const double omega = 2 * std::numbers::pi * m.frequency_hz, length = m.cycles / m.frequency_hz;
-        const auto n = static_cast<std::size_t>((length + 2 * scales.time_s) / scales.spacing_s);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double t = scales.spacing_s * static_cast<double>(i);
-            const double edge = std::clamp(std::min(t, length - t) * m.frequency_hz / 2, 0.0, 1.0);
-            const double ramp = edge * edge * edge * (10 + edge * (6 * edge - 15));
-            run.time_s.push_back(t);
-            run.base_displacement_m.values.push_back(
-                t < length ? m.amplitude_m_s2 / (omega * omega) * ramp * std::sin(omega * t) : 0);
-        }
-        run.base_displacement_m.noise_sd = 1e-7;
-        run.blocks.x_m = {std::vector<double>(n * s.half_width_m.size(), 0.0), scales.noise_m};
-        run.blocks.y_m = run.blocks.x_m;
-        run.blocks.theta_rad = {run.blocks.x_m.values, scales.noise_rad};
-        proposed.runs.push_back(std::move(run));
+    const Simulating simulating{baseline, seed, options, count, observer};
+    const Campaign training = of_runs(campaign, halves->used), rest = of_runs(campaign, halves->left);
+    const DirectResult direct = direct_tests(training, scales);
+    const std::optional<std::vector<JudgedCause>> sized = sized_by(training, direct, scales, named, simulating);
+    if (!sized)
+        return std::nullopt;
+    // the base of the runs left out, corrected by what the others showed
+    const Campaign rest_corrected = corrected(rest, apply_corrections(rest, scales, direct));
+    const std::vector<SizedCause> causes = model_causes(*sized);
+    const auto before = simulating.errors(rest, {});
+    const auto after = simulating.errors(rest_corrected, causes);
+    if (!before || !after)
+        return std::nullopt;
+    ModelGain gain;
+    for (const MeasuredRun& run : rest.runs)
+        gain.runs_left_out.push_back(run.name);
+    if (before->rms() == 0) {
+        gain.text = "The held-out runs have no windows that could be predicted.";
+        return gain;
     }
-    HealthyScatter scatter;
-    scatter.contacts = false;
-    constexpr std::uint64_t campaigns = 12;
-    std::vector<std::vector<std::vector<double>>> mean(2), spread(2); // [rival][motion][outcome]
-    for (std::size_t rival = 0; rival < 2; ++rival) {
-        const VirtualCampaigns made =
-            virtual_campaigns(proposed, baseline, seed, 0, campaigns, scatter, {rivals[rival]}, options, observer);
-        count.simulations += made.simulations;
-        count.block_steps += made.block_steps;
-        if (!made.complete)
-            return std::nullopt;
-        for (std::size_t k = 0; k < motions.size(); ++k) {
-            std::vector<double> sum, square;
-            for (const Campaign& c : made.campaigns) {
-                const std::vector<double> o = outcome_of(s, c.runs[k]);
-                sum.resize(o.size(), 0);
-                square.resize(o.size(), 0);
-                for (std::size_t f = 0; f < o.size(); ++f) {
-                    sum[f] += o[f] / campaigns;
-                    square[f] += o[f] * o[f] / campaigns;
-                }
-            }
-            for (std::size_t f = 0; f < sum.size(); ++f)
-                square[f] = std::max(0.0, square[f] - sum[f] * sum[f]);
-            mean[rival].push_back(sum);
-            spread[rival].push_back(square);
-        }
-    }
-    NextTest test;
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-        double separation = 0;
-        for (std::size_t f = 0; f < mean[0][k].size(); ++f) {
-            const bool collapse = f + 1 == mean[0][k].size();
-            const double noise = collapse ? 0.1 : f % 2 == 0 ? scales.noise_m : scales.noise_rad;
-            const double sd = std::sqrt((spread[0][k][f] + spread[1][k][f]) / 2 + noise * noise);
-            separation = std::max(separation, std::fabs(mean[0][k][f] - mean[1][k][f]) / sd);
-        }
-        MotionChoice choice;
-        choice.motion = motions[k].text;
-        choice.separation = separation;
-        const double falls = std::max(mean[0][k].back(), mean[1][k].back());
-        if (falls > 0)
-            choice.text = fmt::format("falls in {:.0f} % of the simulations", 100 * falls);
-        test.motions.push_back(choice);
-    }
-    std::stable_sort(test.motions.begin(), test.motions.end(),
-                     [](const MotionChoice& a, const MotionChoice& b) { return *a.separation > *b.separation; });
-    test.excitation = test.motions.front().motion;
-    test.separates = {rivals[0].cause.mechanism, rivals[1].cause.mechanism};
-    const auto named_place = [&](std::size_t k) {
-        return rivals[k].cause.mechanism + " " + place_words(rivals[k].cause.place);
-    };
-    test.text =
-        fmt::format("Of {} motions, {} simulations each, it best separates {} from {}: by {:.1f} standard deviations "
-                    "of slip, rocking or collapse.",
-                    motions.size(), campaigns, named_place(0), named_place(1), *test.motions.front().separation);
-    return test;
+    gain.error_before = 1;
+    gain.error_after = after->rms() / before->rms();
+    resample_runs(*before, *after, seed, gain);
+    if (const MaybeReal floor = repeat_floor(campaign, halves->left))
+        gain.floor = *floor / before->rms();
+    gain.text = fmt::format(
+        "Error of free windows over noise and a lag of the local motion, root mean square with residuals limited to "
+        "{:g}: {:.2f} before, {:.2f} after. Fitted to {} runs, tested on {} runs of other motions.",
+        most_residual, before->rms(), after->rms(), halves->used.size(), halves->left.size());
+    if (std::all_of(rest.runs.begin(), rest.runs.end(),
+                    [](const MeasuredRun& run) { return run.collapsed.has_value(); }))
+        gain.collapse = predict_collapse(rest, rest_corrected, causes, simulating);
+    return gain;
 }
 
 } // namespace stylobate

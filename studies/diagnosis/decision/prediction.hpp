@@ -1,6 +1,5 @@
 #pragma once
-/// What naming a cause is worth: predictions of runs that were not used to size it, with and without it; and the test
-/// that would distinguish the remaining causes.
+/// What naming a cause is worth: predictions of runs that were not used to size it, with and without it.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
@@ -33,10 +32,5 @@ struct SimulationCount {
 std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
                                          const std::vector<JudgedCause>& named, std::uint64_t seed,
                                          const RunOptions& options, SimulationCount& count, Observer& observer);
-
-/// Of a few motions that a table can make, the one whose outcome separates these causes best.
-std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
-                                  const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
-                                  SimulationCount& count, Observer& observer);
 
 } // namespace stylobate

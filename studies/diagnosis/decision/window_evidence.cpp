@@ -141,6 +141,217 @@ void size_of(const std::map<double, double>& score, CauseFit& fit)
     fit.sd = std::max(fit.sd, widest / 4);
 }
 
+/// Contacts of a baseline, as factors on those of the study that the search begins with.
+struct Contacts {
+    FormName form;
+    double stiffness, damping, friction;
+};
+
+/// The baseline gets a search of its own: form, stiffness and damping first, then each contact form's best once more
+/// about its values, friction included.
+class ContactSearch {
+public:
+    ContactSearch(Windows& windows, const Study& start) : windows_(windows), start_(start) {}
+
+    /// @return false if the observer stopped it
+    bool run()
+    {
+        std::vector<Contacts> contacts;
+        for (const FormName& form : forms)
+            for (const double stiffness : {0.1, 0.3, 1.0})
+                for (const double damping : {0.1, 0.4})
+                    contacts.push_back({form, stiffness, damping, 1});
+        return score(contacts) && score(about_the_best(1)) && score(about_the_best(0.5));
+    }
+
+    /// The best of each form, best first.
+    std::vector<WindowBaseline> baselines() const
+    {
+        std::vector<WindowBaseline> found;
+        for (const Tried& t : best_)
+            found.push_back({fmt::format("{}, K_N x {:.3g}, damping {:.3g}, friction x {:.3g}", t.contacts.form.name,
+                                         t.contacts.stiffness, t.contacts.damping, t.contacts.friction),
+                             study_of(t.contacts), t.score});
+        std::sort(found.begin(), found.end(),
+                  [](const WindowBaseline& a, const WindowBaseline& b) { return a.score > b.score; });
+        return found;
+    }
+
+private:
+    struct Tried {
+        Contacts contacts;
+        double score = -std::numeric_limits<double>::infinity();
+    };
+
+    Study study_of(const Contacts& c) const
+    {
+        return with_contacts(start_, c.form.form, c.stiffness, c.damping, c.friction);
+    }
+
+    bool score(const std::vector<Contacts>& list)
+    {
+        std::vector<ModelVariant> variants;
+        for (const Contacts& c : list)
+            variants.push_back(windows_.variant(study_of(c), nullptr));
+        const std::vector<std::vector<double>> scores = windows_.scores(variants, false);
+        for (std::size_t k = 0; k < scores.size(); ++k) {
+            Tried& form = best_[static_cast<std::size_t>(list[k].form.form)];
+            if (sum(scores[k]) > form.score)
+                form = {list[k], sum(scores[k])};
+        }
+        return !scores.empty();
+    }
+
+    std::vector<Contacts> about_the_best(double step) const
+    {
+        std::vector<Contacts> contacts;
+        for (const Tried& t : best_) {
+            const Contacts& c = t.contacts;
+            for (const double by : {std::pow(1.8, step), std::pow(1.8, -step)}) {
+                contacts.push_back({c.form, c.stiffness * by, c.damping, c.friction});
+                contacts.push_back({c.form, c.stiffness, std::min(c.damping * by, 1.0), c.friction});
+            }
+            for (const double by : {1 - 0.06 * step, 1 + 0.06 * step})
+                contacts.push_back({c.form, c.stiffness, c.damping, c.friction * by});
+        }
+        return contacts;
+    }
+
+    Windows& windows_;
+    const Study& start_;
+    Tried best_[std::size(forms)];
+};
+
+/// Every cause, beside the two best contact forms: what it gains is what both of them grant it.
+class CauseSearch {
+public:
+    CauseSearch(Windows& windows, const Campaign& campaign, const std::vector<WindowBaseline>& baselines)
+        : windows_(windows), runs_(campaign.runs.size()), baselines_(baselines),
+          judges_(std::min<std::size_t>(judging_forms, baselines.size()))
+    {
+    }
+
+    /// @return false if the observer stopped it
+    bool run(const std::vector<TriedCause>& causes) { return try_listed_sizes(causes) && refine_the_best(); }
+
+    /// One for each mechanism and place, the best first.
+    void report(WindowEvidence& out)
+    {
+        std::stable_sort(found_.begin(), found_.end(),
+                         [](const Found& a, const Found& b) { return a.fit.gain > b.fit.gain; });
+        for (Found& f : found_) {
+            if (f.fit.gain > 0)
+                size_of(f.gain, f.fit);
+            if (std::any_of(out.causes.begin(), out.causes.end(), [&](const CauseFit& other) {
+                    return other.cause.mechanism == f.fit.cause.mechanism && other.cause.place == f.fit.cause.place;
+                }))
+                continue;
+            out.causes.push_back(f.fit);
+            out.gain_by_form.push_back(f.by_form);
+        }
+    }
+
+private:
+    struct Found {
+        CauseFit fit;
+        std::map<double, double> gain; ///< by size
+        std::vector<double> by_form;   ///< (judges) at the best size
+    };
+
+    bool try_listed_sizes(const std::vector<TriedCause>& causes)
+    {
+        std::vector<SizedCause> list;
+        for (const TriedCause& t : causes)
+            for (const double size : t.sizes)
+                list.push_back({t.cause, size});
+        if (!score(list))
+            return false;
+        std::size_t next = 0;
+        for (const TriedCause& t : causes) {
+            Found f;
+            f.fit.cause = t.cause;
+            f.fit.size = t.cause.neutral;
+            f.fit.gain_by_run.assign(runs_, 0);
+            f.by_form.assign(judges_, 0);
+            f.gain[t.cause.neutral] = 0;
+            for (const double size : t.sizes)
+                take(f, size, next++, list.size());
+            found_.push_back(std::move(f));
+        }
+        return true;
+    }
+
+    /// Sizes between the best one and its neighbours, of the causes that gain most.
+    bool refine_the_best()
+    {
+        std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) { return a.fit.gain > b.fit.gain; });
+        std::vector<SizedCause> list;
+        std::vector<std::size_t> of;
+        for (std::size_t f = 0; f < found_.size() && f < refined && found_[f].fit.gain > 0; ++f) {
+            const std::map<double, double>& gain = found_[f].gain;
+            const auto top = std::max_element(gain.begin(), gain.end(),
+                                              [](const auto& a, const auto& b) { return a.second < b.second; });
+            for (const auto other : {top == gain.begin() ? top : std::prev(top), std::next(top)})
+                if (other != gain.end() && other != top) {
+                    list.push_back({found_[f].fit.cause, (top->first + other->first) / 2});
+                    of.push_back(f);
+                }
+        }
+        if (list.empty())
+            return true;
+        if (!score(list))
+            return false;
+        for (std::size_t i = 0; i < list.size(); ++i)
+            take(found_[of[i]], list[i].size, i, list.size());
+        return true;
+    }
+
+    /// Scores of (judges x (baseline, then the list)).
+    bool score(const std::vector<SizedCause>& list)
+    {
+        std::vector<ModelVariant> variants;
+        for (std::size_t f = 0; f < judges_; ++f) {
+            variants.push_back(windows_.variant(baselines_[f].study, nullptr));
+            for (const SizedCause& cause : list)
+                variants.push_back(windows_.variant(baselines_[f].study, &cause));
+        }
+        scores_ = windows_.scores(variants, true);
+        return !scores_.empty();
+    }
+
+    /// What the k-th of the list gains, by the form that grants it least.
+    void take(Found& f, double size, std::size_t k, std::size_t listed)
+    {
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t hardest = 0;
+        std::vector<double> by_form;
+        for (std::size_t j = 0; j < judges_; ++j) {
+            const std::size_t at = j * (listed + 1);
+            by_form.push_back(sum(scores_[at + 1 + k]) - sum(scores_[at]));
+            if (by_form.back() < least) {
+                least = by_form.back();
+                hardest = at;
+            }
+        }
+        f.gain[size] = least;
+        if (least <= f.fit.gain)
+            return;
+        f.fit.gain = least;
+        f.by_form = by_form;
+        f.fit.gain_by_run.assign(runs_, 0);
+        const std::vector<WindowPlace>& places = windows_.comparison().windows();
+        for (std::size_t w = 0; w < places.size(); ++w)
+            f.fit.gain_by_run[places[w].run] += scores_[hardest + 1 + k][w] - scores_[hardest][w];
+    }
+
+    Windows& windows_;
+    std::size_t runs_;
+    const std::vector<WindowBaseline>& baselines_;
+    std::size_t judges_;
+    std::vector<std::vector<double>> scores_; ///< of the last list
+    std::vector<Found> found_;
+};
+
 } // namespace
 
 std::vector<TriedCause> window_causes(const Specimen& specimen, const TrackScales& scales, double friction)
@@ -191,170 +402,21 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
         return out;
     }
     Windows few(of_first_repeats(campaign), scales, length, given, options, observer);
-    const auto count = [&] {
-        for (const Windows* w : {&few, &windows}) {
-            out.simulations += w->comparison().simulations();
-            out.window_simulations += w->comparison().window_simulations();
-            out.block_steps += w->comparison().block_steps();
-        }
-    };
-    // The baseline gets a search of its own: form, stiffness and damping first, then each contact form's best once more
-    // about its values, friction included.
-    std::vector<ModelVariant> variants;
-    std::vector<std::vector<double>> scores;
-    struct Contacts {
-        FormName form;
-        double stiffness, damping, friction;
-    };
-    struct Tried {
-        Contacts contacts;
-        double score = -std::numeric_limits<double>::infinity();
-    };
-    const auto study_of = [&](const Contacts& c) {
-        return with_contacts(start, c.form.form, c.stiffness, c.damping, c.friction);
-    };
-    Tried best[std::size(forms)];
-    const auto search = [&](const std::vector<Contacts>& list) {
-        variants.clear();
-        for (const Contacts& c : list)
-            variants.push_back(few.variant(study_of(c), nullptr));
-        scores = few.scores(variants, false);
-        for (std::size_t k = 0; k < scores.size(); ++k) {
-            Tried& form = best[static_cast<std::size_t>(list[k].form.form)];
-            if (sum(scores[k]) > form.score)
-                form = {list[k], sum(scores[k])};
-        }
-        return !scores.empty();
-    };
-    std::vector<Contacts> contacts;
-    for (const FormName& form : forms)
-        for (const double stiffness : {0.1, 0.3, 1.0})
-            for (const double damping : {0.1, 0.4})
-                contacts.push_back({form, stiffness, damping, 1});
-    if (!search(contacts))
+    ContactSearch contacts(few, start);
+    if (!contacts.run())
         return out;
-    for (const double step : {1.0, 0.5}) {
-        contacts.clear();
-        for (const Tried& t : best) {
-            const Contacts& c = t.contacts;
-            for (const double by : {std::pow(1.8, step), std::pow(1.8, -step)}) {
-                contacts.push_back({c.form, c.stiffness * by, c.damping, c.friction});
-                contacts.push_back({c.form, c.stiffness, std::min(c.damping * by, 1.0), c.friction});
-            }
-            for (const double by : {1 - 0.06 * step, 1 + 0.06 * step})
-                contacts.push_back({c.form, c.stiffness, c.damping, c.friction * by});
-        }
-        if (!search(contacts))
+    out.baselines = contacts.baselines();
+    if (judge_causes) {
+        CauseSearch causes(windows, campaign, out.baselines);
+        if (!causes.run(window_causes(campaign.specimen, scales, campaign.specimen.friction_nominal.value_or(0.7))))
             return out;
+        causes.report(out);
     }
-    for (const Tried& t : best)
-        out.baselines.push_back(
-            {fmt::format("{}, K_N x {:.3g}, damping {:.3g}, friction x {:.3g}", t.contacts.form.name,
-                         t.contacts.stiffness, t.contacts.damping, t.contacts.friction),
-             study_of(t.contacts), t.score});
-    std::sort(out.baselines.begin(), out.baselines.end(),
-              [](const WindowBaseline& a, const WindowBaseline& b) { return a.score > b.score; });
-
-    if (!judge_causes) {
-        count();
-        out.complete = true;
-        return out;
+    for (const Windows* w : {&few, &windows}) {
+        out.simulations += w->comparison().simulations();
+        out.window_simulations += w->comparison().window_simulations();
+        out.block_steps += w->comparison().block_steps();
     }
-
-    // Every cause, beside the two best contact forms: what it gains is what both of them grant it.
-    const double friction = campaign.specimen.friction_nominal.value_or(0.7);
-    const std::vector<TriedCause> causes = window_causes(campaign.specimen, scales, friction);
-    const std::size_t judges = std::min<std::size_t>(judging_forms, out.baselines.size());
-    const auto try_all = [&](const std::vector<SizedCause>& list) {
-        variants.clear();
-        for (std::size_t f = 0; f < judges; ++f) {
-            variants.push_back(windows.variant(out.baselines[f].study, nullptr));
-            for (const SizedCause& cause : list)
-                variants.push_back(windows.variant(out.baselines[f].study, &cause));
-        }
-        scores = windows.scores(variants, true);
-        return !scores.empty();
-    };
-    std::vector<SizedCause> list;
-    for (const TriedCause& t : causes)
-        for (const double size : t.sizes)
-            list.push_back({t.cause, size});
-    if (!try_all(list))
-        return out;
-    const std::vector<WindowPlace>& places = windows.comparison().windows();
-    struct Found {
-        CauseFit fit;
-        std::map<double, double> gain;
-        std::vector<double> by_form; ///< (judges) at the best size
-    };
-    std::vector<Found> found;
-    /// What the k-th of the list gains, by the form that grants it least.
-    const auto take = [&](Found& f, double size, std::size_t k, std::size_t listed) {
-        double least = std::numeric_limits<double>::infinity();
-        std::size_t hardest = 0;
-        std::vector<double> by_form;
-        for (std::size_t j = 0; j < judges; ++j) {
-            const std::size_t at = j * (listed + 1);
-            by_form.push_back(sum(scores[at + 1 + k]) - sum(scores[at]));
-            if (by_form.back() < least) {
-                least = by_form.back();
-                hardest = at;
-            }
-        }
-        f.gain[size] = least;
-        if (least <= f.fit.gain)
-            return;
-        f.fit.gain = least;
-        f.by_form = by_form;
-        f.fit.gain_by_run.assign(campaign.runs.size(), 0);
-        for (std::size_t w = 0; w < places.size(); ++w)
-            f.fit.gain_by_run[places[w].run] += scores[hardest + 1 + k][w] - scores[hardest][w];
-    };
-    std::size_t next = 0;
-    for (const TriedCause& t : causes) {
-        Found f;
-        f.fit.cause = t.cause;
-        f.fit.size = t.cause.neutral;
-        f.fit.gain_by_run.assign(campaign.runs.size(), 0);
-        f.by_form.assign(judges, 0);
-        f.gain[t.cause.neutral] = 0;
-        for (const double size : t.sizes)
-            take(f, size, next++, list.size());
-        found.push_back(std::move(f));
-    }
-    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.fit.gain > b.fit.gain; });
-    list.clear();
-    std::vector<std::size_t> of;
-    for (std::size_t f = 0; f < found.size() && f < refined && found[f].fit.gain > 0; ++f) {
-        const std::map<double, double>& gain = found[f].gain;
-        const auto top = std::max_element(gain.begin(), gain.end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; });
-        for (const auto other : {top == gain.begin() ? top : std::prev(top), std::next(top)})
-            if (other != gain.end() && other != top) {
-                list.push_back({found[f].fit.cause, (top->first + other->first) / 2});
-                of.push_back(f);
-            }
-    }
-    if (!list.empty()) {
-        if (!try_all(list))
-            return out;
-        for (std::size_t i = 0; i < list.size(); ++i)
-            take(found[of[i]], list[i].size, i, list.size());
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Found& a, const Found& b) { return a.fit.gain > b.fit.gain; });
-    for (Found& f : found) {
-        if (f.fit.gain > 0)
-            size_of(f.gain, f.fit);
-        // one for each mechanism and place
-        if (std::any_of(out.causes.begin(), out.causes.end(), [&](const CauseFit& other) {
-                return other.cause.mechanism == f.fit.cause.mechanism && other.cause.place == f.fit.cause.place;
-            }))
-            continue;
-        out.causes.push_back(f.fit);
-        out.gain_by_form.push_back(f.by_form);
-    }
-    count();
     out.complete = true;
     return out;
 }

@@ -108,82 +108,111 @@ std::string size_words(const Candidate& c)
     return c.parameter + " " + estimate_words(c.size, c.low, c.high, c.unit);
 }
 
+std::string wrong_part(const Diagnosis& d)
+{
+    if (d.wrong.empty())
+        return "";
+    return heading(d.verdict == Verdict::none ? "Errors of the baseline, largest first" : "Errors, largest first") +
+           table_of(d.wrong, {"run", "where", "coordinate", "from", "to", "excess"},
+                    [](const WrongStretch& w) {
+                        return Row{w.run,
+                                   block_words(w.block),
+                                   w.coordinate,
+                                   fmt::format("{:.2f} s", w.from_s),
+                                   fmt::format("{:.2f} s", w.to_s),
+                                   fmt::format("{:.1f}", w.excess)};
+                    }) +
+           wrapped(wrong_words(d), 2);
+}
+
+std::string candidates_part(const Diagnosis& d)
+{
+    if (d.candidates.empty())
+        return "";
+    return heading(
+               "Candidates (gain in nats over the calibrated baseline; null: 95 % quantile of the null distribution)") +
+           wrapped(nats_words() + " " + chance_words() +
+                       " prob. is the probability of being the cause, given that one of the tested candidates is.",
+                   2) +
+           table_of(d.candidates, {"mechanism", "place", "size", "gain", "by chance", "p", "prob.", "decision"},
+                    [](const Candidate& c) {
+                        const auto blank = [](const std::string& words) { return words == "not known" ? "" : words; };
+                        return Row{c.mechanism,
+                                   c.place,
+                                   size_words(c),
+                                   blank(number_words(c.gain_nats)),
+                                   blank(number_words(c.null95)),
+                                   blank(probability_words(c.p)),
+                                   blank(probability_words(c.probability)),
+                                   to_string(c.decision)};
+                    });
+}
+
+std::string unexplained_part(const Diagnosis& d)
+{
+    if (!d.unexplained)
+        return "";
+    std::string out = heading("Not explained");
+    out += wrapped(d.unexplained->text.empty() ? fmt::format("{}, {}: depends on {}", block_words(d.unexplained->block),
+                                                             d.unexplained->coordinate, d.unexplained->depends_on)
+                                               : d.unexplained->text,
+                   2);
+    return out;
+}
+
+std::string gain_part(const Diagnosis& d)
+{
+    if (!d.gain)
+        return "";
+    std::string out = heading("Gain of the extended model");
+    for (const std::string& text : {gain_words(*d.gain), collapse_words(*d.gain), d.gain->text})
+        if (!text.empty())
+            out += wrapped(text, 2);
+    return out;
+}
+
+std::string next_test_part(const Diagnosis& d)
+{
+    if (!d.next_test)
+        return "";
+    std::string out = heading("The next test") + wrapped(d.next_test->excitation, 2);
+    if (!d.next_test->separates.empty())
+        out += wrapped("It separates " + list_words(d.next_test->separates) + ".", 2);
+    if (!d.next_test->text.empty())
+        out += wrapped(d.next_test->text, 2);
+    return out;
+}
+
+std::string baseline_part(const Diagnosis& d)
+{
+    if (d.baseline.empty())
+        return "";
+    std::string out = heading("The calibrated baseline (95 % interval)");
+    std::vector<CalibratedParameter> numbers, words; // what has a value, and what is told in words alone
+    for (const CalibratedParameter& p : d.baseline)
+        (p.value ? numbers : words).push_back(p);
+    if (!numbers.empty())
+        out += table_of(numbers, {"parameter", "value", ""}, [](const CalibratedParameter& p) {
+            return Row{p.name, estimate_words(p.value, p.low, p.high, p.unit), parameter_words(p)};
+        });
+    for (const CalibratedParameter& p : words)
+        out += wrapped(p.name + ": " + (parameter_words(p).empty() ? "not known" : parameter_words(p)), 2);
+    return out;
+}
+
 } // namespace
 
 std::string diagnosis_text(const Diagnosis& d)
 {
     std::string out = fmt::format("DIAGNOSIS  {}{}\n", d.specimen.empty() ? "" : d.specimen + ", ", d.measured_file);
     out += heading("Verdict: " + verdict_heading(d)) + wrapped(verdict_words(d), 2);
-
-    if (!d.wrong.empty())
-        out += heading(d.verdict == Verdict::none ? "Errors of the baseline, largest first" : "Errors, largest first") +
-               table_of(d.wrong, {"run", "where", "coordinate", "from", "to", "excess"},
-                        [](const WrongStretch& w) {
-                            return Row{w.run,
-                                       block_words(w.block),
-                                       w.coordinate,
-                                       fmt::format("{:.2f} s", w.from_s),
-                                       fmt::format("{:.2f} s", w.to_s),
-                                       fmt::format("{:.1f}", w.excess)};
-                        }) +
-               wrapped(wrong_words(d), 2);
-    if (!d.candidates.empty())
-        out +=
-            heading("Candidates (gain in nats over the calibrated baseline; null: 95 % quantile of the null "
-                    "distribution)") +
-            wrapped(nats_words() + " " + chance_words() +
-                        " prob. is the probability of being the cause, given that one of the tested candidates is.",
-                    2) +
-            table_of(d.candidates, {"mechanism", "place", "size", "gain", "by chance", "p", "prob.", "decision"},
-                     [](const Candidate& c) {
-                         const auto blank = [](const std::string& words) { return words == "not known" ? "" : words; };
-                         return Row{c.mechanism,
-                                    c.place,
-                                    size_words(c),
-                                    blank(number_words(c.gain_nats)),
-                                    blank(number_words(c.null95)),
-                                    blank(probability_words(c.p)),
-                                    blank(probability_words(c.probability)),
-                                    to_string(c.decision)};
-                     });
+    out += wrong_part(d) + candidates_part(d);
     if (d.indistinguishable.size() > 1)
         out += wrapped("Not distinguished by these data: " + list_words(d.indistinguishable) + ".", 2);
-    if (d.unexplained) {
-        out += heading("Not explained");
-        out += wrapped(d.unexplained->text.empty()
-                           ? fmt::format("{}, {}: depends on {}", block_words(d.unexplained->block),
-                                         d.unexplained->coordinate, d.unexplained->depends_on)
-                           : d.unexplained->text,
-                       2);
-    }
-    if (d.gain) {
-        out += heading("Gain of the extended model");
-        for (const std::string& text : {gain_words(*d.gain), collapse_words(*d.gain), d.gain->text})
-            if (!text.empty())
-                out += wrapped(text, 2);
-    }
+    out += unexplained_part(d) + gain_part(d);
     if (!d.extended_study_file.empty())
         out += wrapped("The extended study: " + d.extended_study_file, 2);
-    if (d.next_test) {
-        out += heading("The next test") + wrapped(d.next_test->excitation, 2);
-        if (!d.next_test->separates.empty())
-            out += wrapped("It separates " + list_words(d.next_test->separates) + ".", 2);
-        if (!d.next_test->text.empty())
-            out += wrapped(d.next_test->text, 2);
-    }
-    out += data_part(d);
-    if (!d.baseline.empty()) {
-        out += heading("The calibrated baseline (95 % interval)");
-        std::vector<CalibratedParameter> numbers, words; // what has a value, and what is told in words alone
-        for (const CalibratedParameter& p : d.baseline)
-            (p.value ? numbers : words).push_back(p);
-        if (!numbers.empty())
-            out += table_of(numbers, {"parameter", "value", ""}, [](const CalibratedParameter& p) {
-                return Row{p.name, estimate_words(p.value, p.low, p.high, p.unit), parameter_words(p)};
-            });
-        for (const CalibratedParameter& p : words)
-            out += wrapped(p.name + ": " + (parameter_words(p).empty() ? "not known" : parameter_words(p)), 2);
-    }
+    out += next_test_part(d) + data_part(d) + baseline_part(d);
     if (!d.missing.empty()) {
         out += heading("Tests that were not possible");
         for (const Missing& missing : d.missing)

@@ -15,6 +15,8 @@ namespace stylobate {
 
 namespace {
 
+const std::string base_place = "base";
+
 /// A sample of a series that this run may lack: then NaN.
 double sample_of(const std::vector<double>& series, std::size_t i)
 {
@@ -122,10 +124,139 @@ void test_height(const VerticalMotion& vertical, const std::string& what, const 
                                      vertical.line_sd_m_s2, vertical.line));
 }
 
+/// Rotation of what is seen against the base's acceleration.
+struct Pitch {
+    bool seen = false;  ///< rotations were measured
+    bool found = false; ///< and they are more than noise
+    double slope = 0;   ///< [rad s2/m]
+    RideFit fit;
+};
+
+Pitch pitch_of(const Prepared& prepared, const DirectThresholds& limits)
+{
+    Pitch pitch;
+    pitch.seen =
+        std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return !r.theta.empty(); });
+    if (!pitch.seen)
+        return pitch;
+    pitch.fit = fit_over_runs(
+        prepared.rides, 1,
+        [](const Ride& r, std::size_t i) {
+            return std::pair{sample_of(r.theta, i), r.noise_theta};
+        },
+        [](const Ride& r, std::size_t i, int) { return r.acceleration[i]; });
+    pitch.slope = pitch.fit.size[0];
+    pitch.found = beyond(pitch.slope, pitch.fit.sd[0], limits.pitch_rad_s2_m, limits.sds);
+    return pitch;
+}
+
+/// The file's base motion against what is seen: x = c + gain u + (gain x offset) u' + harmonics - height x pitch
+struct BaseFit {
+    double gain = 1, gain_sd = 0;
+    double offset_s = 0, offset_sd = 0;
+    TableDistortion distortion;
+};
+
+/// @param prepared its rides are shifted by the offset
+BaseFit base_fit(const TrackScales& scales, const Pitch& pitch, Prepared& prepared)
+{
+    const auto lean = [&](const Ride& r, std::size_t i) {
+        return pitch.found ? -r.height_m * pitch.slope * r.acceleration[i] : 0;
+    };
+    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.x[i] - lean(r, i), r.noise_x}; };
+    BaseFit out;
+    // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
+    // that the linear term is all there is to it.
+    for (int i = 0; i < 4; ++i) {
+        const RideFit first = fit_rides(prepared.rides, 2, value, [](const Ride& r, std::size_t k, int which) {
+            return which == 0 ? r.base[k] : r.rate[k];
+        });
+        const double more = first.size[1] / first.size[0];
+        for (Ride& ride : prepared.rides)
+            ride.shift(more, scales);
+        out.offset_s += more;
+    }
+    // the distortion in either form; that which the data like better
+    for (Ride& ride : prepared.rides)
+        ride.omega = omega_of(ride);
+    RideFit fit;
+    for (const bool polynomial : {true, false}) {
+        const RideFit tried = fit_over_runs(
+            prepared.rides, 2 + distortion_terms(polynomial), value, [&](const Ride& r, std::size_t i, int k) {
+                return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, r.omega, i, k - 2);
+            });
+        const TableDistortion found = distortion_of(polynomial, tried);
+        if (polynomial || found.gain > out.distortion.gain) {
+            out.distortion = found;
+            fit = tried;
+        }
+    }
+    out.gain = fit.size[0];
+    out.gain_sd = fit.sd[0];
+    out.offset_sd = fit.sd[1] / out.gain;
+    out.offset_s += fit.size[1] / out.gain;
+    return out;
+}
+
+void judge_distortion(const TableDistortion& distortion, const DirectThresholds& limits, DirectResult& out)
+{
+    // what rides never reach can be fitted with anything: more than the motion itself is no distortion
+    const bool distorted =
+        std::fabs(distortion.ratio) < 1 && beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
+    out.base_tests.push_back(told("harmonic_distortion", base_place, distortion.ratio, distortion.sd, limits.distortion,
+                                  "", distorted,
+                                  fmt::format("Harmonic {} of the table's acceleration is {:.4f} of the fundamental.",
+                                              distortion.order, distortion.ratio)));
+    if (distorted) {
+        out.found.push_back(cause_of("harmonic_distortion", base_place, "ratio", "", 0, distortion.ratio, distortion.sd,
+                                     distortion.gain));
+        out.distortion = distortion;
+    }
+}
+
+void judge_pitch(const Pitch& pitch, const std::string& what, const DirectThresholds& limits, DirectResult& out)
+{
+    if (!pitch.seen) {
+        out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
+        return;
+    }
+    out.base_tests.push_back(
+        told("table_pitch", base_place, pitch.slope, pitch.fit.sd[0], limits.pitch_rad_s2_m, "rad s2/m", pitch.found,
+             fmt::format("{} rotates by {:.2e} rad for each m/s2 of the base.", what, pitch.slope)));
+    if (pitch.found)
+        out.found.push_back(cause_of("table_pitch", base_place, "rotation_rad_s2_m", "rad s2/m", 0, pitch.slope,
+                                     pitch.fit.sd[0], pitch.fit.gain[0]));
+}
+
+void judge_offset(const BaseFit& base, const std::string& what, double threshold_s, double sds, DirectResult& out)
+{
+    const bool late = beyond(base.offset_s, base.offset_sd, threshold_s, sds);
+    out.base_tests.push_back(
+        told("time_offset", base_place, base.offset_s, base.offset_sd, threshold_s, "s", late,
+             fmt::format("{} is {:.2f} ms ahead of the base motion of the file.", what, 1e3 * base.offset_s)));
+    if (!late)
+        return;
+    out.found.push_back(cause_of("time_offset", base_place, "offset_s", "s", 0, base.offset_s, base.offset_sd,
+                                 0.5 * std::pow(base.offset_s / base.offset_sd, 2)));
+    out.offset_s = base.offset_s;
+}
+
+void judge_gain(const BaseFit& base, const std::string& what, double threshold, double sds, DirectResult& out)
+{
+    const bool wrong = beyond(base.gain - 1, base.gain_sd, threshold, sds);
+    out.base_tests.push_back(
+        told("sensor_gain", base_place, base.gain, base.gain_sd, 1 + threshold, "", wrong,
+             fmt::format("{} moves {:.4f} times as far as the base motion of the file.", what, base.gain)));
+    if (!wrong)
+        return;
+    out.found.push_back(cause_of("sensor_gain", base_place, "gain", "", 1, base.gain, base.gain_sd,
+                                 0.5 * std::pow((base.gain - 1) / base.gain_sd, 2)));
+    out.gain = base.gain;
+}
+
 void test_base(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared,
                DirectResult& out)
 {
-    const std::string place = "base";
     std::size_t samples = 0;
     for (const Ride& ride : prepared.rides)
         for (const auto& [from, to] : ride.parts)
@@ -136,100 +267,14 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
                                                   "of motion are needed before rocking or sliding begins."));
         return;
     }
-    // rotation of what is seen against the base's acceleration
-    const bool turns =
-        std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return !r.theta.empty(); });
-    RideFit pitch;
-    if (turns)
-        pitch = fit_over_runs(
-            prepared.rides, 1,
-            [](const Ride& r, std::size_t i) {
-                return std::pair{sample_of(r.theta, i), r.noise_theta};
-            },
-            [](const Ride& r, std::size_t i, int) { return r.acceleration[i]; });
-    const double slope = turns ? pitch.size[0] : 0;
-    const bool pitches = turns && beyond(slope, pitch.sd[0], limits.pitch_rad_s2_m, limits.sds);
-
-    // x = c + gain u + (gain x offset) u' + harmonics - height x pitch
-    const auto lean = [&](const Ride& r, std::size_t i) {
-        return pitches ? -r.height_m * slope * r.acceleration[i] : 0;
-    };
-    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.x[i] - lean(r, i), r.noise_x}; };
-    // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
-    // that the linear term is all there is to it.
-    double offset = 0;
-    for (int i = 0; i < 4; ++i) {
-        const RideFit first = fit_rides(prepared.rides, 2, value, [](const Ride& r, std::size_t k, int which) {
-            return which == 0 ? r.base[k] : r.rate[k];
-        });
-        const double more = first.size[1] / first.size[0];
-        for (Ride& ride : prepared.rides)
-            ride.shift(more, scales);
-        offset += more;
-    }
-    // TableDistortion in either form; that which the data like better
-    for (Ride& ride : prepared.rides)
-        ride.omega = omega_of(ride);
-    RideFit fit;
-    TableDistortion distortion;
-    for (const bool polynomial : {true, false}) {
-        const RideFit tried = fit_over_runs(
-            prepared.rides, 2 + distortion_terms(polynomial), value, [&](const Ride& r, std::size_t i, int k) {
-                return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, r.omega, i, k - 2);
-            });
-        const TableDistortion found = distortion_of(polynomial, tried);
-        if (polynomial || found.gain > distortion.gain) {
-            distortion = found;
-            fit = tried;
-        }
-    }
-    const double gain = fit.size[0], offset_sd = fit.sd[1] / gain;
-    offset += fit.size[1] / gain;
+    const Pitch pitch = pitch_of(prepared, limits);
+    const BaseFit base = base_fit(scales, pitch, prepared);
     const double narrower = prepared.table ? limits.with_table : 1;
-    // what rides never reach can be fitted with anything: more than the motion itself is no distortion
-    const bool distorted =
-        std::fabs(distortion.ratio) < 1 && beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
-    out.base_tests.push_back(told("harmonic_distortion", place, distortion.ratio, distortion.sd, limits.distortion, "",
-                                  distorted,
-                                  fmt::format("Harmonic {} of the table's acceleration is {:.4f} of the fundamental.",
-                                              distortion.order, distortion.ratio)));
-    if (distorted) {
-        out.found.push_back(
-            cause_of("harmonic_distortion", place, "ratio", "", 0, distortion.ratio, distortion.sd, distortion.gain));
-        out.distortion = distortion;
-    }
-    if (turns) {
-        out.base_tests.push_back(
-            told("table_pitch", place, slope, pitch.sd[0], limits.pitch_rad_s2_m, "rad s2/m", pitches,
-                 fmt::format("{} rotates by {:.2e} rad for each m/s2 of the base.", prepared.what, slope)));
-        if (pitches) {
-            out.found.push_back(
-                cause_of("table_pitch", place, "rotation_rad_s2_m", "rad s2/m", 0, slope, pitch.sd[0], pitch.gain[0]));
-        }
-    } else {
-        out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
-    }
-    test_height(vertical_motion(campaign, prepared, scales, pitches ? slope : 0), prepared.what, limits, out);
-    const bool late = beyond(offset, offset_sd, narrower * limits.offset_s, limits.sds);
-    out.base_tests.push_back(
-        told("time_offset", place, offset, offset_sd, narrower * limits.offset_s, "s", late,
-             fmt::format("{} is {:.2f} ms ahead of the base motion of the file.", prepared.what, 1e3 * offset)));
-    if (late)
-        out.found.push_back(cause_of("time_offset", place, "offset_s", "s", 0, offset, offset_sd,
-                                     0.5 * std::pow(offset / offset_sd, 2)));
-    const bool wrong = beyond(gain - 1, fit.sd[0], narrower * limits.gain, limits.sds);
-    out.base_tests.push_back(
-        told("sensor_gain", place, gain, fit.sd[0], 1 + narrower * limits.gain, "", wrong,
-             fmt::format("{} moves {:.4f} times as far as the base motion of the file.", prepared.what, gain)));
-    if (wrong)
-        out.found.push_back(
-            cause_of("sensor_gain", place, "gain", "", 1, gain, fit.sd[0], 0.5 * std::pow((gain - 1) / fit.sd[0], 2)));
-
-    // the base motion as it must have been
-    if (wrong)
-        out.gain = gain;
-    if (late)
-        out.offset_s = offset;
+    judge_distortion(base.distortion, limits, out);
+    judge_pitch(pitch, prepared.what, limits, out);
+    test_height(vertical_motion(campaign, prepared, scales, pitch.found ? pitch.slope : 0), prepared.what, limits, out);
+    judge_offset(base, prepared.what, narrower * limits.offset_s, limits.sds, out);
+    judge_gain(base, prepared.what, narrower * limits.gain, limits.sds, out);
 }
 
 void correct_bases(const Campaign& campaign, const TrackScales& scales, DirectResult& out)

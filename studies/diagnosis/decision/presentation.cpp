@@ -1,0 +1,247 @@
+#include "studies/diagnosis/decision/presentation.hpp"
+
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double two_sided95 = 1.96;
+
+/// The size with its 95 % interval in brackets.
+std::string size_text(const Candidate& c)
+{
+    if (!c.size)
+        return "";
+    return ", " + c.parameter + " = " + estimate_words(c.size, c.low, c.high, c.unit);
+}
+
+std::string missing_words(const Diagnosis& d)
+{
+    std::string text;
+    for (const Missing& missing : d.missing)
+        text += (text.empty() ? "" : ", ") + missing.what;
+    return text;
+}
+
+} // namespace
+
+Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
+                       const std::vector<WindowBaseline>& baselines, bool chance_known, bool unexplained)
+{
+    Candidate c;
+    const Cause& cause = j.fit.cause;
+    c.mechanism = cause.mechanism;
+    c.place = cause.place;
+    c.parameter = cause.parameter;
+    if (!cause.side.empty())
+        c.why = fmt::format("at the {} end", cause.side);
+    c.unit = cause.unit;
+    c.neutral = cause.neutral;
+    if (j.fit.gain > 0) {
+        c.size = j.fit.size;
+        if (j.fit.sd > 0) {
+            c.low = j.fit.size - two_sided95 * j.fit.sd;
+            c.high = j.fit.size + two_sided95 * j.fit.sd;
+        }
+    }
+    c.gain_nats = j.fit.gain;
+    if (j.channel != Channel::direct && chance_known) {
+        c.null95 = j.chance95;
+        c.p = j.chance;
+    }
+    if (j.channel == Channel::direct || chance_known)
+        c.probability = j.probability;
+    for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
+        if (j.fit.gain_by_run[r] != 0)
+            c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
+    for (std::size_t k = 0; k < j.gain_by_form.size() && k < baselines.size(); ++k) {
+        const std::string form = baselines[k].contacts.substr(0, baselines[k].contacts.find(','));
+        (j.gain_by_form[k] > j.chance95 ? c.forms_agreed : c.forms_disagreed).push_back(form);
+    }
+    c.decision = decision;
+    const std::string where = c.why.empty() ? "" : c.why + "; ";
+    const std::string found =
+        j.channel == Channel::direct
+            ? "found by a direct test"
+            : fmt::format("{}: {:.1f} nats; null distribution {:.1f} (95 %)",
+                          j.channel == Channel::balance ? "by the balance of forces" : "by free windows", j.fit.gain,
+                          j.chance95);
+    c.why = where + (j.why_not.empty() ? found : j.why_not);
+    if (decision == Decision::rejected && j.why_not.empty())
+        c.why += unexplained ? "; a force of unknown kind has a significantly larger gain"
+                             : "; the named cause explains the same data better";
+    return c;
+}
+
+DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
+{
+    DiagnosisFigure figure;
+    figure.place = FigurePlace::candidates;
+    figure.title = "Gain of each cause, and its null distribution";
+    figure.caption =
+        "Gain in log likelihood over the baseline. The dot is the 95 % quantile of the null distribution from "
+        "simulated campaigns without a hidden effect (for fewer than 20 campaigns: 1.5 times their maximum, plus 1). A "
+        "cause without a dot was found by a direct test of base, sensors or rest with a separate threshold.";
+    figure.x_label = "cause";
+    figure.y_label = "gain [nats]";
+    FigureSeries named{"named as the cause", SeriesKind::bars, {}, {}, {}, {}},
+        gain{"not named", SeriesKind::bars, {}, {}, {}, {}},
+        chance{"null distribution, 95 %", SeriesKind::points, {}, {}, {}, {}};
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const Candidate& c : candidates) { // the named ones come first
+        if (figure.x_ticks.size() == 10 || !c.gain_nats)
+            continue;
+        const auto x = static_cast<double>(figure.x_ticks.size());
+        figure.x_ticks.push_back(c.mechanism + ", " + c.place);
+        FigureSeries& bars = c.decision == Decision::named ? named : gain;
+        bars.x.push_back(x);
+        bars.y.push_back(*c.gain_nats);
+        if (c.null95) {
+            chance.x.push_back(x);
+            chance.y.push_back(*c.null95);
+        }
+        for (const MaybeReal value : {c.gain_nats, c.null95})
+            if (value && *value > 0) {
+                least = std::min(least, *value);
+                most = std::max(most, *value);
+            }
+    }
+    figure.y_log = most > 100 * least; // beside the bar of a direct test others are not seen
+    for (FigureSeries& series : std::vector{std::move(named), std::move(gain), std::move(chance)})
+        if (!series.x.empty())
+            figure.series.push_back(std::move(series));
+    return figure;
+}
+
+CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start)
+{
+    CalibratedParameter p{"contact.friction", "",         start.contact.friction, std::nullopt, std::nullopt,
+                          judged.determined,  judged.note};
+    if (judged.determined) {
+        p.value = judged.value;
+        p.low = judged.low;
+        p.high = judged.high;
+    }
+    return p;
+}
+
+std::optional<DiagnosisFigure> friction_figure(const BalanceEvidence& balance, const Campaign& campaign)
+{
+    DiagnosisFigure figure;
+    figure.place = FigurePlace::data;
+    figure.title = "Friction of the joints that slide, from the balance of forces";
+    figure.caption = "Each point is one window with continuous sliding of a joint: friction over normal force, without "
+                     "any contact model. Bars: one standard deviation, from the noise of the cameras.";
+    figure.x_label = "slip velocity [m/s]";
+    figure.y_label = "friction coefficient";
+    const double mu = campaign.specimen.friction_nominal.value_or(0.7);
+    for (std::size_t j = 0; j < campaign.specimen.joints.size(); ++j) {
+        FigureSeries series{fmt::format("joint {}", j), SeriesKind::points, {}, {}, {}, {}};
+        for (const LawSample& s : balance.fit->samples()) {
+            if (s.terms.size() != 1 || s.terms[0].law != Law::sliding || s.terms[0].joint != static_cast<int>(j))
+                continue;
+            const double value = s.value / s.terms[0].normal + mu, sd = s.sd / s.terms[0].normal;
+            if (sd > 0.3 || series.x.size() > 400)
+                continue;
+            series.x.push_back(std::fabs(s.terms[0].slip_m_s));
+            series.y.push_back(value);
+            series.low.push_back(value - sd);
+            series.high.push_back(value + sd);
+        }
+        if (!series.x.empty())
+            figure.series.push_back(std::move(series));
+    }
+    return figure.series.empty() ? std::nullopt : std::optional(figure);
+}
+
+std::optional<DiagnosisFigure> turning_figure(const BalanceEvidence& balance)
+{
+    DiagnosisFigure figure;
+    figure.place = FigurePlace::data;
+    figure.title = "Position of the contact force in rocking joints, from the balance of forces";
+    figure.caption = "Distance of the contact force inside the corner on which a joint turns, over the half width: 0 "
+                     "is a sharp, hard corner. One point for each window.";
+    figure.x_label = "relative rotation [rad]";
+    figure.y_label = "distance inside the corner / half width";
+    FigureSeries series{"", SeriesKind::points, {}, {}, {}, {}};
+    for (const LawSample& s : balance.fit->samples()) {
+        if (s.terms.size() != 1 || s.terms[0].law != Law::rocking || series.x.size() > 800)
+            continue;
+        series.x.push_back(s.terms[0].rotation_rad);
+        series.y.push_back(s.value / s.terms[0].normal);
+    }
+    if (series.x.size() < 5)
+        return std::nullopt;
+    figure.series = {series};
+    return figure;
+}
+
+void add_missing(Diagnosis& d, const std::string& what, const std::string& why)
+{
+    for (Missing& other : d.missing)
+        if (other.why == why) {
+            other.what += ", " + what;
+            return;
+        }
+    d.missing.push_back({what, why});
+}
+
+std::vector<std::string> finding_texts(const std::vector<Finding>& findings)
+{
+    struct Told {
+        std::vector<std::string> runs;
+        std::string place, text;
+    };
+    std::vector<Told> all;
+    for (const Finding& finding : findings) {
+        Told one{{}, finding.place, finding.text};
+        const std::size_t comma = finding.place.find(", ");
+        if (finding.place.starts_with("run ") && comma != std::string::npos)
+            one = {{finding.place.substr(4, comma - 4)}, finding.place.substr(comma + 2), finding.text};
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Told& other) {
+            return !one.runs.empty() && !other.runs.empty() && other.place == one.place && other.text == one.text;
+        });
+        if (same == all.end())
+            all.push_back(one);
+        else
+            same->runs.push_back(one.runs.front());
+    }
+    std::vector<std::string> texts;
+    for (const Told& told : all)
+        texts.push_back(told.runs.empty() ? told.place + ": " + told.text
+                        : told.runs.size() == 1
+                            ? "run " + told.runs.front() + ", " + told.place + ": " + told.text
+                            : "runs " + list_words(told.runs) + ", " + told.place + ": " + told.text);
+    return texts;
+}
+
+std::string verdict_text(const Diagnosis& d)
+{
+    if (d.verdict == Verdict::none)
+        return "No mechanism explains the errors of the simulation better than noise, scatter and its contact law" +
+               (d.missing.empty()
+                    ? std::string(".")
+                    : fmt::format(", among the tests that were possible. Not tested: {}.", missing_words(d)));
+    std::vector<std::string> names;
+    for (const Candidate* c : named_causes(d))
+        names.push_back(fmt::format("{} {}, {}{}", c->mechanism, place_words(c->place), mechanism_words(c->mechanism),
+                                    size_text(*c)));
+    std::string text =
+        names.empty() ? "" : fmt::format("The data show {} (in brackets: 95 % interval).", list_words(names));
+    if (d.verdict == Verdict::unexplained)
+        return text + fmt::format("{}n effect is present that none of the known mechanisms explains: {}.",
+                                  names.empty() ? "A" : " In addition, a", d.unexplained ? d.unexplained->text : "");
+    if (d.indistinguishable.size() > 1)
+        text += fmt::format(" They do not distinguish {} from {}.", d.indistinguishable.front(),
+                            list_words({d.indistinguishable.begin() + 1, d.indistinguishable.end()}));
+    return text;
+}
+
+} // namespace stylobate

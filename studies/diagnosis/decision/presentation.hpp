@@ -1,0 +1,44 @@
+#pragma once
+
+#include "studies/diagnosis/decision/decision.hpp"
+#include "studies/diagnosis/decision/window_evidence.hpp"
+#include "studies/diagnosis/findings/diagnosis.hpp"
+#include "studies/diagnosis/tests/friction_judgement.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the stages of a diagnosis found, as its tables, figures and sentences tell it.
+namespace stylobate {
+
+/// A cause as a row of the table of candidates.
+/// @param chance_known whether campaigns with nothing hidden were simulated
+/// @param unexplained whether that is the verdict
+Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
+                       const std::vector<WindowBaseline>& baselines, bool chance_known, bool unexplained);
+
+/// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
+DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);
+
+/// The friction as the balance of forces judges it, for the table of the baseline.
+CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start);
+
+/// What sliding joints say of friction, sample by sample; nothing where none slides.
+/// @pre balance.fit
+std::optional<DiagnosisFigure> friction_figure(const BalanceEvidence& balance, const Campaign& campaign);
+
+/// Where the joints turn that rock, sample by sample; nothing where fewer than 5 windows show it.
+/// @pre balance.fit
+std::optional<DiagnosisFigure> turning_figure(const BalanceEvidence& balance);
+
+/// Adds what could not be judged. Things that lack the same are told in one sentence.
+void add_missing(Diagnosis& d, const std::string& what, const std::string& why);
+
+/// What the reader of the campaign noticed; what it noticed in several runs is one sentence.
+std::vector<std::string> finding_texts(const std::vector<Finding>& findings);
+
+/// The verdict with its causes, in one or two sentences.
+std::string verdict_text(const Diagnosis& d);
+
+} // namespace stylobate
