@@ -29,17 +29,12 @@ struct BinomialInterval {
     double upper = 1;
 };
 
-/// Wilson's score interval: all probabilities that a two-sided normal test with the true variance does not reject
-/// (Wilson, "Probable inference, the law of succession, and statistical inference", Journal of the American Statistical
-/// Association 22 (1927) 209).
+/// Jeffreys' interval: equal tails of the posterior Beta(successes + 1/2, failures + 1/2) (Brown, Cai & DasGupta 2001,
+/// section 3.1.3).
 ///
 /// @param level confidence, in (0, 1)
 /// @pre successes <= trials
 /// @return [0, 1] without trials; the lower limit is exactly 0 at no success, the upper one exactly 1 at no failure
-BinomialInterval wilson(std::uint64_t trials, std::uint64_t successes, double level);
-
-/// Jeffreys' interval: equal tails of the posterior Beta(successes + 1/2, failures + 1/2) (Brown, Cai & DasGupta 2001);
-/// the lower limit is 0 at no success and the upper one 1 at no failure. Arguments and result as above.
 BinomialInterval jeffreys(std::uint64_t trials, std::uint64_t successes, double level);
 
 } // namespace stylobate

@@ -1,5 +1,7 @@
 #include "ensemble/tracking/following_score.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,8 +33,8 @@ double student_scale(const std::vector<double>& z, double degrees)
     std::vector<double> size;
     for (const double value : z)
         size.push_back(std::fabs(value));
-    std::nth_element(size.begin(), size.begin() + static_cast<long>(size.size() / 2), size.end());
-    double k2 = std::max(size[size.size() / 2] * size[size.size() / 2], 1e-300);
+    const double middle = upper_median(std::move(size));
+    double k2 = std::max(middle * middle, 1e-300);
     for (int i = 0; i < 200; ++i) {
         double sum = 0;
         for (const double value : z)

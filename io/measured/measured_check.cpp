@@ -1,6 +1,7 @@
 #include "io/measured/measured_check.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/measured/measured_layout.hpp"
 #include "io/measured/measured_noise.hpp"
 
@@ -13,13 +14,6 @@
 
 namespace stylobate {
 namespace {
-
-double median(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// "12 mm", "1.5 m"
 std::string distance(double metres)
@@ -94,7 +88,7 @@ private:
         }
         if (steps.empty())
             return;
-        const double step = median(steps);
+        const double step = upper_median(steps);
         double jitter = 0;
         std::size_t gaps = 0, longest = 0;
         for (std::size_t i = 0; i < steps.size(); ++i)
@@ -389,7 +383,7 @@ private:
                 off.push_back(mean_of(series.values, quiet, b, n) - planned[b] - moved);
             if (std::any_of(off.begin(), off.end(), [](double x) { return std::isnan(x); }))
                 continue;
-            const double common = median(off), noise = series.noise_sd.value_or(0);
+            const double common = upper_median(off), noise = series.noise_sd.value_or(0);
             // neighbours wander from each other from the base up
             const double tolerance =
                 5 * specimen_.placement_tolerance_m * std::sqrt(static_cast<double>(n)) + noise +

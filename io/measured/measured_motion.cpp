@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/kalman_smoother.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/measured/measured_noise.hpp"
 #include "io/motion/ground_motion.hpp"
 
@@ -32,14 +33,13 @@ double spacing(const MeasuredRun& run)
                                          run.name, t[i - 1], t[i], i));
         steps.push_back(t[i] - t[i - 1]);
     }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
+    const double step = upper_median(std::move(steps));
     const double span = t.back() - t.front();
-    const double intervals = std::max(std::round(span / *middle), 1.0);
+    const double intervals = std::max(std::round(span / step), 1.0);
     constexpr double most_intervals = 1e7;
     if (intervals > most_intervals)
         throw InputError(fmt::format("run {}: the clock spans {} s at steps of {} s: its gap is too large.", run.name,
-                                     span, *middle));
+                                     span, step));
     return span / intervals;
 }
 

@@ -1,5 +1,7 @@
 #include "io/measured/measured_noise.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,10 +28,8 @@ double noise_of(std::span<const double> values, std::size_t stride)
                 size.push_back(std::abs(d));
         if (size.size() < fewest)
             break;
-        const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-        std::nth_element(size.begin(), middle, size.end());
         constexpr double median_of_normal = 0.674490;
-        const double sd = *middle / median_of_normal / std::sqrt(gain2);
+        const double sd = upper_median(std::move(size)) / median_of_normal / std::sqrt(gain2);
         least = p == 1 ? sd : std::min(least, sd);
     }
     return least;

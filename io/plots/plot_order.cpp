@@ -1,6 +1,7 @@
 #include "io/plots/plot_order.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "io/plots/plot_order_parts.hpp"
 #include "io/plots/plot_surface.hpp"
@@ -60,7 +61,7 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
         script += cell(fmt::format("{:.1f} % ({:.0f} to {:.0f})", 100 * fallen_share(order, block.fall_time_s.size()),
                                    100 * block.lower, 100 * block.upper),
                        at.fallen, y, "right", font);
-        script += cell(fmt::format("{:.2f} s", median_fall(block.fall_time_s)), at.median, y, "right", font);
+        script += cell(fmt::format("{:.2f} s", sorted_median(block.fall_time_s)), at.median, y, "right", font);
         script += cell(fmt::format("{:.1f} %", 100 * fallen_share(order, block.first)), at.first, y, "right", font);
     }
     if (others > 0) {
@@ -77,12 +78,6 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
 double fallen_share(const FallOrder& order, std::uint64_t count)
 {
     return order.trials > 0 ? static_cast<double>(count) / static_cast<double>(order.trials) : 0.0;
-}
-
-double median_fall(const std::vector<double>& ascending)
-{
-    const std::size_t n = ascending.size();
-    return (ascending[(n - 1) / 2] + ascending[n / 2]) / 2;
 }
 
 std::string order_colour(double part)
@@ -118,7 +113,7 @@ std::vector<std::size_t> order_of_falls(const FallOrder& order)
         if (!order.blocks[i].fall_time_s.empty())
             fell.push_back(i);
     std::stable_sort(fell.begin(), fell.end(), [&](std::size_t a, std::size_t b) {
-        return median_fall(order.blocks[a].fall_time_s) < median_fall(order.blocks[b].fall_time_s);
+        return sorted_median(order.blocks[a].fall_time_s) < sorted_median(order.blocks[b].fall_time_s);
     });
     return fell;
 }

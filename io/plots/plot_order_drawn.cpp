@@ -1,3 +1,4 @@
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "io/plots/plot_order_parts.hpp"
 
@@ -59,7 +60,7 @@ std::string drawing_script(const FallOrder& order, const TimeScale& scale, Pictu
     for (std::size_t i = 0; i < order.blocks.size(); ++i) {
         const FallOrder::Place& place = order.places[i];
         const std::vector<double>& falls = order.blocks[i].fall_time_s;
-        const std::string fill = falls.empty() ? "#e8e8e8" : order_colour(scale.part(median_fall(falls)));
+        const std::string fill = falls.empty() ? "#e8e8e8" : order_colour(scale.part(sorted_median(falls)));
         rectangle(x(place.left), x(place.right), y(place.bottom), y(place.top), fill,
                   "border linecolor rgb '#303030' linewidth 0.5");
         const double room = std::min((place.top - place.bottom) * per_metre / 1.5,
@@ -107,14 +108,14 @@ void plot_order_drawn(const FallOrder& order, const std::vector<std::size_t>& sh
     std::size_t most = 0;
     for (const std::size_t block : shown) {
         const std::vector<double>& falls = order.blocks[block].fall_time_s;
-        scale.from = std::min(scale.from, median_fall(falls));
-        scale.to = std::max(scale.to, median_fall(falls));
+        scale.from = std::min(scale.from, sorted_median(falls));
+        scale.to = std::max(scale.to, sorted_median(falls));
         most = std::max(most, falls.size());
     }
     std::string data, curves;
     for (const std::size_t block : shown) {
         data += order_curve(order, block, end_s);
-        const double time_s = median_fall(order.blocks[block].fall_time_s);
+        const double time_s = sorted_median(order.blocks[block].fall_time_s);
         curves += fmt::format(", $block{} with steps linecolor rgb '{}' linewidth 1.3", block,
                               order_colour(scale.part(time_s)));
     }

@@ -15,8 +15,6 @@ namespace stylobate {
 inline constexpr std::size_t most_listed = 12;
 
 double fallen_share(const FallOrder& order, std::uint64_t count);
-/// @pre not empty
-double median_fall(const std::vector<double>& ascending);
 
 /// Colour of an early (0) to a late (1) fall: dark ones fall first. The lightest end of the map is too faint on white.
 std::string order_colour(double part);

@@ -544,7 +544,7 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
             fmt::format("realization {} has fall times of {} blocks and a trajectory of {}: it is damaged.\n"
                         "  Replay the realization into a new file.",
                         trajectory.index, fall_time_s.size(), blocks));
-    const std::vector<std::size_t> chosen = choose_samples(trajectory, samples, snapshots);
+    const std::vector<std::size_t> chosen = snapshot_samples(trajectory, snapshots);
     const Drawn drawn = find_blocks(trajectory, samples);
     const double last_s = trajectory.time_s[samples - 1];
     const std::vector<std::size_t> falls = falls_in_order(drawn, fall_time_s, last_s);

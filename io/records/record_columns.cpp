@@ -5,6 +5,7 @@
 /// an acceleration and says its sampling interval in a comment: "# dt = 0.01". The unit is never guessed: it is given
 /// with the file.
 
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
@@ -98,9 +99,7 @@ double uniform_dt(const RecordText& text, const std::vector<double>& time_s, con
     std::vector<double> steps(n - 1);
     for (std::size_t i = 0; i + 1 < n; ++i)
         steps[i] = time_s[i + 1] - time_s[i];
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    const double median = *middle;
+    const double median = upper_median(std::move(steps));
     const char* todo = "Times are in the first column, in seconds, and uniform.";
     if (!(median > 0))
         text.refuse(line.front(), fmt::format("the first column does not increase from row to row. {}", todo));

@@ -1,5 +1,6 @@
 #include "studies/calibration/calibration_surface.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/sampling/distribution.hpp"
 
 #include <Eigen/Dense>
@@ -89,9 +90,7 @@ Vector weights_of(const Vector& total)
     std::vector<double> below;
     for (Eigen::Index i = 0; i < total.size(); ++i)
         below.push_back(total.maxCoeff() - total(i));
-    std::vector<double> sorted = below;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
-    const double level = std::max(sorted[sorted.size() / 2], 2.0);
+    const double level = std::max(upper_median(below), 2.0);
     Vector weights(total.size());
     for (Eigen::Index i = 0; i < total.size(); ++i) {
         const double far = below[static_cast<std::size_t>(i)] / (2 * level);

@@ -291,26 +291,4 @@ PairedGain paired_gain(const std::vector<double>& score_a, const std::vector<dou
     return gain;
 }
 
-WindowScores window_scores(const Campaign& campaign, const std::vector<ModelVariant>& variants,
-                           const WindowOptions& windows, const std::vector<std::size_t>& scale_runs,
-                           const RunOptions& options, Observer& observer)
-{
-    WindowComparison comparison(campaign, windows);
-    WindowScores result;
-    result.windows = comparison.windows();
-    const std::vector<WindowResiduals> z = comparison.residuals(variants, options, observer);
-    result.complete = z.size() == variants.size();
-    if (!result.complete || z.empty())
-        return result;
-    const ResidualScales scales = comparison.fit_scales(z.front(), scale_runs);
-    for (const WindowResiduals& residuals : z) {
-        result.scores.push_back(comparison.scores(residuals, scales));
-        std::vector<double> by_run(campaign.runs.size(), 0.0);
-        for (std::size_t w = 0; w < result.windows.size(); ++w)
-            by_run[result.windows[w].run] += result.scores.back()[w];
-        result.by_run.push_back(std::move(by_run));
-    }
-    return result;
-}
-
 } // namespace stylobate

@@ -110,19 +110,4 @@ struct PairedGain {
 PairedGain paired_gain(const std::vector<double>& score_a, const std::vector<double>& score_b,
                        const std::vector<std::size_t>& group);
 
-/// Scores of several variants.
-struct WindowScores {
-    std::vector<WindowPlace> windows;
-    std::vector<std::vector<double>> scores; ///< (variants x windows) [nats]
-    std::vector<std::vector<double>> by_run; ///< (variants x runs of the campaign), 0 for runs without windows
-    bool complete = false;                   ///< false: the observer stopped it
-};
-
-/// The scores of all variants with the scales of the first one, so that they can be compared pair by pair.
-///
-/// @param scale_runs runs that the scales are fitted to: those that the variants were fitted to; empty: all
-WindowScores window_scores(const Campaign& campaign, const std::vector<ModelVariant>& variants,
-                           const WindowOptions& windows, const std::vector<std::size_t>& scale_runs,
-                           const RunOptions& options, Observer& observer);
-
 } // namespace stylobate

@@ -1,6 +1,7 @@
 #include "studies/results/result_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
 #include "io/plots/plot_surface.hpp"
@@ -24,10 +25,7 @@ double quantile(const std::vector<double>& sorted, double share)
 {
     if (sorted.empty())
         return std::numeric_limits<double>::quiet_NaN();
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+    return sorted_quantile(sorted, share, QuantileDefinition::linear);
 }
 
 std::string percent(double share)

@@ -6,6 +6,7 @@
 #include "studies/evidence/verification/rocking_block.hpp"
 
 #include "ensemble/statics/static_state.hpp"
+#include "tests/kernels/uneven_drums.hpp"
 
 #include <gtest/gtest.h>
 

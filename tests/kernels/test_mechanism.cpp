@@ -2,6 +2,7 @@
 /// set and beside any neighbour.
 
 #include "tests/kernels/mechanism_runs.hpp"
+#include "tests/kernels/uneven_drums.hpp"
 
 #include <gtest/gtest.h>
 

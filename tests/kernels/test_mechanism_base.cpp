@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,20 @@ using namespace stylobate;
 using namespace stylobate::model;
 
 namespace {
+
+/// Acceleration that rises smoothly to 1 m/s2 and then stays, for loads that are as good as static.
+Motion ramp_and_hold(double rise_s, double hold_s)
+{
+    Motion motion;
+    motion.dt_s = rise_s / 200;
+    for (double t = 0; t < rise_s + hold_s; t += motion.dt_s) {
+        const double x = std::min(t / rise_s, 1.0);
+        motion.acceleration_m_s2.push_back(x * x * x * (10 + x * (6 * x - 15)));
+    }
+    motion.pga_m_s2 = 1;
+    motion.predominant_frequency_hz = 1;
+    return motion;
+}
 
 const Stone slab{0.2, 0.05, 4.0};
 

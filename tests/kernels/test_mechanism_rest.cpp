@@ -4,6 +4,7 @@
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "tests/kernels/mechanism_runs.hpp"
+#include "tests/kernels/uneven_drums.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -97,16 +97,6 @@ Eigen::MatrixXd log_predictors(const FragilityData& data)
     return predictors;
 }
 
-double binomial_log_likelihood(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
-                               const ParameterVector& coefficients, const Eigen::VectorXd& offset)
-{
-    const Eigen::VectorXd eta = predictor(predictors, coefficients, offset);
-    double sum = 0;
-    for (Eigen::Index i = 0; i < eta.size(); ++i)
-        sum += term_at(link, eta[i], counts.trials[i], counts.reached[i]).log_likelihood;
-    return sum;
-}
-
 BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
                          const Eigen::VectorXd& offset, const ParameterVector& start)
 {

@@ -44,10 +44,6 @@ struct BinomialFit {
 BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
                          const Eigen::VectorXd& offset = {}, const ParameterVector& start = {});
 
-/// The log likelihood at given coefficients.
-double binomial_log_likelihood(Link link, const Eigen::MatrixXd& predictors, const BinomialCounts& counts,
-                               const ParameterVector& coefficients, const Eigen::VectorXd& offset = {});
-
 /// Covariance of the coefficients for any dependence between the runs of one record: the jackknife over records with
 /// one Newton step each, (G - 1)/G sum_g d_g d_g', d_g = (I - I_g)^-1 s_g, with I the information, s the score. This is
 /// the estimator CR3 (Bell & McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage

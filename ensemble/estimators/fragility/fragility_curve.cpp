@@ -234,31 +234,4 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
     return curve;
 }
 
-void check_fragility_design(std::size_t records, std::size_t intensities, std::size_t measures)
-{
-    if (records < least_records)
-        throw InputError(fmt::format("fragility: {} records are too few for a curve with an interval, at least {}.\n  "
-                                     "The record has the largest effect: add records, not runs of each record.",
-                                     records, least_records));
-    if (intensities < measures + 1)
-        throw InputError(fmt::format("fragility: {} intensities are too few for {} coefficients.\n  Give at least {}, "
-                                     "between an intensity where nothing falls and one where everything falls.",
-                                     intensities, measures + 1, measures + 1));
-}
-
-std::vector<std::string> order_of_limit_states(const std::vector<std::string>& names,
-                                               const std::vector<std::vector<std::uint8_t>>& reached)
-{
-    std::vector<std::string> says;
-    for (std::size_t s = 1; s < names.size(); ++s) {
-        const auto against = std::count_if(reached.begin(), reached.end(),
-                                           [&](const auto& run) { return run[s] != 0 && run[s - 1] == 0; });
-        if (against > 0)
-            says.push_back(fmt::format(
-                "Limit states in the wrong order: {} of {} runs reached '{}' without '{}', which precedes it.", against,
-                reached.size(), names[s], names[s - 1]));
-    }
-    return says;
-}
-
 } // namespace stylobate

@@ -61,14 +61,4 @@ struct FragilityCurve {
 ///         coefficients
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options);
 
-/// Checks a design before anything is run.
-/// @throws InputError with too few records or intensities for a curve with intervals
-void check_fragility_design(std::size_t records, std::size_t intensities, std::size_t measures);
-
-/// Limit states are nested: a run that has reached one has reached all before it.
-/// @param reached (runs x states) by state, in the order given
-/// @return for each pair of neighbours with runs that reached the later one only, a sentence
-std::vector<std::string> order_of_limit_states(const std::vector<std::string>& names,
-                                               const std::vector<std::vector<std::uint8_t>>& reached);
-
 } // namespace stylobate

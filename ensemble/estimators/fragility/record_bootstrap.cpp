@@ -1,6 +1,7 @@
 #include "ensemble/estimators/fragility/record_bootstrap.hpp"
 
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 
@@ -10,18 +11,10 @@
 namespace stylobate {
 namespace {
 
-/// The quantile of sorted values, with the definition k = p (n + 1), which keeps the nominal weight of the tails
-/// (Hyndman & Fan, "Sample quantiles in statistical packages", The American Statistician 50 (1996) 361, definition 6).
-double sorted_quantile(const std::vector<double>& sorted, double p)
+/// The quantile of the resamples; definition 6 keeps the nominal weight of the tails.
+double of_resamples(const std::vector<double>& sorted, double p)
 {
-    const double n = static_cast<double>(sorted.size());
-    const double place = std::clamp(p * (n + 1) - 1, 0.0, n - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    const double part = place - static_cast<double>(below);
-    if (part == 0 || sorted[below] == sorted[above])
-        return sorted[below];
-    return sorted[below] + part * (sorted[above] - sorted[below]);
+    return sorted_quantile(sorted, p, QuantileDefinition::weibull);
 }
 
 /// The limits of one target from the resamples.
@@ -40,11 +33,11 @@ BootstrapLimits limits_of(Resampled& resampled, const FittedCurve& curve, const 
     limits.without_maximum = resampled.without_maximum;
     std::sort(resampled.value.begin(), resampled.value.end());
     std::sort(resampled.studentized.begin(), resampled.studentized.end());
-    limits.percentile = {sorted_quantile(resampled.value, tail), sorted_quantile(resampled.value, 1 - tail)};
+    limits.percentile = {of_resamples(resampled.value, tail), of_resamples(resampled.value, 1 - tail)};
 
     const double error = std::sqrt(gradient.dot(curve.covariance * gradient));
-    limits.studentized = {value - error * sorted_quantile(resampled.studentized, 1 - tail),
-                          value - error * sorted_quantile(resampled.studentized, tail)};
+    limits.studentized = {value - error * of_resamples(resampled.studentized, 1 - tail),
+                          value - error * of_resamples(resampled.studentized, tail)};
 
     const Eigen::VectorXd influence = record_influence(curve.link, curve.predictors, curve.data, curve.fit) * gradient;
     const double acceleration = influence.array().cube().sum() / (6 * std::pow(influence.squaredNorm(), 1.5));
@@ -54,7 +47,7 @@ BootstrapLimits limits_of(Resampled& resampled, const FittedCurve& curve, const 
     const double bias = quantile(normal, share);
     const auto corrected = [&](double quantile_z) {
         const double moved = bias + quantile_z;
-        return sorted_quantile(resampled.value, cdf(normal, bias + moved / (1 - acceleration * moved)));
+        return of_resamples(resampled.value, cdf(normal, bias + moved / (1 - acceleration * moved)));
     };
     limits.accelerated = {corrected(-z), corrected(z)};
     return limits;

@@ -1,6 +1,7 @@
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 
@@ -50,8 +51,7 @@ Estimated median_of(std::vector<double> values)
         return median;
     std::sort(values.begin(), values.end());
     const std::size_t n = values.size();
-    const double low = values[(n - 1) / 2], high = values[n / 2];
-    median.value = low == high ? low : (low + high) / 2;
+    median.value = sorted_median(values);
     // the k-th from below and from above, the largest k with P(fewer than k values below the median) <= tail
     const boost::math::binomial fair(static_cast<double>(n), 0.5);
     std::size_t k = 0;

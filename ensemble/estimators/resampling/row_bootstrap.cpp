@@ -2,6 +2,7 @@
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -9,19 +10,6 @@
 #include <limits>
 
 namespace stylobate {
-
-namespace {
-
-/// Of sorted values, linear between them.
-double quantile(const std::vector<double>& sorted, double share)
-{
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-} // namespace
 
 Estimate Estimate::undetermined()
 {
@@ -80,7 +68,8 @@ std::vector<Estimate> bootstrap_rows(std::span<const double> rows, std::size_t w
             continue;
         }
         std::sort(drawn[k].begin(), drawn[k].end());
-        result.push_back({value[k], quantile(drawn[k], tail), quantile(drawn[k], 1 - tail)});
+        result.push_back({value[k], sorted_quantile(drawn[k], tail, QuantileDefinition::linear),
+                          sorted_quantile(drawn[k], 1 - tail, QuantileDefinition::linear)});
     }
     return result;
 }

@@ -1,5 +1,7 @@
 #include "studies/diagnosis/decision/evidence.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -131,9 +133,7 @@ double ChanceGains::quantile95(Channel channel, const std::string& mechanism) co
     std::sort(gains.begin(), gains.end());
     if (gains.size() < enough_campaigns)
         return few_factor * gains.back() + 1;
-    const double at = 0.95 * static_cast<double>(gains.size() - 1);
-    const auto k = static_cast<std::size_t>(at);
-    return k + 1 < gains.size() ? gains[k] + (at - static_cast<double>(k)) * (gains[k + 1] - gains[k]) : gains.back();
+    return sorted_quantile(gains, 0.95, QuantileDefinition::linear);
 }
 
 double ChanceGains::quantile95_of_structures() const

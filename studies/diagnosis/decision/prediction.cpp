@@ -1,6 +1,7 @@
 #include "studies/diagnosis/decision/prediction.hpp"
 
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/virtual_campaign.hpp"
 
@@ -242,8 +243,8 @@ void resample_runs(const Errors& before, const Errors& after, std::uint64_t seed
     }
     std::sort(ratios.begin(), ratios.end());
     if (ratios.size() > 100) {
-        gain.low = ratios[static_cast<std::size_t>(0.025 * static_cast<double>(ratios.size()))];
-        gain.high = ratios[static_cast<std::size_t>(0.975 * static_cast<double>(ratios.size()))];
+        gain.low = sorted_quantile(ratios, 0.025, QuantileDefinition::above);
+        gain.high = sorted_quantile(ratios, 0.975, QuantileDefinition::above);
     }
 }
 

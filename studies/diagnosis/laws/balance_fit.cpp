@@ -199,8 +199,6 @@ BalanceFit::Result BalanceFit::regress(const std::vector<Column>& given, const C
     }
     result.friction = fit.coefficients(0) / size[0];
     result.friction_sd = std::sqrt(fit.covariance(0, 0)) / size[0];
-    result.turning = fit.coefficients(1) / size[1];
-    result.turning_sd = std::sqrt(fit.covariance(1, 1)) / size[1];
     const Eigen::VectorXd rest = data.values - data.columns * fit.coefficients;
     for (Eigen::Index i = 0; i < n; ++i)
         result.residuals.push_back(rest(i) / (data.sd(i) * fit.scale(data.group[static_cast<std::size_t>(i)])));

@@ -74,11 +74,9 @@ public:
 
     bool empty() const { return samples_.empty(); }
     const std::vector<LawSample>& samples() const { return samples_; }
-    /// Of the baseline: mean friction over the nominal one, how far inside the corners the blocks turn [over b].
+    /// Of the baseline: mean friction over the nominal one.
     double friction_ratio() const { return 1 + baseline_.friction; }
     double friction_ratio_sd() const { return baseline_.friction_sd; }
-    double turning_point() const { return baseline_.turning; }
-    double turning_point_sd() const { return baseline_.turning_sd; }
     /// Residuals of the baseline over their scale, sample by sample.
     const std::vector<double>& residuals() const { return baseline_.residuals; }
     int samples_of(Law law, int joint) const;
@@ -91,7 +89,7 @@ public:
 private:
     struct Result {
         double size = 0, sd = 0, log_posterior = 0;
-        double friction = 0, friction_sd = 0, turning = 0, turning_sd = 0;
+        double friction = 0, friction_sd = 0;
         std::vector<double> by_run;
         std::vector<double> residuals;
     };

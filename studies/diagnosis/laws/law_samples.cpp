@@ -219,27 +219,29 @@ private:
         return laws;
     }
 
-    /// The combinations of these laws in which the joints' unknown forces cancel.
-    void balance(const std::vector<LawTerm>& laws, int width, std::size_t i, int run,
-                 std::vector<LawSample>& found) const
+    /// Newton's law of all blocks at a sample: matrix x unknowns = inertia. The unknowns are of each joint the force x,
+    /// the force y on the upper block and the moment about its corner.
+    struct Newton {
+        Eigen::MatrixXd matrix;            ///< (3 blocks x 3 joints)
+        Eigen::VectorXd inertia;           ///< (3 blocks)
+        std::array<BlockValues, 3> motion; ///< displacements, velocities, accelerations
+    };
+
+    Newton newton_at(int width, std::size_t i) const
     {
         const Eigen::Index blocks = s_.blocks(), joints = static_cast<Eigen::Index>(s_.joints.size());
-        const Eigen::Index count = static_cast<Eigen::Index>(laws.size());
         const auto at = [&](int d, Component c, Eigen::Index b) {
             return track_.of(width, d, c, static_cast<int>(b), i);
         };
-        // unknowns: force x, force y on the upper block and moment about the joint's corner
-        Eigen::MatrixXd newton = Eigen::MatrixXd::Zero(3 * blocks, 3 * joints);
-        Eigen::VectorXd inertia(3 * blocks);
-        std::array<BlockValues, 3> motion;
+        Newton n{Eigen::MatrixXd::Zero(3 * blocks, 3 * joints), Eigen::VectorXd(3 * blocks), {}};
         for (Eigen::Index b = 0; b < blocks; ++b) {
             const auto k = static_cast<std::size_t>(b);
             const double m = s_.mass_kg[k];
-            inertia.segment<3>(3 * b) << m * at(2, in_x, b), m * (at(2, in_y, b) + s_.gravity_m_s2),
+            n.inertia.segment<3>(3 * b) << m * at(2, in_x, b), m * (at(2, in_y, b) + s_.gravity_m_s2),
                 m * (std::pow(s_.half_width_m[k], 2) + std::pow(s_.half_height_m[k], 2)) / 3 * at(2, in_theta, b);
             for (int d = 0; d < 3; ++d)
                 for (const Component c : {in_x, in_y, in_theta})
-                    motion[static_cast<std::size_t>(d)][c].push_back(at(d, c, b));
+                    n.motion[static_cast<std::size_t>(d)][c].push_back(at(d, c, b));
         }
         for (Eigen::Index j = 0; j < joints; ++j) {
             const JointMotion& m = motion_[i][static_cast<std::size_t>(j)];
@@ -249,12 +251,19 @@ private:
                     continue;
                 const Eigen::Index row = 3 * block;
                 const double arm_x = m.corner_x - at(0, in_x, block), arm_y = m.corner_y - at(0, in_y, block);
-                newton(row, 3 * j) = newton(row + 1, 3 * j + 1) = newton(row + 2, 3 * j + 2) = sign;
-                newton(row + 2, 3 * j) = -sign * arm_y;
-                newton(row + 2, 3 * j + 1) = sign * arm_x;
+                n.matrix(row, 3 * j) = n.matrix(row + 1, 3 * j + 1) = n.matrix(row + 2, 3 * j + 2) = sign;
+                n.matrix(row + 2, 3 * j) = -sign * arm_y;
+                n.matrix(row + 2, 3 * j + 1) = sign * arm_x;
             }
         }
-        Eigen::MatrixXd law = Eigen::MatrixXd::Zero(count, 3 * joints);
+        return n;
+    }
+
+    /// (laws x 3 joints) of the unknowns, over the weight that the joint carries at rest.
+    Eigen::MatrixXd law_rows(const std::vector<LawTerm>& laws, std::size_t i) const
+    {
+        const Eigen::Index count = static_cast<Eigen::Index>(laws.size());
+        Eigen::MatrixXd law = Eigen::MatrixXd::Zero(count, 3 * static_cast<Eigen::Index>(s_.joints.size()));
         for (Eigen::Index l = 0; l < count; ++l) {
             const LawTerm& t = laws[static_cast<std::size_t>(l)];
             const JointMotion& m = motion_[i][static_cast<std::size_t>(t.joint)];
@@ -266,66 +275,95 @@ private:
             else
                 law(l, 3 * t.joint + 2) = per * t.sign / t.half_width_m;
         }
+        return law;
+    }
+
+    /// (combinations x laws) that leave nothing of the unknowns; of a column every law by itself.
+    /// @param left of the unknowns by every law
+    static Eigen::MatrixXd cancelling(const Eigen::MatrixXd& left, const Eigen::MatrixXd& law,
+                                      const Eigen::VectorXd& unknown)
+    {
+        const Eigen::Index count = law.rows();
+        if (left.cwiseAbs().maxCoeff() < cancelled * (law * unknown.asDiagonal()).cwiseAbs().maxCoeff())
+            return Eigen::MatrixXd::Identity(count, count);
+        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeFullU);
+        const double scale = (law * unknown.asDiagonal()).norm();
+        Eigen::Index rank = 0;
+        while (rank < svd.singularValues().size() && svd.singularValues()(rank) > 1e-6 * scale)
+            ++rank;
+        return svd.matrixU().rightCols(count - rank).transpose();
+    }
+
+    /// Standard deviation of a combination of the blocks' inertia, from the noise of the cameras.
+    double sd_of(const Eigen::RowVectorXd& v, int width) const
+    {
+        const double noise = scales_.widths[static_cast<std::size_t>(width)].noise(2);
+        double variance = 0;
+        for (Eigen::Index b = 0; b < s_.blocks(); ++b) {
+            const double m = s_.mass_kg[static_cast<std::size_t>(b)];
+            const double moment = inertia_of(b) * v(3 * b + 2);
+            variance += std::pow(noise, 2) *
+                        (std::pow(scales_.noise_m * m, 2) * (v(3 * b) * v(3 * b) + v(3 * b + 1) * v(3 * b + 1)) +
+                         std::pow(scales_.noise_rad * moment, 2));
+        }
+        return std::sqrt(variance);
+    }
+
+    /// The laws of a combination with their weights and normal forces; none if one of its joints carries too little.
+    /// @param carried (3 joints) the unknowns
+    std::vector<LawTerm> terms_of(const std::vector<LawTerm>& laws, const Eigen::RowVectorXd& u,
+                                  const Eigen::VectorXd& carried, std::size_t i) const
+    {
+        std::vector<LawTerm> terms;
+        for (Eigen::Index l = 0; l < u.size(); ++l) {
+            if (std::fabs(u(l)) < 1e-6)
+                continue;
+            LawTerm term = laws[static_cast<std::size_t>(l)];
+            const JointMotion& m = motion_[i][static_cast<std::size_t>(term.joint)];
+            term.weight = u(l);
+            term.normal =
+                (carried(3 * term.joint + 1) * std::cos(m.face) - carried(3 * term.joint) * std::sin(m.face)) /
+                term.rest_weight_n;
+            if (!(term.normal > least_normal))
+                return {};
+            terms.push_back(term);
+        }
+        return terms;
+    }
+
+    /// The combinations of these laws in which the joints' unknown forces cancel.
+    void balance(const std::vector<LawTerm>& laws, int width, std::size_t i, int run,
+                 std::vector<LawSample>& found) const
+    {
+        const Newton newton = newton_at(width, i);
+        const Eigen::MatrixXd law = law_rows(laws, i);
         // moments in lengths of the order of the blocks: the pseudo-inverse then knows no units
         const double length = s_.half_width_m.front();
-        Eigen::VectorXd equation(3 * blocks), unknown(3 * joints);
-        for (Eigen::Index k = 0; k < 3 * blocks; ++k)
+        Eigen::VectorXd equation(newton.matrix.rows()), unknown(newton.matrix.cols());
+        for (Eigen::Index k = 0; k < equation.size(); ++k)
             equation(k) = k % 3 == 2 ? 1 / length : 1;
-        for (Eigen::Index k = 0; k < 3 * joints; ++k)
+        for (Eigen::Index k = 0; k < unknown.size(); ++k)
             unknown(k) = k % 3 == 2 ? length : 1;
-        const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(equation.asDiagonal() * newton *
+        const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(equation.asDiagonal() * newton.matrix *
                                                                              unknown.asDiagonal());
         const Eigen::MatrixXd inverse = unknown.asDiagonal() * solver.pseudoInverse() * equation.asDiagonal();
-        const Eigen::VectorXd carried = inverse * inertia;
+        const Eigen::VectorXd carried = inverse * newton.inertia;
         const Eigen::MatrixXd by_newton = law * inverse; // (laws x 3 blocks)
-        const Eigen::MatrixXd left = (law - by_newton * newton) * unknown.asDiagonal();
-
-        // left-hand combinations that leave nothing of the unknowns; of a column every law by itself
-        Eigen::MatrixXd combinations;
-        if (left.cwiseAbs().maxCoeff() < cancelled * (law * unknown.asDiagonal()).cwiseAbs().maxCoeff()) {
-            combinations = Eigen::MatrixXd::Identity(count, count);
-        } else {
-            const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeFullU);
-            const double scale = (law * unknown.asDiagonal()).norm();
-            Eigen::Index rank = 0;
-            while (rank < svd.singularValues().size() && svd.singularValues()(rank) > 1e-6 * scale)
-                ++rank;
-            combinations = svd.matrixU().rightCols(count - rank).transpose();
-        }
-        const double noise = scales_.widths[static_cast<std::size_t>(width)].noise(2);
+        const Eigen::MatrixXd left = (law - by_newton * newton.matrix) * unknown.asDiagonal();
+        const Eigen::MatrixXd combinations = cancelling(left, law, unknown);
         for (Eigen::Index r = 0; r < combinations.rows(); ++r) {
             const Eigen::RowVectorXd u = combinations.row(r);
             const Eigen::RowVectorXd v = u * by_newton;
             LawSample sample;
             sample.run = run;
             sample.time_s = track_.time_s(i);
-            sample.value = v.dot(inertia);
-            double variance = 0;
-            for (Eigen::Index b = 0; b < blocks; ++b) {
-                const double m = s_.mass_kg[static_cast<std::size_t>(b)];
-                const double moment = inertia_of(b) * v(3 * b + 2);
-                variance += std::pow(noise, 2) *
-                            (std::pow(scales_.noise_m * m, 2) * (v(3 * b) * v(3 * b) + v(3 * b + 1) * v(3 * b + 1)) +
-                             std::pow(scales_.noise_rad * moment, 2));
-            }
-            sample.sd = std::sqrt(variance);
-            bool carries = true;
-            for (Eigen::Index l = 0; l < count; ++l) {
-                if (std::fabs(u(l)) < 1e-6)
-                    continue;
-                LawTerm term = laws[static_cast<std::size_t>(l)];
-                const JointMotion& m = motion_[i][static_cast<std::size_t>(term.joint)];
-                term.weight = u(l);
-                term.normal =
-                    (carried(3 * term.joint + 1) * std::cos(m.face) - carried(3 * term.joint) * std::sin(m.face)) /
-                    term.rest_weight_n;
-                carries = carries && term.normal > least_normal;
-                sample.terms.push_back(term);
-            }
-            if (!carries || sample.terms.empty())
+            sample.value = v.dot(newton.inertia);
+            sample.sd = sd_of(v, width);
+            sample.terms = terms_of(laws, u, carried, i);
+            if (sample.terms.empty())
                 continue;
             sample.coefficients.assign(v.data(), v.data() + v.size());
-            sample.motion = motion;
+            sample.motion = newton.motion;
             sample.base_velocity_m_s = track_.base(1, i);
             found.push_back(std::move(sample));
         }

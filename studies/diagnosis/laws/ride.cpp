@@ -1,5 +1,7 @@
 #include "studies/diagnosis/laws/ride.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,10 +87,8 @@ double rest_angle_of(const std::vector<double>& angle)
 {
     if (angle.empty())
         return 0;
-    std::vector<double> first(
-        angle.begin(), angle.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(angle.size(), first_angles)));
-    std::nth_element(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(first.size() / 2), first.end());
-    return first[first.size() / 2];
+    const auto first = static_cast<std::ptrdiff_t>(std::min(angle.size(), first_angles));
+    return upper_median({angle.begin(), angle.begin() + first});
 }
 
 /// (samples) whether the base and what is seen are known there, and a block neither slips nor rocks.

@@ -1,6 +1,7 @@
 #include "studies/diagnosis/laws/track.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <fmt/format.h>
 
@@ -48,8 +49,7 @@ double noise_of(const Series& series, std::size_t columns)
     }
     if (squares.empty())
         return 0;
-    std::nth_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2), squares.end());
-    return std::sqrt(squares[squares.size() / 2] / 0.4549); // median of chi square with one degree of freedom
+    return std::sqrt(upper_median(std::move(squares)) / 0.4549); // median of chi square with one degree of freedom
 }
 
 /// Why no run can be used: which data sets are absent, or from where on nothing more is known.
@@ -109,9 +109,7 @@ TrackScales track_scales(const Campaign& campaign)
         std::vector<double> spacing;
         for (std::size_t i = 1; i < run.time_s.size(); ++i)
             spacing.push_back(run.time_s[i] - run.time_s[i - 1]);
-        std::nth_element(spacing.begin(), spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2),
-                         spacing.end());
-        scales.spacing_s = std::max(scales.spacing_s, spacing[spacing.size() / 2]);
+        scales.spacing_s = std::max(scales.spacing_s, upper_median(std::move(spacing)));
         const std::size_t n = s.half_width_m.size();
         scales.noise_m = std::max({scales.noise_m, noise_of(run.blocks.x_m, n), noise_of(run.blocks.y_m, n)});
         scales.noise_rad = std::max(scales.noise_rad, noise_of(run.blocks.theta_rad, n));

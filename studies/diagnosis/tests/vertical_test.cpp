@@ -1,5 +1,7 @@
 #include "studies/diagnosis/tests/vertical_test.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,15 +92,12 @@ struct Lines {
 Lines lines_of(std::vector<double> series, double noise, const std::vector<double>& hz, double dt)
 {
     double middle = 0;
-    std::vector<double> sorted;
+    std::vector<double> seen;
     for (const double v : series)
         if (std::isfinite(v))
-            sorted.push_back(v);
-    if (!sorted.empty()) {
-        const auto half = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-        std::nth_element(sorted.begin(), half, sorted.end());
-        middle = *half;
-    }
+            seen.push_back(v);
+    if (!seen.empty())
+        middle = upper_median(std::move(seen));
     // the window begins and ends with what is seen
     std::size_t from = 0, to = series.size();
     while (from < to && !std::isfinite(series[from]))
@@ -129,13 +128,6 @@ Lines lines_of(std::vector<double> series, double noise, const std::vector<doubl
         lines.amplitude.push_back(sum > 0 ? 2 * std::abs(total) / sum : 0);
     }
     return lines;
-}
-
-double median(std::vector<double> values)
-{
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    return *half;
 }
 
 /// The line that stands out of most motions.
@@ -172,7 +164,7 @@ void find_line(const Campaign& campaign, const std::vector<Ride>& rides, const T
                 ++from;
             while (to < hz.size() && hz[to] < hz[k] * neighbours)
                 ++to;
-            const double around = median(
+            const double around = upper_median(
                 {power.begin() + static_cast<std::ptrdiff_t>(from), power.begin() + static_cast<std::ptrdiff_t>(to)});
             over.push_back(power[k] / std::max(around, least_neighbours));
         }

@@ -1,6 +1,7 @@
 #include "studies/evidence/claims/estimate.hpp"
 
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,7 @@ Estimate median(const std::vector<Observation>& cell, const Measure& measure, do
     if (k == 0)
         return {};
     std::sort(values.begin(), values.end());
-    return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values[k - 1], values[n - k], n};
+    return {sorted_median(values), values[k - 1], values[n - k], n};
 }
 
 Estimate onset(const Sample& sample, std::size_t frequency, const Measure& measure, double level)

@@ -13,7 +13,6 @@
 #include <functional>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -37,19 +36,6 @@ struct Bed {
 
 inline const Stone spec_drum{0.048, 0.029, 0.1355};
 inline const Stone mono_stone{0.048, 0.174, 0.813};
-
-/// Six of the specimen's drums of unequal widths, a little out of line: no two sides are flush.
-inline std::vector<Stone> uneven_drums(unsigned seed)
-{
-    std::mt19937 random(seed);
-    std::normal_distribution<double> error(0, 0.0003);
-    std::vector<Stone> stones(6, spec_drum);
-    for (Stone& stone : stones) {
-        stone.width += error(random);
-        stone.offset = error(random);
-    }
-    return stones;
-}
 
 /// sqrt(K_N B / m) [rad/s].
 inline double bed_rate(const Bed& bed, const Stone& stone)
@@ -215,29 +201,6 @@ inline double least_overturning(const Study& study, const std::function<Realizat
             return falls;
         },
         low, high, tolerance);
-}
-
-/// Acceleration that rises smoothly to 1 m/s2 and then stays, for loads that are as good as static.
-inline Motion ramp_and_hold(double rise_s, double hold_s)
-{
-    Motion motion;
-    motion.dt_s = rise_s / 200;
-    for (double t = 0; t < rise_s + hold_s; t += motion.dt_s) {
-        const double x = std::min(t / rise_s, 1.0);
-        motion.acceleration_m_s2.push_back(x * x * x * (10 + x * (6 * x - 15)));
-    }
-    motion.pga_m_s2 = 1;
-    motion.predominant_frequency_hz = 1;
-    return motion;
-}
-
-/// A study along a record that is not stretched: `frequency_hz` of its realizations is 1.
-inline Study along_record(double tail_s = 0)
-{
-    Study study;
-    study.excitation.kind = ExcitationKind::record;
-    study.excitation.tail_s = tail_s;
-    return study;
 }
 
 /// One realization in a bundle of its own, on the scalar kernel, with every field open: for starts that are not a

@@ -90,6 +90,17 @@ TEST(BinomialRegression, AStartFarAwayChangesNothing)
     EXPECT_NEAR(warm.coefficients[1], cold.coefficients[1], 1e-8);
 }
 
+double probit_log_likelihood(const Eigen::MatrixXd& predictors, const BinomialCounts& counts, const ParameterVector& b)
+{
+    const Eigen::VectorXd eta = predictors * b;
+    double sum = 0;
+    for (Eigen::Index i = 0; i < eta.size(); ++i) {
+        const LinkValue at = link_at(Link::probit, eta[i]);
+        sum += counts.reached[i] * std::log(at.below) + (counts.trials[i] - counts.reached[i]) * std::log(at.above);
+    }
+    return sum;
+}
+
 } // namespace
 
 TEST(FragilityCurve, PublishedFitsOfTheBeetles)
@@ -119,7 +130,7 @@ TEST(FragilityCurve, ProfileLimitsLieWhereTheLikelihoodHasFallen)
         double best = -1e300;
         for (double slope = 10; slope < 30; slope += 0.001) {
             const ParameterVector b = (ParameterVector(2) << -slope * log_median, slope).finished();
-            best = std::max(best, binomial_log_likelihood(Link::probit, x, counts, b));
+            best = std::max(best, probit_log_likelihood(x, counts, b));
         }
         return best;
     };
@@ -261,9 +272,6 @@ TEST(FragilityCurve, FewRecordsHaveNoIntervalAndSaySo)
     const FragilityCurve some = fragility_curve(grouped(FragilityTruth{.records = 9}.draw(1, 0)), {});
     EXPECT_TRUE(std::isfinite(some.median.records.upper));
     EXPECT_NE(joined(some.says).find("fewer than 10"), std::string::npos);
-    EXPECT_THROW(check_fragility_design(5, 8, 1), InputError);
-    EXPECT_THROW(check_fragility_design(40, 1, 1), InputError);
-    EXPECT_NO_THROW(check_fragility_design(40, 8, 1));
 }
 
 TEST(FragilityCurve, AShareThatFallsWithIntensityHasNoMedian)
@@ -271,14 +279,6 @@ TEST(FragilityCurve, AShareThatFallsWithIntensityHasNoMedian)
     const FragilityCurve curve = fragility_curve(stripes(30, {1, 2, 3}, {0.8, 0.5, 0.3}), {});
     EXPECT_TRUE(std::isnan(curve.median.value));
     EXPECT_NE(joined(curve.says).find("does not grow"), std::string::npos);
-}
-
-TEST(FragilityCurve, LimitStatesInTheWrongOrderAreSaid)
-{
-    const std::vector<std::vector<std::uint8_t>> runs = {{1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
-    const auto says = order_of_limit_states({"rocked", "drum lost", "collapse"}, runs);
-    ASSERT_EQ(says.size(), 1U);
-    EXPECT_NE(says[0].find("1 of 4 runs reached 'drum lost' without 'rocked'"), std::string::npos) << says[0];
 }
 
 TEST(FragilityData, RefusesWhatIsNoOutcome)

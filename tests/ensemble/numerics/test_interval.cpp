@@ -1,6 +1,7 @@
 /// Binomial intervals: exact coverage by summing probabilities, limits, closed forms.
 
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,23 @@
 using namespace stylobate;
 
 namespace {
+
+/// Wilson's score interval, which interval.hpp compares with: all probabilities that a two-sided normal test with the
+/// true variance does not reject (Wilson, "Probable inference, the law of succession, and statistical inference",
+/// Journal of the American Statistical Association 22 (1927) 209).
+BinomialInterval wilson(std::uint64_t trials, std::uint64_t successes, double level)
+{
+    if (trials == 0)
+        return {};
+    const double z = -normal_quantile((1 - level) / 2);
+    const double n = static_cast<double>(trials);
+    const double p = static_cast<double>(successes) / n;
+    const double centre = p + z * z / (2 * n);
+    const double reach = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+    const double scale = 1 + z * z / n;
+    return {successes == 0 ? 0 : std::max(0.0, (centre - reach) / scale),
+            successes == trials ? 1 : std::min(1.0, (centre + reach) / scale)};
+}
 
 using Method = BinomialInterval (*)(std::uint64_t, std::uint64_t, double);
 

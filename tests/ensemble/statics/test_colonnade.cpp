@@ -5,6 +5,7 @@
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
+#include "tests/kernels/uneven_drums.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #include "tests/hidden/score/coverage.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "tests/program/json.hpp"
 
 #include <fmt/format.h>
@@ -31,12 +32,6 @@ CoverageRow& row_of(std::vector<CoverageRow>& rows, const std::string& of)
             return row;
     rows.push_back({of, 0, {}, {}, {}});
     return rows.back();
-}
-
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 double rms(const std::vector<double>& values)
@@ -122,7 +117,7 @@ std::string markdown(const std::vector<CoverageRow>& rows)
         const BinomialInterval interval = row.held.interval();
         text += fmt::format(" {}, {:.1f} % ({:.1f} to {:.1f} %) | {:.1f} % | {:.1f} % |\n", row.held.count,
                             100 * row.held.value(), 100 * interval.lower, 100 * interval.upper,
-                            100 * median(row.relative_half), 100 * rms(row.error));
+                            100 * upper_median(row.relative_half), 100 * rms(row.error));
     }
     return text;
 }

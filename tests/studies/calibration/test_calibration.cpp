@@ -290,14 +290,20 @@ TEST(CalibrationStatistics, WindowScoresTellAGoodModelFromABadOne)
     Study slippery = truth;
     slippery.contact.friction = 0.35;
     Observer observer;
-    const WindowScores scores = window_scores(campaign, {{"truth", truth, {}, {}}, {"slippery", slippery, {}, {}}}, {},
-                                              {}, {best_isa(), threads}, observer);
-    ASSERT_TRUE(scores.complete);
-    ASSERT_EQ(scores.scores.size(), 2U);
+    WindowComparison comparison(campaign, {});
+    const auto scores_of = [&](const std::vector<ModelVariant>& variants) {
+        std::vector<std::vector<double>> scores;
+        const std::vector<WindowResiduals> residuals = comparison.residuals(variants, {best_isa(), threads}, observer);
+        for (const WindowResiduals& z : residuals) // with the scales of the first one, so that they can be compared
+            scores.push_back(comparison.scores(z, comparison.fit_scales(residuals.front())));
+        return scores;
+    };
+    const auto scores = scores_of({{"truth", truth, {}, {}}, {"slippery", slippery, {}, {}}});
+    ASSERT_EQ(scores.size(), 2U);
     std::vector<std::size_t> group;
-    for (const WindowPlace& place : scores.windows)
+    for (const WindowPlace& place : comparison.windows())
         group.push_back(place.run);
-    EXPECT_GT(paired_gain(scores.scores[1], scores.scores[0], group).low, 0);
+    EXPECT_GT(paired_gain(scores[1], scores[0], group).low, 0);
     // a change of the realization and of the base motion are taken
     const auto less = [](const Motion& m) {
         Motion weaker = m;
@@ -307,12 +313,10 @@ TEST(CalibrationStatistics, WindowScoresTellAGoodModelFromABadOne)
         return weaker;
     };
     const auto worn = [](Realization& r, std::size_t) { r.joints.front().friction *= 0.6; };
-    const WindowScores changed =
-        window_scores(campaign, {{"truth", truth, {}, {}}, {"weaker", truth, less, {}}, {"worn", truth, {}, worn}}, {},
-                      {}, {best_isa(), threads}, observer);
-    EXPECT_EQ(changed.scores[0], scores.scores[0]);
-    EXPECT_GT(paired_gain(changed.scores[1], changed.scores[0], group).total, 0);
-    EXPECT_GT(paired_gain(changed.scores[2], changed.scores[0], group).total, 0);
+    const auto changed = scores_of({{"truth", truth, {}, {}}, {"weaker", truth, less, {}}, {"worn", truth, {}, worn}});
+    EXPECT_EQ(changed[0], scores[0]);
+    EXPECT_GT(paired_gain(changed[1], changed[0], group).total, 0);
+    EXPECT_GT(paired_gain(changed[2], changed[0], group).total, 0);
 }
 
 TEST(CalibrationStatistics, APracticeCampaign)

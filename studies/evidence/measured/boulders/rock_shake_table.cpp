@@ -191,17 +191,15 @@ std::string study_file(const BoulderFit& fit, const std::string& what)
         what, fit.model[1].slenderness * fit.model[1].height_m, study.text);
 }
 
-} // namespace
-
-void rock_shake_table(const PagePlace& place)
+void say(const PagePlace& place, const std::string& text)
 {
-    const auto say = [&](const std::string& text) {
-        if (!place.quiet)
-            fmt::print(stderr, "rock_shake_table: {}\n", text);
-    };
-    const std::filesystem::path folder = place.data / "rock_shake_table";
-    BoulderResults r;
-    r.realizations = realizations;
+    if (!place.quiet)
+        fmt::print(stderr, "rock_shake_table: {}\n", text);
+}
+
+/// Reads the tests and deals the ground motions out to the two halves.
+void read_tests(const std::filesystem::path& folder, BoulderResults& r)
+{
     r.data = read_boulders(folder);
     std::vector<std::string> motions;
     for (const BoulderTest& test : r.data.tests)
@@ -212,7 +210,11 @@ void rock_shake_table(const PagePlace& place)
         (r.fits[i] ? fitting : held).insert(motions[i]);
     r.fitting_motions = fitting.size();
     r.held_motions = held.size();
+}
 
+/// Every dashpot, stiffness and height under every test.
+std::vector<BoulderTable> simulate_all(BoulderResults& r, const PagePlace& place)
+{
     std::vector<BoulderTable> tables;
     for (const Dashpot& dashpot : dashpots) {
         for (const double stiffness : stiffnesses)
@@ -224,22 +226,30 @@ void rock_shake_table(const PagePlace& place)
                 variant.damping_ratio = dashpot.ratio;
                 tables.push_back(simulate(variant, r.data.tests, place.run));
                 const BoulderFit now = fit(tables.back(), r.data.tests, r.fits, spreads);
-                say(fmt::format("{}, {}, K_N {:g}, height {}: log-likelihood {:.1f}",
-                                dashpot.ends ? "ends" : "centroid", dashpot.ratio, stiffness, height,
-                                now.log_likelihood));
+                say(place, fmt::format("{}, {}, K_N {:g}, height {}: log-likelihood {:.1f}",
+                                       dashpot.ends ? "ends" : "centroid", dashpot.ratio, stiffness, height,
+                                       now.log_likelihood));
             }
     }
     for (const BoulderTable& table : tables)
         for (const Ends& ends : table.falls.ends)
             r.fitting.add(ends);
-    const auto with_dashpot = [&](const Dashpot& dashpot) {
-        std::vector<BoulderTable> some;
-        for (const BoulderTable& table : tables)
-            if (has(table.variant, dashpot))
-                some.push_back(table);
-        return some;
-    };
-    const std::vector<BoulderTable> plain = with_dashpot(dashpots.front());
+    return tables;
+}
+
+std::vector<BoulderTable> with_dashpot(const std::vector<BoulderTable>& tables, const Dashpot& dashpot)
+{
+    std::vector<BoulderTable> some;
+    for (const BoulderTable& table : tables)
+        if (has(table.variant, dashpot))
+            some.push_back(table);
+    return some;
+}
+
+/// The baseline, its extensions, and what each dashpot and stiffness comes to.
+void fit_models(BoulderResults& r, const std::vector<BoulderTable>& tables, const PagePlace& place)
+{
+    const std::vector<BoulderTable> plain = with_dashpot(tables, dashpots.front());
     r.baseline = best_fit(plain, r.data.tests, r.fits, no_spread);
     r.scattered = best_fit(plain, r.data.tests, r.fits, spreads);
     r.extended = best_fit(tables, r.data.tests, r.fits, spreads);
@@ -253,7 +263,7 @@ void rock_shake_table(const PagePlace& place)
     }
     for (const Dashpot& dashpot : dashpots)
         for (const double stiffness : stiffnesses) {
-            std::vector<BoulderTable> some = with_dashpot(dashpot);
+            std::vector<BoulderTable> some = with_dashpot(tables, dashpot);
             std::erase_if(some, [&](const BoulderTable& t) { return t.variant.normal_stiffness_n_m2 != stiffness; });
             Dissipation d{best_fit(some, r.data.tests, r.fits, spreads), 0, 0};
             d.restitution = restitution(d.best.model[0]);
@@ -261,30 +271,55 @@ void rock_shake_table(const PagePlace& place)
             d.housner = 1 - 1.5 * sine * sine;
             r.dissipation.push_back(d);
         }
-    say("evaluation on the held-out half");
+}
+
+/// All predictors on the half that was held out.
+void judge_models(BoulderResults& r, const std::filesystem::path& folder, const RunOptions& run)
+{
     const Mesh mesh = read_obj(folder / "mesh" / "final_sp2_1.obj.gz");
     r.body = body_of(mesh);
     r.stances = stances(mesh, 36);
     simple_rules(r);
     published_models(r);
-    r.by_box = box(r, place.run);
-    r.by_baseline = judged(r, "baseline: fitted block, one realization", r.baseline, place.run);
-    r.by_scattered = judged(r, "the same with scatter: ensemble", r.scattered, place.run);
-    r.by_extended = judged(r, "extended: scatter and dissipation", r.extended, place.run);
+    r.by_box = box(r, run);
+    r.by_baseline = judged(r, "baseline: fitted block, one realization", r.baseline, run);
+    r.by_scattered = judged(r, "the same with scatter: ensemble", r.scattered, run);
+    r.by_extended = judged(r, "extended: scatter and dissipation", r.extended, run);
     for (std::size_t s = 0; s < boulders; ++s) {
         const std::size_t count = r.by_extended.held.size() / boulders;
         const auto first = r.by_extended.held.begin() + static_cast<std::ptrdiff_t>(s * count);
         r.extended_of[s] = {"extended", {first, first + static_cast<std::ptrdiff_t>(count)}, 0};
     }
+}
+
+/// The gain with the halves exchanged.
+void swap_halves(BoulderResults& r, const std::vector<BoulderTable>& tables)
+{
     std::vector<bool> other;
     for (const bool fits : r.fits)
         other.push_back(!fits);
-    const std::vector<Forecast> swapped_extended =
+    const std::vector<Forecast> extended =
         from_table(r.data, tables, best_fit(tables, r.data.tests, other, spreads), r.fits);
-    const std::vector<Forecast> swapped_baseline =
+    const std::vector<BoulderTable> plain = with_dashpot(tables, dashpots.front());
+    const std::vector<Forecast> baseline =
         from_table(r.data, tables, best_fit(plain, r.data.tests, other, no_spread), r.fits);
-    r.swapped_brier = difference(swapped_extended, swapped_baseline, brier);
-    r.swapped_right = difference(swapped_extended, swapped_baseline, share_right);
+    r.swapped_brier = difference(extended, baseline, brier);
+    r.swapped_right = difference(extended, baseline, share_right);
+}
+
+} // namespace
+
+void rock_shake_table(const PagePlace& place)
+{
+    const std::filesystem::path folder = place.data / "rock_shake_table";
+    BoulderResults r;
+    r.realizations = realizations;
+    read_tests(folder, r);
+    const std::vector<BoulderTable> tables = simulate_all(r, place);
+    fit_models(r, tables, place);
+    say(place, "evaluation on the held-out half");
+    judge_models(r, folder, place.run);
+    swap_halves(r, tables);
 
     draw_boulders(r, place);
     write_whole(place.studies / "boulder_baseline.toml",

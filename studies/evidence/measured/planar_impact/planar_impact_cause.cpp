@@ -1,5 +1,7 @@
 #include "studies/evidence/measured/planar_impact/planar_impact_cause.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
@@ -157,10 +159,7 @@ Eigen::MatrixXd smooth_prediction(const Eigen::MatrixXd& from, const Eigen::Matr
 double quantile(std::vector<double> values, double part)
 {
     std::sort(values.begin(), values.end());
-    const double at = part * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(at);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+    return sorted_quantile(values, part, QuantileDefinition::linear);
 }
 
 Gain gain(const std::vector<double>& before, const std::vector<double>& after, std::uint64_t seed)

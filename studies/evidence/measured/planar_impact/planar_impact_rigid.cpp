@@ -106,7 +106,7 @@ Velocity rigid_impact(const Body& body, const Velocity& v, const Arms& arms, dou
     const Path path = friction_path(w, c.t, mu);
     const double normal =
         rule == Restitution::newton ? impulse_until(w, path, -(1 + e) * c.n) : (1 + e) * impulse_until(w, path, -c.n);
-    return after_impulse(body, v, arms, {normal, path.tangential(normal)});
+    return after_impulse(body, v, arms, routh(body, v, arms, mu, normal));
 }
 
 } // namespace stylobate::measured::impact

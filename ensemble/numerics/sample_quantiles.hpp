@@ -1,0 +1,29 @@
+#pragma once
+/// Quantiles and medians of a sample. The definitions are those of Hyndman & Fan, "Sample quantiles in statistical
+/// packages", The American Statistician 50 (1996) 361; x_(1) <= ... <= x_(n) are the sorted values.
+
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+enum class QuantileDefinition {
+    weibull, ///< definition 6: linear, x_(k) at p = k / (n + 1). The tails keep their nominal weight.
+    linear,  ///< definition 7: linear, x_(k) at p = (k - 1) / (n - 1). The quantiles 0 and 1 are the extremes.
+    above    ///< x_(floor(p n) + 1), not interpolated: definition 1, but the upper value where p n is whole
+};
+
+/// The quantile p of ascending values.
+/// @param p in [0, 1]
+/// @pre at least one value
+double sorted_quantile(std::span<const double> ascending, double p, QuantileDefinition definition);
+
+/// The mean of the two middle values (the same one, if their number is odd): p = 1/2 of definitions 2 and 5 to 9.
+/// @pre at least one value
+double sorted_median(std::span<const double> ascending);
+
+/// x_(floor(n / 2) + 1), in any order given: a value of the sample, the upper of the two middle ones.
+/// @pre at least one value
+double upper_median(std::vector<double> values);
+
+} // namespace stylobate
