@@ -10,6 +10,7 @@
 #include "ensemble/estimators/surface/adaptive.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/markdown.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -237,8 +238,9 @@ int report(const std::string& file, const std::vector<std::string>& runs, const 
                uniform_realizations(main.p.size()), half_width);
 
     fmt::print(
-        "| surface | intervals | realizations | times fewer | hold, all cells | hold, 0.05 < p < 0.95 | worst cell "
-        "|\n|---|---|---|---|---|---|---|\n");
+        "{}",
+        markdown_head(
+            "surface | intervals | realizations | times fewer | hold, all cells | hold, 0.05 < p < 0.95 | worst cell"));
     print_known(main, "own trials", measure(main, false, 8, 4 * repeats));
     const Measured borrowed = measure(main, true, 8, 2 * repeats);
     print_known(main, "pooled", borrowed);
@@ -247,17 +249,16 @@ int report(const std::string& file, const std::vector<std::string>& runs, const 
         print_known(truth, "own trials", measure(truth, false, 8, repeats));
         print_known(truth, "pooled", measure(truth, true, 8, repeats));
     }
-    fmt::print("\nSmall-scale column, reference, pooled intervals, by min(p, 1 - p):\n\n| min(p, 1 - p) | cells | hold "
-               "| realizations "
-               "of a cell |\n|---|---|---|---|\n");
+    fmt::print("\nSmall-scale column, reference, pooled intervals, by min(p, 1 - p):\n\n");
+    fmt::print("{}", markdown_head("min(p, 1 - p) | cells | hold | realizations of a cell"));
     for (const Kind& kind : borrowed.kinds)
         if (kind.cells > 0)
             fmt::print("| {} | {:.0f} | {:.3f} | {:.0f} |\n", kind.name, kind.cells / (2 * repeats),
                        kind.held / kind.cells, kind.trials / kind.cells);
     if (!runs.empty()) {
-        fmt::print("\nAdaptive runs of the study:\n\n| seed | realizations | times fewer | rounds | widest ± | cells "
-                   "whose interval contains the reference's share | exact 95 % intervals would, given its error "
-                   "|\n|---|---|---|---|---|---|---|\n");
+        fmt::print("\nAdaptive runs of the study:\n\n");
+        fmt::print("{}", markdown_head("seed | realizations | times fewer | rounds | widest ± | cells whose interval "
+                                       "contains the reference's share | exact 95 % intervals would, given its error"));
         for (const std::string& run : runs)
             print_run(run, reference);
     }

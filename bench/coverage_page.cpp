@@ -10,6 +10,7 @@
 #include "ensemble/estimators/fragility/record_bootstrap.hpp"
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
+#include "io/tables/markdown.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 #include "tests/ensemble/estimators/nested_truth.hpp"
 
@@ -55,8 +56,9 @@ void curve_coverage(std::uint64_t repeats, std::size_t resamples)
         "of a record at each "
         "of its stripes. A repeat without a maximum of the likelihood gives no curve and is not counted.\n\n",
         repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)), resamples);
-    fmt::print("| records | of | profile, by runs | profile, by records | CR3 | **jackknife** | percentile | BCa | "
-               "studentized | no maximum |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    fmt::print("{}",
+               markdown_head("records | of | profile, by runs | profile, by records | CR3 | **jackknife** | percentile "
+                             "| BCa | studentized | no maximum"));
     for (const Case& c : cases()) {
         const FragilityTruth& truth = c.truth;
         const double beta = truth.dispersion(), low = std::exp(-beta), high = std::exp(1.5 * beta);
@@ -103,11 +105,13 @@ void curve_coverage(std::uint64_t repeats, std::size_t resamples)
 
 void fit_sizes(std::uint64_t repeats)
 {
-    fmt::print("\n### Lack of fit\n\nPercent of {} repeats in which the lognormal curve is rejected at 5 %, by "
-               "records and by the deviance from the shares of the stripes, which counts runs as independent; last "
-               "columns: the probability of the stripe at 1.55 is reduced.\n\n| records | true curve, by "
-               "records | true curve, by deviance | reduced by 30 % | reduced by 60 % |\n|---|---|---|---|---|\n",
+    fmt::print("\n### Lack of fit\n\nPercent of {} repeats in which the lognormal curve is rejected at 5 %, by records "
+               "and by the deviance from the shares of the stripes, which counts runs as independent; last columns: "
+               "the probability of the stripe at 1.55 is reduced.\n\n",
                repeats);
+    fmt::print("{}",
+               markdown_head(
+                   "records | true curve, by records | true curve, by deviance | reduced by 30 % | reduced by 60 %"));
     for (const Case& c : cases()) {
         std::array<std::uint64_t, 4> rejected{};
         for (std::uint64_t r = 0; r < repeats; ++r) {
@@ -139,12 +143,11 @@ void fit_sizes(std::uint64_t repeats)
 
 void stripe_coverage(std::uint64_t repeats)
 {
-    fmt::print(
-        "\n### Shares by stripe and the monotone band\n\nPercent of {} repeats in which the interval of a "
-        "stripe contains its probability (lowest, mean and highest of the eight), in which the band contains all "
-        "at once, and in which a decrease is reported at 5 % although the truth only grows.\n\n| records | lowest | "
-        "mean | highest | band | decrease reported |\n|---|---|---|---|---|---|\n",
-        repeats);
+    fmt::print("\n### Shares by stripe and the monotone band\n\nPercent of {} repeats in which the interval of a "
+               "stripe contains its probability (lowest, mean and highest of the eight), in which the band contains "
+               "all at once, and in which a decrease is reported at 5 % although the truth only grows.\n\n",
+               repeats);
+    fmt::print("{}", markdown_head("records | lowest | mean | highest | band | decrease reported"));
     for (const Case& c : cases()) {
         std::vector<double> covered(c.truth.stripes.size(), 0);
         double band = 0, falls = 0;
@@ -173,14 +176,12 @@ void stripe_coverage(std::uint64_t repeats)
 /// Few motions that are damaged, or none: one stripe, where the probability is small.
 void few_coverage(std::uint64_t repeats)
 {
-    fmt::print(
-        "\n### Few or no damaged records\n\nOne stripe, 30 runs of each record. Percent of {} repeats in which the "
-        "95 % interval contains the probability (one standard error: {:.1f}); in brackets its mean upper limit. "
-        "Weak: the records have 10 % of the variance of ln capacity; strong: 80 %; complete: 99.9 %, so that "
-        "all runs of a record have the same outcome.\n\n| records | clustering | p = 0.005 | 0.01 | 0.02 | 0.05 | 0.2 "
-        "| 0.5 "
-        "|\n|---|---|---|---|---|---|---|---|\n",
-        repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
+    fmt::print("\n### Few or no damaged records\n\nOne stripe, 30 runs of each record. Percent of {} repeats in which "
+               "the 95 % interval contains the probability (one standard error: {:.1f}); in brackets its mean upper "
+               "limit. Weak: the records have 10 % of the variance of ln capacity; strong: 80 %; complete: 99.9 %, so "
+               "that all runs of a record have the same outcome.\n\n",
+               repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
+    fmt::print("{}", markdown_head("records | clustering | p = 0.005 | 0.01 | 0.02 | 0.05 | 0.2 | 0.5"));
     constexpr std::pair<const char*, double> clusterings[] = {{"weak", 0.1}, {"strong", 0.8}, {"complete", 0.999}};
     for (const std::size_t records : {10, 30, 100})
         for (const auto& [name, part] : clusterings) {
@@ -209,14 +210,13 @@ void few_coverage(std::uint64_t repeats)
 
 void share_coverage(std::uint64_t repeats)
 {
-    fmt::print(
-        "### Variance components\n\nStandard deviations 0.5 between records, 0.4 imperfections, 0.3 contact "
-        "parameters, 0.3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 replicas of each. "
-        "Percent of {} repeats in which the 95 % interval of the share contains the truth, and the mean "
-        "estimate with the truth (for outcomes: that of 200,000 records). Sum: the largest deviation of the sum "
-        "of the four estimates from 1.\n\n| response | records | record | imperfection | contact | chaos | sum "
-        "|\n|---|---|---|---|---|---|---|\n",
-        repeats);
+    fmt::print("### Variance components\n\nStandard deviations 0.5 between records, 0.4 imperfections, 0.3 contact "
+               "parameters, 0.3 chaos; 3 structures of a record, 2 sets of contact parameters of each, 2 replicas of "
+               "each. Percent of {} repeats in which the 95 % interval of the share contains the truth, and the mean "
+               "estimate with the truth (for outcomes: that of 200,000 records). Sum: the largest deviation of the sum "
+               "of the four estimates from 1.\n\n",
+               repeats);
+    fmt::print("{}", markdown_head("response | records | record | imperfection | contact | chaos | sum"));
     for (const bool binary : {false, true}) {
         NestedTruth truth{.sd = {0.5, 0.4, 0.3, 0.3}, .binary = binary};
         std::array<double, 4> wanted{};

@@ -1,6 +1,7 @@
 /// Writes the tables of docs/performance.md from a file of results: no figure on that page is typed.
 
 #include "bench/results_file.hpp"
+#include "io/tables/markdown.hpp"
 
 #include <fmt/format.h>
 
@@ -40,8 +41,8 @@ void kernel(const ResultsFile& file)
         fmt::print("\n");
     }
     fmt::print("\nThe seven-block specimen (six of them free): operations counted with a counting number type in the "
-               "kernel's template, a multiply-add is two; peak: multiply-adds on registers, same run.\n\n"
-               "| | scalar | AVX2 | AVX-512 |\n|---|---:|---:|---:|\n");
+               "kernel's template, a multiply-add is two; peak: multiply-adds on registers, same run.\n\n");
+    fmt::print("{}", markdown_head("| scalar | AVX2 | AVX-512", Align::numbers));
     const auto row = [&](const char* name, const auto& value) {
         fmt::print("| {} |", name);
         for (const char* isa : isas)
@@ -71,7 +72,8 @@ void kernel(const ResultsFile& file)
 
 void structures(const ResultsFile& file)
 {
-    fmt::print("\n| structure, million block-steps/s | scalar | AVX2 | AVX-512 |\n|---|---:|---:|---:|\n");
+    fmt::print("\n");
+    fmt::print("{}", markdown_head("structure, million block-steps/s | scalar | AVX2 | AVX-512", Align::numbers));
     const std::pair<const char*, const char*> scenes[] = {{"column", "the specimen"},
                                                           {"column_two_corner", "the same, contact at two corners"},
                                                           {"column_points", "the same, contact at five points"},
@@ -92,8 +94,10 @@ void structures(const ResultsFile& file)
 
 void ensembles(const ResultsFile& file)
 {
-    fmt::print("\n| ensemble (small surface, realizations/s) | 1 thread | 2 threads | times | occupancy of lanes |\n"
-               "|---|---:|---:|---:|---:|\n");
+    fmt::print("\n");
+    fmt::print("{}", markdown_head(
+                         "ensemble (small surface, realizations/s) | 1 thread | 2 threads | times | occupancy of lanes",
+                         Align::numbers));
     for (const char* isa : isas) {
         const auto at = [&](int threads, const char* counter) {
             double best = 0;

@@ -6,6 +6,7 @@
 /// `tests/ensemble/estimators/sensitivity_functions.hpp`); no mechanics. `scripts/sampling_coverage.sh` writes the
 /// tables into docs/sensitivity.md.
 
+#include "io/tables/markdown.hpp"
 #include "tests/ensemble/estimators/rare_truth.hpp"
 #include "tests/ensemble/estimators/sensitivity_functions.hpp"
 
@@ -34,12 +35,11 @@ struct Held {
 void rare_coverage(std::size_t repeats)
 {
     constexpr std::array<std::size_t, 4> sizes = {5, 10, 20, 40};
-    fmt::print(
-        "### Rare events\n\nPercent of {} estimates whose 95 % interval contains the probability (one standard "
-        "error: {:.1f}), with 5, 10, 20 and 40 repeats of 500 samples; in brackets the percentage of intervals "
-        "entirely above it, and below it. Mean: of the estimates, divided by the probability.\n\n| in ten dimensions | "
-        "probability | 5 repeats | 10 | 20 | 40 | mean |\n|---|---|---|---|---|---|---|\n",
-        repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
+    fmt::print("### Rare events\n\nPercent of {} estimates whose 95 % interval contains the probability (one standard "
+               "error: {:.1f}), with 5, 10, 20 and 40 repeats of 500 samples; in brackets the percentage of intervals "
+               "entirely above it, and below it. Mean: of the estimates, divided by the probability.\n\n",
+               repeats, 100 * std::sqrt(0.0475 / static_cast<double>(repeats)));
+    fmt::print("{}", markdown_head("in ten dimensions | probability | 5 repeats | 10 | 20 | 40 | mean"));
     for (const RareTruth& truth : {rare_plane(1e-3), rare_plane(1e-4), rare_plane(1e-5), rare_plane(1e-6),
                                    rare_pair(1e-4), rare_corner(1e-5), rare_shell(1e-4)}) {
         std::vector<double> pool;
@@ -96,13 +96,11 @@ std::vector<IndexTruth> functions()
 void index_coverage(std::size_t repeats)
 {
     constexpr std::size_t resamples = 400;
-    fmt::print(
-        "\n### Sobol's indices\n\nPercent of {} designs in which the 95 % interval ({} resamples) contains the "
-        "index: mean over the factors and the lowest of them; percentage of first indices with an interval entirely "
-        "below 0, and without one, because the variance is not distinguishable from 0.\n\n| function | rows | first: "
-        "mean, lowest "
-        "| total: mean, lowest | below 0 | none |\n|---|---|---|---|---|---|\n",
-        repeats, resamples);
+    fmt::print("\n### Sobol's indices\n\nPercent of {} designs in which the 95 % interval ({} resamples) contains the "
+               "index: mean over the factors and the lowest of them; percentage of first indices with an interval "
+               "entirely below 0, and without one, because the variance is not distinguishable from 0.\n\n",
+               repeats, resamples);
+    fmt::print("{}", markdown_head("function | rows | first: mean, lowest | total: mean, lowest | below 0 | none"));
     for (const IndexTruth& truth : functions())
         for (const std::size_t rows : {100, 200, 500, 1000}) {
             const std::size_t n = truth.first.size();

@@ -1,5 +1,6 @@
 #include "bench/peers/table.hpp"
 
+#include "io/tables/markdown.hpp"
 #include "studies/report/json.hpp"
 #include "studies/version.hpp"
 
@@ -32,11 +33,11 @@ std::string rate_text(double rate)
 
 std::string line(const Contender& c, const std::string& at, const Timed& t)
 {
-    return fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {} of {} | {} |\n", c.engine,
-                       c.own ? "" : " " + c.version, c.setting, at, dial_text(c, t), percent(t.errors.quarter_period),
-                       percent(t.errors.overturning), rate_text(t.shaken.realizations_per_second), t.shaken.collapsed,
-                       t.shaken.count,
-                       t.resting.moved == 0 ? "yes" : fmt::format("{} of {} do not", t.resting.moved, t.resting.count));
+    return markdown_row("{}{} | {} | {} | {} | {} | {} | {} | {} of {} | {}", c.engine, c.own ? "" : " " + c.version,
+                        c.setting, at, dial_text(c, t), percent(t.errors.quarter_period), percent(t.errors.overturning),
+                        rate_text(t.shaken.realizations_per_second), t.shaken.collapsed, t.shaken.count,
+                        t.resting.moved == 0 ? "yes"
+                                             : fmt::format("{} of {} do not", t.resting.moved, t.resting.count));
 }
 
 std::string target_text(std::size_t target)
@@ -84,11 +85,9 @@ Json json_of(const Contender& contender, const Timed& t)
 
 std::string markdown(const std::vector<Result>& results, const std::string& processor)
 {
-    std::string text = fmt::format("One core of {}; Stylobate {}.\n\n"
-                                   "| engine | setting | at | step | quarter period | overturning | realizations/s | "
-                                   "collapsed | stands at rest |\n"
-                                   "|---|---|---|---|---|---|---|---|---|\n",
-                                   processor, code_version());
+    std::string text = fmt::format("One core of {}; Stylobate {}.\n\n", processor, code_version()) +
+                       markdown_head("engine | setting | at | step | quarter period | overturning | realizations/s | "
+                                     "collapsed | stands at rest");
     for (std::size_t i = 0; i < results.size();) {
         const std::vector<Result> of = of_engine(results, i);
         const Contender& first = of.front().contender;
@@ -101,7 +100,7 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
                     any = true;
                 }
             if (!any)
-                text += fmt::format("| {} | not reached | {} | | | | | | |\n", first.engine, target_text(t));
+                text += markdown_row("{} | not reached | {} | | | | | |", first.engine, target_text(t));
         }
         i += of.size();
     }

@@ -1,6 +1,7 @@
 /// Collapse probabilities with common random numbers.
 
 #include "bench/work_precision/page.hpp"
+#include "io/tables/markdown.hpp"
 
 #include <fmt/format.h>
 
@@ -32,15 +33,15 @@ struct Case {
 void over_step(Report& report, std::uint64_t realizations)
 {
     auto out = std::back_inserter(report.text);
-    fmt::format_to(
-        out,
-        "### Collapse probability\n\nThe specimen (six free drums), {} realizations of the same draws (friction, drum "
-        "widths), 10 cycles of 3 Hz at an amplitude at which about half of them collapse. *Difference from the fine "
-        "step*: relative to an eighth of the bound, with the standard error of the difference, root(differ) / {}. "
-        "*Differ*: number of realizations with a different outcome.\n\n"
-        "| form | dashpot | K_N [N/m2] | amplitude [m/s2] | step | block-steps per s | collapsed | difference from the "
-        "fine step | differ |\n|---|---|---|---|---|---|---|---|---|\n",
-        realizations, realizations);
+    fmt::format_to(out,
+                   "### Collapse probability\n\nThe specimen (six free drums), {} realizations of the same draws "
+                   "(friction, drum widths), 10 cycles of 3 Hz at an amplitude at which about half of them collapse. "
+                   "*Difference from the fine step*: relative to an eighth of the bound, with the standard error of "
+                   "the difference, root(differ) / {}. *Differ*: number of realizations with a different outcome.\n\n",
+                   realizations, realizations);
+    fmt::format_to(out, "{}",
+                   markdown_head("form | dashpot | K_N [N/m2] | amplitude [m/s2] | step | block-steps per s | "
+                                 "collapsed | difference from the fine step | differ"));
     struct Sum {
         double difference = 0, variance = 0;
         int cases = 0;
@@ -106,11 +107,12 @@ void over_step(Report& report, std::uint64_t realizations)
 void bound_of_the_structure(Report& report, std::uint64_t realizations)
 {
     auto out = std::back_inserter(report.text);
+    fmt::format_to(out, "\n### The step bound of the structure\n\nThe same specimen with K_N = 1e8 N/m2 and its "
+                        "dashpots at the ends, at 0.9 of both bounds.\n\n");
     fmt::format_to(
-        out, "\n### The step bound of the structure\n\nThe same specimen with K_N = 1e8 N/m2 and its dashpots at "
-             "the ends, at 0.9 of both bounds.\n\n| damping ratio | amplitude [m/s2] | block-steps per s: blocks | "
-             "structure | fewer steps | collapsed: blocks | structure | difference | energy residual, worst: "
-             "blocks | structure |\n|---|---|---|---|---|---|---|---|---|---|\n");
+        out, "{}",
+        markdown_head("damping ratio | amplitude [m/s2] | block-steps per s: blocks | structure | fewer steps | "
+                      "collapsed: blocks | structure | difference | energy residual, worst: blocks | structure"));
     for (const double xi : {0.05, 0.1, 0.3, 0.5}) {
         Setting setting;
         setting.damping = DampingAt::ends;

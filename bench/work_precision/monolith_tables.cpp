@@ -2,6 +2,7 @@
 
 #include "bench/work_precision/page.hpp"
 
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/verification/case.hpp"
 
 #include <fmt/format.h>
@@ -51,11 +52,11 @@ Errors errors(const Setting& setting)
 void stiffness_and_step(Report& report)
 {
     auto out = std::back_inserter(report.text);
-    fmt::format_to(out,
-                   "### Stiffness, step, contact form\n\nErrors in per cent relative to the rigid block. *Step*: the "
-                   "change due to the time step alone, relative to an eighth of the bound.\n\n"
-                   "| form, dashpot | K_N [N/m2] | fraction of the bound | block-steps per s | quarter period | step | "
-                   "overturning | step |\n|---|---|---|---|---|---|---|---|\n");
+    fmt::format_to(out, "### Stiffness, step, contact form\n\nErrors in per cent relative to the rigid block. *Step*: "
+                        "the change due to the time step alone, relative to an eighth of the bound.\n\n");
+    fmt::format_to(out, "{}",
+                   markdown_head("form, dashpot | K_N [N/m2] | fraction of the bound | block-steps per s | quarter "
+                                 "period | step | overturning | step"));
     for (const Form& form : forms)
         for (const double K : {1e6, 1e8, 1e10}) {
             Setting setting;
@@ -181,9 +182,8 @@ void shear_and_step(Report& report)
 {
     auto out = std::back_inserter(report.text);
     fmt::format_to(out, "\n### Tangential stiffness\n\nBlock-steps per simulated second at K_N = 1e8 N/m2, 0.9 of the "
-                        "bound; the specimen has six free drums of 48 x 29 mm.\n\n"
-                        "| form, dashpot | structure | K_T = K_N B | 1/2 | 1/3 | 1/5 | 1/10 |\n"
-                        "|---|---|---|---|---|---|---|\n");
+                        "bound; the specimen has six free drums of 48 x 29 mm.\n\n");
+    fmt::format_to(out, "{}", markdown_head("form, dashpot | structure | K_T = K_N B | 1/2 | 1/3 | 1/5 | 1/10"));
     for (const Form& form : forms)
         for (const auto& [structure, cost] :
              {std::pair{"monolith", &monolith_cost}, std::pair{"specimen", &specimen_cost}}) {
@@ -212,9 +212,8 @@ void limits_of_stiffness(Report& report)
     const char* titles[] = {"Quarter period", "Overturning amplitude"};
     double Errors::*answers[] = {&Errors::quarter, &Errors::overturning};
     for (std::string& table : tables)
-        table =
-            "| form, dashpot | K_T / (K_N B) | exponent | method | 1 %: K [N/m2] | block-steps per s | gain | 0.2 %: K "
-            "[N/m2] | block-steps per s | gain |\n|---|---|---|---|---|---|---|---|---|---|\n";
+        table = markdown_head("form, dashpot | K_T / (K_N B) | exponent | method | 1 %: K [N/m2] | block-steps per s | "
+                              "gain | 0.2 %: K [N/m2] | block-steps per s | gain");
     int colour = 0;
     for (const Form& form : forms) {
         double single[2][2];

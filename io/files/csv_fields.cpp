@@ -21,6 +21,19 @@ std::string_view trimmed(std::string_view text)
                                            : text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
 }
 
+/// The first comma that is not between quotation marks; the first of all where a mark has no second.
+std::size_t next_comma(std::string_view text)
+{
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"')
+            quoted = !quoted;
+        if (text[i] == ',' && !quoted)
+            return i;
+    }
+    return quoted ? text.find(',') : std::string_view::npos;
+}
+
 } // namespace
 
 std::string csv_content(const std::filesystem::path& path, std::uint64_t largest)
@@ -48,7 +61,7 @@ void for_each_csv_line(std::string_view text, const std::function<void(const Csv
         CsvLine line{number, {}};
         for (std::size_t comma = 0; comma != std::string_view::npos;
              rest.remove_prefix(std::min(comma + 1, rest.size()))) {
-            comma = rest.find(',');
+            comma = next_comma(rest);
             line.fields.push_back(trimmed(rest.substr(0, comma)));
             if (comma == std::string_view::npos)
                 break;

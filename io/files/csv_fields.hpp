@@ -18,7 +18,8 @@ struct CsvLine {
 /// The text of a file. @throws InputError if it cannot be read, or is larger than `largest` bytes
 std::string csv_content(const std::filesystem::path& path, std::uint64_t largest);
 
-/// Every line but empty ones and comments (#), cut at its commas. @param text must outlive the calls
+/// Every line but empty ones and comments (#), cut at its commas; one in quotation marks belongs to its field.
+/// @param text must outlive the calls
 void for_each_csv_line(std::string_view text, const std::function<void(const CsvLine&)>& take);
 
 /// A field as a number; NaN of an empty one, or of "nan". @throws InputError with file, line and column

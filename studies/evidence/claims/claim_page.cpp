@@ -1,6 +1,7 @@
 #include "studies/evidence/claims/claim_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
@@ -166,8 +167,7 @@ std::string runs_table(const std::vector<Result>& results)
     std::map<std::string, const Result*> files;
     for (const Result& r : results)
         files.emplace(r.file->name, &r);
-    std::string table =
-        "| study | structure | variants | realizations | invalid | computed by |\n|---|---|---|---|---|---|\n";
+    std::string table = markdown_head("study | structure | variants | realizations | invalid | computed by");
     for (const auto& [name, r] : files) {
         std::uint64_t valid = 0, invalid = 0, run = 0;
         std::set<std::string> versions;
@@ -179,8 +179,8 @@ std::string runs_table(const std::vector<Result>& results)
             if (sample.why_not.empty())
                 versions.insert(sample.version);
         }
-        table += fmt::format("| `{}.toml` | {} | {} of {} | {} | {} | {} |\n", name, r->file->what, run,
-                             r->samples->size(), valid + invalid, invalid, fmt::join(versions, ", "));
+        table += markdown_row("`{}.toml` | {} | {} of {} | {} | {} | {}", name, r->file->what, run, r->samples->size(),
+                              valid + invalid, invalid, fmt::join(versions, ", "));
     }
     return table;
 }
@@ -287,10 +287,10 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
     page += "## Verdicts\n\n";
     for (const auto& [judgement, count] : tally)
         page += fmt::format("{}{} {}", judgement == tally.begin()->first ? "" : ", ", count, to_string(judgement));
-    page += ".\n\n| claim | statement in the paper | verdict |\n|---|---|---|\n";
+    page += ".\n\n" + markdown_head("claim | statement in the paper | verdict");
     for (const Result& r : results)
-        page += fmt::format(
-            "| [{}](#{}) | {} | **{}** |\n", r.test->id,
+        page += markdown_row(
+            "[{}](#{}) | {} | **{}**", r.test->id,
             [&] {
                 std::string anchor = r.test->id;
                 std::transform(anchor.begin(), anchor.end(), anchor.begin(),

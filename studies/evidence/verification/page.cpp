@@ -1,5 +1,6 @@
 #include "studies/evidence/verification/page.hpp"
 
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/picture/picture.hpp"
 
 #include <algorithm>
@@ -70,15 +71,15 @@ std::string cell(std::string text)
 
 std::string table(const std::vector<Check>& checks)
 {
-    std::string text = "| quantity | expected | measured | difference | tolerance | |\n|---|---|---|---|---|---|\n";
+    std::string text = markdown_head("quantity | expected | measured | difference | tolerance |");
     for (const Check& c : checks) {
         const char* relation = c.relation == Relation::at_least  ? "at least "
                                : c.relation == Relation::at_most ? "at most "
                                                                  : "";
-        text += fmt::format("| {} | {}{} | {} | {:+.2g} | {} | {} |\n", cell(c.what), relation,
-                            number(c.expected, c.tolerance), number(c.measured, c.tolerance), c.measured - c.expected,
-                            c.relation == Relation::equals ? fmt::format("{:.2g}", c.tolerance) : "",
-                            c.passed() ? "passed" : "**failed**");
+        text += markdown_row("{} | {}{} | {} | {:+.2g} | {} | {}", cell(c.what), relation,
+                             number(c.expected, c.tolerance), number(c.measured, c.tolerance), c.measured - c.expected,
+                             c.relation == Relation::equals ? fmt::format("{:.2g}", c.tolerance) : "",
+                             c.passed() ? "passed" : "**failed**");
     }
     return text;
 }
@@ -184,9 +185,9 @@ std::string page(const std::vector<RunCase>& runs, const std::string& images, co
         "alpha = atan(width / height), p = sqrt(3 g / (4 R)), eta = a / (g tan alpha), xi the damping ratio of the "
         "dashpots.\n\n",
         made_by, passed, checks, runs.size());
-    text += "| subject | cases | comparisons | passed |\n|---|---|---|---|\n";
+    text += markdown_head("subject | cases | comparisons | passed");
     for (const Count& count : counts)
-        text += fmt::format("| {} | {} | {} | {} |\n", count.subject, count.cases, count.checks, count.passed);
+        text += markdown_row("{} | {} | {} | {}", count.subject, count.cases, count.checks, count.passed);
     text += '\n';
     if (failed_cases > 0) {
         text += "## Failed\n\n";

@@ -1,3 +1,4 @@
+#include "io/tables/markdown.hpp"
 #include "tests/hidden/score/score.hpp"
 
 #include <fmt/format.h>
@@ -46,18 +47,18 @@ std::string markdown(const Score& score)
         text += fmt::format(" {} |\n", all);
     }
 
-    text += "\n| measure | value |\n|---|---|\n";
-    text += fmt::format("| points (a hit 1, in a set or one of two 0.5) | {} of {} |\n", score.points, score.to_find);
-    text += fmt::format("| false alarms | {} |\n", share(score.false_alarms));
-    text += fmt::format("| of these with a name | {} |\n", share(score.named_alarms));
-    text += fmt::format("| right place, where the name is right | {} |\n", share(score.places));
-    text += fmt::format("| sizes within their interval | {} |\n", share(score.coverage));
+    text += "\n" + markdown_head("measure | value");
+    text += markdown_row("points (a hit 1, in a set or one of two 0.5) | {} of {}", score.points, score.to_find);
+    text += markdown_row("false alarms | {}", share(score.false_alarms));
+    text += markdown_row("of these with a name | {}", share(score.named_alarms));
+    text += markdown_row("right place, where the name is right | {}", share(score.places));
+    text += markdown_row("sizes within their interval | {}", share(score.coverage));
     if (score.other_parameter > 0)
-        text += fmt::format("| sizes of another parameter, not compared | {} |\n", score.other_parameter);
+        text += markdown_row("sizes of another parameter, not compared | {}", score.other_parameter);
     if (score.causes > 0)
-        text += fmt::format("| Brier score of {} stated causes | {:.3f} |\n", score.causes, score.brier);
+        text += markdown_row("Brier score of {} stated causes | {:.3f}", score.causes, score.brier);
     if (score.campaigns > 0)
-        text += fmt::format("| time of a diagnosis, mean | {:.0f} s |\n", score.seconds / score.campaigns);
+        text += markdown_row("time of a diagnosis, mean | {:.0f} s", score.seconds / score.campaigns);
     text += "\nIntervals are Jeffreys', 95 %.\n";
 
     text += "\n| stated probability | causes | mean stated | right | 95 % |\n|---|---:|---:|---:|---|\n";
@@ -65,12 +66,12 @@ std::string markdown(const Score& score)
         const Share right{bin.causes, bin.right};
         const BinomialInterval interval = right.interval();
         text += bin.causes == 0
-                    ? fmt::format("| {:.1f} to {:.1f} | 0 | | | |\n", bin.from, bin.to)
-                    : fmt::format("| {:.1f} to {:.1f} | {} | {:.2f} | {:.2f} | {:.2f} to {:.2f} |\n", bin.from, bin.to,
-                                  bin.causes, bin.mean_probability, right.value(), interval.lower, interval.upper);
+                    ? markdown_row("{:.1f} to {:.1f} | 0 | | |", bin.from, bin.to)
+                    : markdown_row("{:.1f} to {:.1f} | {} | {:.2f} | {:.2f} | {:.2f} to {:.2f}", bin.from, bin.to,
+                                   bin.causes, bin.mean_probability, right.value(), interval.lower, interval.upper);
     }
 
-    text += "\n| strength of a single effect over scatter | campaigns | hits |\n|---|---:|---:|\n";
+    text += "\n" + markdown_head("strength of a single effect over scatter | campaigns | hits", Align::numbers);
     double from = 0;
     for (const auto& [limit, hits] : score.by_strength) {
         text += std::isinf(limit) ? fmt::format("| {} and above |", from) : fmt::format("| {} to {} |", from, limit);

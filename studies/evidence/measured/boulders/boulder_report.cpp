@@ -1,5 +1,6 @@
 #include "studies/evidence/measured/boulders/boulder_report.hpp"
 
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/version.hpp"
 
@@ -52,17 +53,17 @@ double restitution_of(const BoulderResults& r, const BoulderFit& f)
 std::string scores_row(const Predictor& p)
 {
     const Scores s = score(p.held);
-    return fmt::format("| {} | {} | {:.3f} | {} | {} | {:.3f} | {:.3f} |\n", p.name,
-                       p.log_likelihood < 0 ? fmt::format("{:.1f}", p.log_likelihood) : "", s.right, s.false_falls,
-                       s.false_stands, s.brier, s.log);
+    return markdown_row("{} | {} | {:.3f} | {} | {} | {:.3f} | {:.3f}", p.name,
+                        p.log_likelihood < 0 ? fmt::format("{:.1f}", p.log_likelihood) : "", s.right, s.false_falls,
+                        s.false_stands, s.brier, s.log);
 }
 
 std::string model_row(const std::string& name, const BoulderFit& f)
 {
     const BoulderModel& m = f.model[0];
-    return fmt::format("| {} | {:.3f}, {:.3f} | {:.2f} | {:.2f} | {:g} | {} | {:g} | {:g} |\n", name, m.slenderness,
-                       f.model[1].slenderness, m.height_m, m.rocking_rate_rad_s(), m.normal_stiffness_n_m2,
-                       dashpot_text(m), m.slenderness_spread, f.slip);
+    return markdown_row("{} | {:.3f}, {:.3f} | {:.2f} | {:.2f} | {:g} | {} | {:g} | {:g}", name, m.slenderness,
+                        f.model[1].slenderness, m.height_m, m.rocking_rate_rad_s(), m.normal_stiffness_n_m2,
+                        dashpot_text(m), m.slenderness_spread, f.slip);
 }
 
 /// Errors of two predictors in bins of a quantity of the tests.
@@ -100,8 +101,8 @@ std::string error_table(const BoulderResults& r, const std::string& heading, con
                                   : b == edges.size() ? fmt::format("from {:g}", edges.back())
                                                       : fmt::format("{:g} to {:g}", edges[b - 1], edges[b]);
         const Errors& e = bins[b];
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", range, e.tests, e.falls, e.false_falls[0],
-                            e.false_stands[0], e.false_falls[1], e.false_stands[1]);
+        text += markdown_row("{} | {} | {} | {} | {} | {} | {}", range, e.tests, e.falls, e.false_falls[0],
+                             e.false_stands[0], e.false_falls[1], e.false_stands[1]);
     }
     return text + '\n';
 }
@@ -123,15 +124,15 @@ std::string motion_table(const BoulderResults& r)
             ++which;
         }
     }
-    std::string text = "| ground motion | tests (both boulders) | baseline: false falls | false stands | extended: "
-                       "false falls | false stands |\n|---|---|---|---|---|---|\n";
+    std::string text = markdown_head("ground motion | tests (both boulders) | baseline: false falls | false stands | "
+                                     "extended: false falls | false stands");
     std::size_t clean = 0;
     for (const auto& [name, e] : motions) {
         if (e.all(0) + e.all(1) == 0)
             ++clean;
         else
-            text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", name, e.tests, e.falls[0], e.stands[0], e.falls[1],
-                                e.stands[1]);
+            text += markdown_row("{} | {} | {} | {} | {} | {}", name, e.tests, e.falls[0], e.stands[0], e.falls[1],
+                                 e.stands[1]);
     }
     return text + fmt::format("\nBoth are right in every test of the other {} held-out motions.\n\n", clean);
 }
@@ -198,16 +199,13 @@ std::string model_section(const BoulderResults& r)
         "slenderness. Everything is fitted by the likelihood of the outcomes of the fitting half, over a grid: 24 "
         "slendernesses from 0.1 to 0.45, 2 heights, 2 stiffnesses, and, extended, 4 dashpots and 6 spreads. The "
         "outcome of a test is random with probability `slip`, which keeps the likelihood of a deterministic model "
-        "above zero.\n\n"
-        "- *baseline*: one realization, dashpots of ratio 0.1 at the centroid.\n"
-        "- *with scatter*: the width differs from test to test (lognormal): an ensemble gives the probability of "
-        "falling.\n"
-        "- *extended*: in addition the dashpot is free, that is its ratio and its position at the centroid or at the "
-        "ends of the contact. At the ends it also damps rotation (`damping = \"ends\"`), which increases the loss in "
-        "an impact.\n\n"
-        "| model | slenderness (boulder 1, 2) | height [m] | p [rad/s] | K_N [N/m2] | dashpot, ratio | spread | slip "
-        "|\n"
-        "|---|---|---|---|---|---|---|---|\n";
+        "above zero.\n\n- *baseline*: one realization, dashpots of ratio 0.1 at the centroid.\n- *with scatter*: the "
+        "width differs from test to test (lognormal): an ensemble gives the probability of falling.\n- *extended*: in "
+        "addition the dashpot is free, that is its ratio and its position at the centroid or at the ends of the "
+        "contact. At the ends it also damps rotation (`damping = \"ends\"`), which increases the loss in an "
+        "impact.\n\n" +
+        markdown_head("model | slenderness (boulder 1, 2) | height [m] | p [rad/s] | K_N [N/m2] | dashpot, ratio | "
+                      "spread | slip");
     text +=
         model_row("baseline", r.baseline) + model_row("with scatter", r.scattered) + model_row("extended", r.extended);
     return text +
@@ -221,37 +219,39 @@ std::string model_section(const BoulderResults& r)
 
 std::string judgement_section(const BoulderResults& r)
 {
-    std::string text = "## Predictions for the held-out half\n\n| predictor | log-likelihood of the fitting half | "
-                       "right | false falls | false stands | Brier | log |\n|---|---|---|---|---|---|---|\n";
+    std::string text =
+        "## Predictions for the held-out half\n\n" +
+        markdown_head(
+            "predictor | log-likelihood of the fitting half | right | false falls | false stands | Brier | log");
     for (const Predictor* p :
          {&r.by_rate, &r.by_box, &r.by_published, &r.by_intensity, &r.by_baseline, &r.by_scattered, &r.by_extended})
         text += scores_row(*p);
-    text += fmt::format("\nA deterministic prediction (of the published models, the baseline block or the box) is "
-                        "converted to the probability calibrated on the fitting half. Smaller Brier and log scores are "
-                        "better.\n\n![Share of the held-out outcomes that each predictor predicts "
-                        "correctly]({}rock_shake_table_scores.png)\n\n| gain of the extended "
-                        "model over | right | Brier | log |\n|---|---|---|---|\n",
-                        "images/");
+    text += fmt::format(
+                "\nA deterministic prediction (of the published models, the baseline block or the box) is converted to "
+                "the probability calibrated on the fitting half. Smaller Brier and log scores are better.\n\n![Share "
+                "of the held-out outcomes that each predictor predicts correctly]({}rock_shake_table_scores.png)\n\n",
+                "images/") +
+            markdown_head("gain of the extended model over | right | Brier | log");
     for (const Predictor* p : {&r.by_baseline, &r.by_scattered, &r.by_intensity, &r.by_published})
-        text += fmt::format("| {} | {} | {} | {} |\n", p->name,
-                            signed_interval(difference(r.by_extended.held, p->held, share_right)),
-                            signed_interval(difference(r.by_extended.held, p->held, brier)),
-                            signed_interval(difference(r.by_extended.held, p->held, log_loss)));
+        text += markdown_row("{} | {} | {} | {}", p->name,
+                             signed_interval(difference(r.by_extended.held, p->held, share_right)),
+                             signed_interval(difference(r.by_extended.held, p->held, brier)),
+                             signed_interval(difference(r.by_extended.held, p->held, log_loss)));
     text += fmt::format("\nWith the halves exchanged (fitted on the held-out half, evaluated on the fitting half), the "
                         "gain over the baseline is {} of right answers{}, and {} of the Brier score{}.\n\n",
                         signed_interval(r.swapped_right), firmness(r.swapped_right), signed_interval(r.swapped_brier),
                         firmness(r.swapped_brier));
-    text += "Each boulder by itself, and every published numerical model on the same held-out tests:\n\n| boulder | "
-            "model | right | false falls | false stands |\n|---|---|---|---|---|\n";
+    text += "Each boulder by itself, and every published numerical model on the same held-out tests:\n\n" +
+            markdown_head("boulder | model | right | false falls | false stands");
     for (std::size_t s = 0; s < boulders; ++s) {
         for (const Predictor& p : r.published[s]) {
             const Scores score_of = score(p.held);
-            text += fmt::format("| {} | published, {} | {:.3f} | {} | {} |\n", s + 1, p.name, score_of.right,
-                                score_of.false_falls, score_of.false_stands);
+            text += markdown_row("{} | published, {} | {:.3f} | {} | {}", s + 1, p.name, score_of.right,
+                                 score_of.false_falls, score_of.false_stands);
         }
         const Scores mine = score(r.extended_of[s].held);
-        text += fmt::format("| {} | **extended** | **{:.3f}** | {} | {} |\n", s + 1, mine.right, mine.false_falls,
-                            mine.false_stands);
+        text += markdown_row("{} | **extended** | **{:.3f}** | {} | {}", s + 1, mine.right, mine.false_falls,
+                             mine.false_stands);
     }
     return text + '\n';
 }
@@ -282,14 +282,14 @@ std::string cause_section(const BoulderResults& r)
                     std::min(r.body.extent_m[0], r.body.extent_m[1]) / r.body.extent_m[2],
                     r.extended.model[0].slenderness, r.extended.model[1].slenderness);
     text += fmt::format(
-        "**Energy loss in an impact.** A dashpot at the centroid of the contact hardly damps rocking, so the "
-        "engine's block keeps more of its rocking speed at an impact than Housner's; a boulder on faceted edges may "
-        "keep less. The table compares the restitution in free rocking with the likelihood of the outcomes of the "
-        "fitting half, for each dashpot with its best height, slendernesses and spread:\n\n"
-        "| dashpot, ratio | K_N [N/m2] | restitution e | Housner's e | log-likelihood |\n|---|---|---|---|---|\n");
+                "**Energy loss in an impact.** A dashpot at the centroid of the contact hardly damps rocking, so the "
+                "engine's block keeps more of its rocking speed at an impact than Housner's; a boulder on faceted "
+                "edges may keep less. The table compares the restitution in free rocking with the likelihood of the "
+                "outcomes of the fitting half, for each dashpot with its best height, slendernesses and spread:\n\n") +
+            markdown_head("dashpot, ratio | K_N [N/m2] | restitution e | Housner's e | log-likelihood");
     for (const Dissipation& d : r.dissipation)
-        text += fmt::format("| {} | {:g} | {:.3f} | {:.3f} | {:.1f} |\n", dashpot_text(d.best.model[0]),
-                            d.best.model[0].normal_stiffness_n_m2, d.restitution, d.housner, d.best.log_likelihood);
+        text += markdown_row("{} | {:g} | {:.3f} | {:.3f} | {:.1f}", dashpot_text(d.best.model[0]),
+                             d.best.model[0].normal_stiffness_n_m2, d.restitution, d.housner, d.best.log_likelihood);
     const double gain = r.extended.log_likelihood - r.scattered.log_likelihood;
     text += fmt::format(
         "\nThe highest likelihood is that of {} with e = {:.3f}; the baseline's dashpot at its optimum has e = {:.3f} "

@@ -2,6 +2,7 @@
 /// standing.
 
 #include "io/files/atomic_file.hpp"
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
 #include "studies/evidence/measured/parts/logistic.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
@@ -278,15 +279,15 @@ PulseResults compute(const PagePlace& place)
 
 std::string reading_table(const PulseResults& r, std::size_t which)
 {
-    std::string text = "| choice | size | spread | log-likelihood, fitting half | held out: right | false falls | "
-                       "false stands | Brier | log |\n|---|---|---|---|---|---|---|---|---|\n";
+    std::string text = markdown_head("choice | size | spread | log-likelihood, fitting half | held out: right | false "
+                                     "falls | false stands | Brier | log");
     for (std::size_t k = 0; k < r.choices.size(); ++k) {
         const Reading& reading = r.choices[k].reading[which];
         const Scores s = score(reading.held);
         const char* strong = k == r.likeliest[which] ? "**" : "";
-        text += fmt::format("| {0}{1}{0} | {2} | {3:g} | {4:.2f} | {5:.3f} | {6} | {7} | {8:.3f} | {9:.3f} |\n", strong,
-                            r.choices[k].name, size_text(reading.sized), reading.sized.spread,
-                            reading.sized.log_likelihood, s.right, s.false_falls, s.false_stands, s.brier, s.log);
+        text += markdown_row("{0}{1}{0} | {2} | {3:g} | {4:.2f} | {5:.3f} | {6} | {7} | {8:.3f} | {9:.3f}", strong,
+                             r.choices[k].name, size_text(reading.sized), reading.sized.spread,
+                             reading.sized.log_likelihood, s.right, s.false_falls, s.false_stands, s.brier, s.log);
     }
     const std::vector<Forecast>&after = r.choices[r.likeliest[which]].reading[which].held,
           &before = r.choices.front().reading[which].held;
@@ -377,12 +378,10 @@ std::string choices_section(const PulseResults& r)
 {
     std::string text =
         "## Errors, and the effect of each parameter\n\nThe block of this size against all tests, with one parameter "
-        "changed at a time (then two). Nothing in this table is fitted to the experiment:\n\n| changed | right | "
-        "false falls | false "
-        "stands |\n|---|---|---|---|\n";
+        "changed at a time (then two). Nothing in this table is fitted to the experiment:\n\n" +
+        markdown_head("changed | right | false falls | false stands");
     for (const ChoiceResult& c : r.choices)
-        text += fmt::format("| {} | {:.3f} | {} | {} |\n", c.name, c.plain.right, c.plain.false_falls,
-                            c.plain.false_stands);
+        text += markdown_row("{} | {:.3f} | {} | {}", c.name, c.plain.right, c.plain.false_falls, c.plain.false_stands);
     return text;
 }
 
@@ -401,15 +400,14 @@ std::string gain_section(const PulseResults& r)
 
 std::string without_mechanics(const PulseResults& r)
 {
-    std::string text =
-        "**Without mechanics**, on the same held-out tests:\n\n| predictor | right | false falls | false stands | "
-        "Brier | log |\n|---|---|---|---|---|---|\n";
+    std::string text = "**Without mechanics**, on the same held-out tests:\n\n" +
+                       markdown_head("predictor | right | false falls | false stands | Brier | log");
     for (const auto& [name, held] :
          {std::pair{"the published simulation's nearest point, calibrated on the fitting half", &r.by_published},
           {"logistic rule of ln BD and ln velocity, fitted on the fitting half", &r.by_rule}}) {
         const Scores s = score(*held);
-        text += fmt::format("| {} | {:.3f} | {} | {} | {:.3f} | {:.3f} |\n", name, s.right, s.false_falls,
-                            s.false_stands, s.brier, s.log);
+        text += markdown_row("{} | {:.3f} | {} | {} | {:.3f} | {:.3f}", name, s.right, s.false_falls, s.false_stands,
+                             s.brier, s.log);
     }
     for (const std::size_t which : {same_size, free_size})
         text +=

@@ -1,54 +1,32 @@
 #include "studies/evidence/measured/parts/table.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/csv_fields.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 
 namespace stylobate::measured {
 
-namespace {
-
-std::vector<std::string> cells_of(const std::string& line)
-{
-    std::vector<std::string> cells(1);
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"')
-            quoted = !quoted;
-        else if (c == ',' && !quoted)
-            cells.emplace_back();
-        else if (c != '\r')
-            cells.back() += c;
-    }
-    return cells;
-}
-
-long line_of(std::size_t row)
-{
-    return static_cast<long>(row) + 2;
-}
-
-} // namespace
-
 Table::Table(const std::filesystem::path& file) : file_(file.string())
 {
-    std::ifstream in(file);
-    std::string line;
-    if (!in || !std::getline(in, line))
-        throw InputError(file_, 0, "cannot be read, or is empty; a table with a line of headings is needed");
-    headings_ = cells_of(line);
-    while (std::getline(in, line)) {
-        if (line.empty())
-            continue;
-        rows_.push_back(cells_of(line));
-        if (rows_.back().size() != headings_.size())
-            throw InputError(file_, line_of(rows_.size() - 1),
-                             fmt::format("{} cells under {} headings", rows_.back().size(), headings_.size()));
-    }
+    const std::string content = csv_content(file, std::uint64_t{1} << 30);
+    for_each_csv_line(content, [&](const CsvLine& line) {
+        std::vector<std::string> cells(line.fields.begin(), line.fields.end());
+        if (headings_.empty()) {
+            headings_ = std::move(cells);
+            return;
+        }
+        if (cells.size() != headings_.size())
+            throw InputError(file_, line.number,
+                             fmt::format("{} cells under {} headings", cells.size(), headings_.size()));
+        rows_.push_back(std::move(cells));
+        lines_.push_back(line.number);
+    });
+    if (headings_.empty())
+        throw InputError(file_, 0, "is empty; a table with a line of headings is needed");
 }
 
 bool Table::has(const std::string& heading) const
@@ -75,7 +53,7 @@ double Table::number(std::size_t row, const std::string& heading) const
     double value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size())
-        throw InputError(file_, line_of(row), fmt::format("{} = '{}' is not a number", heading, cell));
+        throw InputError(file_, lines_[row], fmt::format("{} = '{}' is not a number", heading, cell));
     return value;
 }
 
@@ -83,7 +61,7 @@ bool Table::flag(std::size_t row, const std::string& heading) const
 {
     const double value = number(row, heading);
     if (value != 0 && value != 1)
-        throw InputError(file_, line_of(row), fmt::format("{} = {} is neither 0 nor 1", heading, value));
+        throw InputError(file_, lines_[row], fmt::format("{} = {} is neither 0 nor 1", heading, value));
     return value == 1;
 }
 

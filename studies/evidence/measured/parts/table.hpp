@@ -27,6 +27,7 @@ private:
     std::string file_;
     std::vector<std::string> headings_;
     std::vector<std::vector<std::string>> rows_;
+    std::vector<long> lines_; ///< of the file, by row
 };
 
 } // namespace stylobate::measured

@@ -1,5 +1,7 @@
 #include "studies/evidence/measured/planar_impact/planar_impact_page.hpp"
 
+#include "io/tables/markdown.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -28,16 +30,15 @@ std::string cell(const Dependence& d)
 std::string laws_table(const ImpactStudy& s)
 {
     std::string text =
-        "| law | free numbers | median error | 90 % | against constant (mu, e) | against the engine's law "
-        "|\n|---|---|---|---|---|---|\n";
+        markdown_head("law | free numbers | median error | 90 % | against constant (mu, e) | against the engine's law");
     for (std::size_t k = 0; k < s.laws.size(); ++k) {
         const JudgedLaw& law = s.laws[k];
         const auto against = [&](std::size_t base) {
             return k <= base ? std::string() : interval(gain(s.laws[base].error, law.error, 7));
         };
-        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", law.name, law.parameters.size(),
-                            percent(quantile(law.error, 0.5)), percent(quantile(law.error, 0.9)),
-                            against(ImpactStudy::newton), against(ImpactStudy::constant));
+        text += markdown_row("{} | {} | {} | {} | {} | {}", law.name, law.parameters.size(),
+                             percent(quantile(law.error, 0.5)), percent(quantile(law.error, 0.9)),
+                             against(ImpactStudy::newton), against(ImpactStudy::constant));
     }
     return text;
 }
@@ -61,8 +62,8 @@ std::string fifths(const ImpactStudy& s)
         {"lever arm of the normal, mm", [](I, A a, C) { return a.n; }, 1000},
         {"lever arm of the tangent (height of the centre), mm", [](I, A a, C) { return a.t; }, 1000},
         {"order in time", [](I i, A, C) { return static_cast<double>(i.index); }, 1}};
-    std::string text = "| quintiles of | upper ends | restitution, median | error of constant (mu, e) | error of the "
-                       "extended law |\n|---|---|---|---|---|\n";
+    std::string text = markdown_head(
+        "quintiles of | upper ends | restitution, median | error of constant (mu, e) | error of the extended law");
     for (const Quantity& q : quantities) {
         std::vector<double> value;
         for (const std::size_t k : s.other) {
@@ -89,7 +90,7 @@ std::string fifths(const ImpactStudy& s)
             before += fmt::format("{}{:.0f}", gap, 100 * quantile(b, 0.5));
             after += fmt::format("{}{:.0f}", gap, 100 * quantile(a, 0.5));
         }
-        text += fmt::format("| {} | {} | {} | {} % | {} % |\n", q.name, ends, e, before, after);
+        text += markdown_row("{} | {} | {} | {} % | {} %", q.name, ends, e, before, after);
     }
     return text;
 }
@@ -97,13 +98,13 @@ std::string fifths(const ImpactStudy& s)
 std::string regressions(const ImpactStudy& s)
 {
     std::string text =
-        "| candidate | restitution | given the place | the place given the candidate | restitution, extended "
-        "law | friction P_t / P_n, extended law | line of action (no law) |\n|---|---|---|---|---|---|---|\n";
+        markdown_head("candidate | restitution | given the place | the place given the candidate | restitution, "
+                      "extended law | friction P_t / P_n, extended law | line of action (no law)");
     for (const CandidateLine& l : s.lines) {
         const bool place = &l == &s.lines.front();
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", l.name, cell(l.restitution),
-                            place ? "" : cell(l.restitution_given_place), place ? "" : cell(l.place_given_it),
-                            cell(l.restitution_extended), cell(l.friction), cell(l.lever));
+        text += markdown_row("{} | {} | {} | {} | {} | {} | {}", l.name, cell(l.restitution),
+                             place ? "" : cell(l.restitution_given_place), place ? "" : cell(l.place_given_it),
+                             cell(l.restitution_extended), cell(l.friction), cell(l.lever));
     }
     return text;
 }
@@ -117,17 +118,15 @@ std::string added_terms(const ImpactStudy& s)
         return std::string(" | ");
     };
     std::string text =
-        "| term | engine's law: fitted half | held-out half | extended law: fitted half | held-out half |\n"
-        "|---|---|---|---|---|\n";
+        markdown_head("term | engine's law: fitted half | held-out half | extended law: fitted half | held-out half");
     for (const AddedTerm& a : s.to_constant)
-        text += fmt::format("| {} | {} | {} |\n", to_string(a.term), row(s.to_constant, a.term),
-                            row(s.to_extended, a.term));
+        text += markdown_row("{} | {} | {}", to_string(a.term), row(s.to_constant, a.term), row(s.to_extended, a.term));
     return text;
 }
 
 std::string parameters(const ImpactStudy& s)
 {
-    std::string text = "| law | fitted |\n|---|---|\n";
+    std::string text = markdown_head("law | fitted");
     for (const std::size_t which : {ImpactStudy::constant, ImpactStudy::place_rate, ImpactStudy::extended}) {
         const std::vector<double>& p = s.laws[which].parameters;
         const std::vector<std::string> names = s.models[which].names();
@@ -136,7 +135,7 @@ std::string parameters(const ImpactStudy& s)
             s.models[which].loss == Loss::dashpot ? "C_N [N s/m]" : "lambda [s/m]", std::exp(p[3]));
         for (std::size_t k = 4; k < p.size(); ++k)
             values += fmt::format("; {} {:+.3f}", names[k], p[k]);
-        text += fmt::format("| {} | {} |\n", s.laws[which].name, values);
+        text += markdown_row("{} | {}", s.laws[which].name, values);
     }
     return text;
 }
@@ -342,11 +341,10 @@ std::string floor_section(const ImpactStudy& s)
 
 std::string robustness_and_limits(const ImpactStudy& s)
 {
-    std::string text =
-        "## Robustness\n\n| K_N [N/m2], others refitted | duration | median | 90 % |\n|---|---|---|---|\n";
+    std::string text = "## Robustness\n\n" + markdown_head("K_N [N/m2], others refitted | duration | median | 90 %");
     for (const auto& line : s.stiffness)
-        text += fmt::format("| {:.0e} | {:.2f} ms | {} | {} |\n", line.K_N, 1000 * line.duration_s,
-                            percent(quantile(line.error, 0.5)), percent(quantile(line.error, 0.9)));
+        text += markdown_row("{:.0e} | {:.2f} ms | {} | {}", line.K_N, 1000 * line.duration_s,
+                             percent(quantile(line.error, 0.5)), percent(quantile(line.error, 0.9)));
     text += fmt::format(
         "\nVelocities before and after the impact do not determine K_N, which is fixed at 1e8 N/m2. With the halves "
         "exchanged the gain of the extended law over the engine's law is {}. A tenth of the time step changes its "

@@ -3,6 +3,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampling/sampler.hpp"
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
@@ -71,8 +72,7 @@ Finding contact_stiffness()
     const std::vector<double> at{3e6, 1e7, 3e7, 1e8, 3e8, 1e9, 3e9};
     std::vector<double> probability, low, high, first, share;
     std::string table =
-        "| K_N [N/m2] | collapse probability (95 %) | f1 [Hz] | f / f1 | static capacity of MONO [m/s2] |\n"
-        "|---|---|---|---|---|\n";
+        markdown_head("K_N [N/m2] | collapse probability (95 %) | f1 [Hz] | f / f1 | static capacity of MONO [m/s2]");
     for (double K : at) {
         const std::uint64_t n = collapses(K, pga);
         const BinomialInterval interval = jeffreys(realizations, n, 0.95);
