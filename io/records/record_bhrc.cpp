@@ -28,17 +28,6 @@ bool recognise(const RecordText& text)
     return is_component_top(text.lines.front());
 }
 
-/// A line of the text that begins at `top`.
-std::size_t line_with(const RecordText& text, std::size_t top, std::string_view phrase)
-{
-    const std::size_t end = std::min(top + text_lines, text.lines.size());
-    const std::size_t i = find_line(text, top, end, phrase);
-    if (i == end)
-        text.refuse(top, fmt::format("the component has no line with \"{}\" in its header: it is truncated or damaged.",
-                                     phrase));
-    return i;
-}
-
 /// "140" for T of "Azimuth L 50    T 140"; the component's letter where it has no azimuth.
 std::string orientation_of(std::string_view place, const std::string& component)
 {
@@ -61,16 +50,16 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     Record record;
     record.file = text.file;
     record.format = bhrc_parser.format;
-    record.component = word_after(text.lines[line_with(text, top, "comp ")], "comp ");
-    const std::size_t place = line_with(text, top, "station");
+    record.component = word_after(text.lines[header_line(text, top, text_lines, "comp ")], "comp ");
+    const std::size_t place = header_line(text, top, text_lines, "station");
     record.station = trimmed(text.lines[place].substr(0, lower_case(text.lines[place]).find("station")));
     record.orientation = orientation_of(text.lines[place], record.component);
-    record.title = squeezed(text.lines[line_with(text, top, "origin time")]) + ", " +
-                   squeezed(text.lines[line_with(text, top, "epicenter")]);
-    const std::size_t units = line_with(text, top, "units are");
+    record.title = squeezed(text.lines[header_line(text, top, text_lines, "origin time")]) + ", " +
+                   squeezed(text.lines[header_line(text, top, text_lines, "epicenter")]);
+    const std::size_t units = header_line(text, top, text_lines, "units are");
     record.unit = unit_of_file(text, units, word_after(text.lines[units], " and "), given);
 
-    const std::size_t points = line_with(text, top, "no. of points");
+    const std::size_t points = header_line(text, top, text_lines, "no. of points");
     const std::size_t count = sample_count(text, points, word_after(text.lines[points], "no. of points"));
     const double duration_s = number(text, points, word_after(text.lines[points], "duration"));
     const std::size_t reals = top + text_lines + integer_lines, first_value = reals + real_lines;

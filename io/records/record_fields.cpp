@@ -33,6 +33,16 @@ std::size_t find_line(const RecordText& text, std::size_t first, std::size_t las
     return last;
 }
 
+std::size_t header_line(const RecordText& text, std::size_t top, std::size_t lines, std::string_view phrase)
+{
+    const std::size_t end = std::min(top + lines, text.lines.size());
+    const std::size_t i = find_line(text, top, end, phrase);
+    if (i == end)
+        text.refuse(top, fmt::format("the component has no line with \"{}\" in its header: it is truncated or damaged.",
+                                     phrase));
+    return i;
+}
+
 std::string word_after(std::string_view line, std::string_view key)
 {
     const std::string words = squeezed(line);

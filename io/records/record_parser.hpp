@@ -115,6 +115,10 @@ void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t la
 /// number of them; `last` if none does.
 std::size_t find_line(const RecordText& text, std::size_t first, std::size_t last, std::string_view phrase);
 
+/// The same in a component's header of `lines` lines from `top` on.
+/// @throws InputError if none of them holds it: the component is truncated or damaged
+std::size_t header_line(const RecordText& text, std::size_t top, std::size_t lines, std::string_view phrase);
+
 /// The word behind `key` in a line, an "=" or ":" between them or not; empty if the line lacks the key or ends there.
 /// `key` is in lower case, single blanks in it stand for any number of them; the word keeps its case.
 std::string word_after(std::string_view line, std::string_view key);

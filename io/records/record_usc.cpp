@@ -40,16 +40,6 @@ std::string_view text_of(std::string_view line)
     return line.substr(0, text_columns);
 }
 
-std::size_t line_with(const RecordText& text, std::size_t top, std::string_view phrase)
-{
-    const std::size_t end = std::min(top + text_lines, text.lines.size());
-    const std::size_t i = find_line(text, top, end, phrase);
-    if (i == end)
-        text.refuse(top, fmt::format("the component has no line with \"{}\" in its header: it is truncated or damaged.",
-                                     phrase));
-    return i;
-}
-
 /// Where each sample was taken, in whole milliseconds, growing.
 std::vector<long> times_of(const RecordText& text, std::size_t first_value, const std::vector<double>& pairs)
 {
@@ -85,17 +75,17 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     Record record;
     record.file = text.file;
     record.format = usc_parser.format;
-    record.orientation = word_after(text_of(text.lines[line_with(text, top, "comp ")]), "comp ");
+    record.orientation = word_after(text_of(text.lines[header_line(text, top, text_lines, "comp ")]), "comp ");
     record.component = record.orientation;
-    const std::size_t station = line_with(text, top, "station");
+    const std::size_t station = header_line(text, top, text_lines, "station");
     if (station + 1 < text.lines.size())
         record.station = squeezed(text_of(text.lines[station + 1]));
-    const std::size_t epicentre = line_with(text, top, "epicenter");
+    const std::size_t epicentre = header_line(text, top, text_lines, "epicenter");
     if (epicentre > top + 1)
         record.title = squeezed(text_of(text.lines[epicentre - 1]));
-    const std::size_t units = line_with(text, top, "units are");
+    const std::size_t units = header_line(text, top, text_lines, "units are");
     record.unit = unit_of_file(text, units, word_after(text_of(text.lines[units]), " and "), given);
-    const std::size_t points = line_with(text, top, "no. of points");
+    const std::size_t points = header_line(text, top, text_lines, "no. of points");
     const std::size_t count = sample_count(text, points, word_after(text.lines[points], "no. of points"));
     const double duration_s = number(text, points, word_after(text_of(text.lines[points]), "duration"));
 

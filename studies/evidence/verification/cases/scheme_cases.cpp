@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <random>
+
 namespace stylobate::verification {
 
 namespace {
