@@ -341,6 +341,7 @@ private:
 
     /// A bed's force is stored with it until its blocks sum theirs up. A pair adds to them at once, and only where it
     /// touches: so they have the same bits whether or not it was evaluated.
+    // long: one loop whose sums stay in registers; a part of it as a function would hand a dozen of them to and fro
     template <class Kind, class JointOf>
     STYLOBATE_INLINE void forces(int count, JointOf joint_of, const Scratch* scratch) const
     {

@@ -246,6 +246,43 @@ RunSpec read_run(const KeyReader& keys)
     return r;
 }
 
+/// Refuses the table of another kind of study.
+void check_tables(const KeyReader& top, StudyKind of_study)
+{
+    for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface},
+                                      {"fragility", StudyKind::fragility},
+                                      {"sensitivity", StudyKind::sensitivity},
+                                      {"rare", StudyKind::rare}})
+        if (of_study != kind && top.has(table))
+            top.refuse(table, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, of_study)),
+                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table, table));
+}
+
+/// How many realizations. @param keys of [study]
+std::uint64_t read_realizations(const KeyReader& keys, const Study& study)
+{
+    const auto refuse = [&](const char* kind, const char* instead) {
+        if (keys.has("realizations"))
+            keys.refuse("realizations", fmt::format("is not used by study.kind = \"{}\"", kind),
+                        fmt::format("Give {} instead.", instead));
+    };
+    switch (study.kind) {
+    case StudyKind::surface:
+        return keys.whole("realizations", 1, most_realizations, "The number in each cell.");
+    case StudyKind::fragility:
+        return keys.whole("realizations", 1, most_realizations, "Structures under each motion in each stripe.");
+    case StudyKind::sensitivity:
+        refuse("sensitivity", "sensitivity.samples and sensitivity.inner");
+        break;
+    case StudyKind::rare:
+        refuse("rare", "rare.samples and rare.repeats");
+        break;
+    case StudyKind::single:
+        break;
+    }
+    return keys.whole_or("realizations", 1, most_realizations, study.realizations);
+}
+
 /// @param folder beside which the study's files are looked for
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
@@ -265,16 +302,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
     study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
     const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;
-    if (is_sensitivity && keys.has("realizations"))
-        keys.refuse("realizations", "is not used by study.kind = \"sensitivity\"",
-                    "Give sensitivity.samples and sensitivity.inner instead.");
-    if (is_rare && keys.has("realizations"))
-        keys.refuse("realizations", "is not used by study.kind = \"rare\"",
-                    "Give rare.samples and rare.repeats instead.");
-    study.realizations = is_surface     ? keys.whole("realizations", 1, most_realizations, "The number in each cell.")
-                         : is_fragility ? keys.whole("realizations", 1, most_realizations,
-                                                     "Structures under each motion in each stripe.")
-                                        : keys.whole_or("realizations", 1, most_realizations, study.realizations);
+    study.realizations = read_realizations(keys, study);
     study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
     study.allow = read_allow(keys);
     if (is_rare && study.sampling != Sampling::independent)
@@ -303,13 +331,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
                                 static_cast<double>(study.cells()) * static_cast<double>(study.realizations),
                                 most_realizations),
                     "Give fewer realizations or fewer cells.");
-    for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface},
-                                      {"fragility", StudyKind::fragility},
-                                      {"sensitivity", StudyKind::sensitivity},
-                                      {"rare", StudyKind::rare}})
-        if (study.kind != kind && top.has(table))
-            top.refuse(table, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, study.kind)),
-                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table, table));
+    check_tables(top, study.kind);
     read_mechanisms(top.table("mechanisms"), study);
     read_perturbations(top.table("perturbation"), study);
     if (is_fragility)

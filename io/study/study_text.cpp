@@ -372,6 +372,39 @@ void write(Writer& out, const TwinsSpec& twins)
     out.number("tolerance", twins.tolerance);
 }
 
+/// What every study has at its end: start, output, outcome, run.
+void write_end(Writer& out, const Study& study)
+{
+    out.section("initial");
+    out.number("tilt_rad", study.initial.tilt_rad);
+    out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));
+    out.section("output");
+    out.number("trajectory_rate_hz", study.output.trajectory_rate_hz);
+    out.word("realizations", word_for(kept_realizations_names, study.kept));
+    if (study.kind == StudyKind::single) {
+        const std::optional<std::uint64_t>& kept = study.output.trajectories;
+        if (kept && *kept != OutputSpec::all)
+            out.whole("trajectories", *kept);
+        else
+            out.word("trajectories", kept ? trajectories_all : trajectories_fit);
+        out.number("most_mb", study.output.most_mb);
+    }
+    out.section("outcome");
+    out.word("follow", word_for(follow_names, study.outcome.follow));
+    out.line("collapse", inline_table({{"height_fraction", toml_number(study.outcome.collapse_height_fraction)}}));
+    out.number("rocking_threshold_rad", study.outcome.rocking_threshold_rad);
+    out.number("sliding_threshold", study.outcome.sliding_threshold);
+    out.section("run");
+    out.word("precision", word_for(precision_names, study.run.precision));
+    if (study.run.step_s)
+        out.number("step_s", *study.run.step_s);
+    else
+        out.number("step_fraction", study.run.step_fraction);
+    out.word("step_bound", word_for(step_basis_names, study.run.step_bound));
+    out.boolean("allow_step_above_bound", study.run.allow_step_above_bound);
+    out.number("max_invalid_fraction", study.run.max_invalid_fraction);
+}
+
 } // namespace
 
 std::string study_text(const Study& study)
@@ -432,34 +465,7 @@ std::string study_text(const Study& study)
         out.section("mechanisms");
     for (const auto& [name, value] : mechanism_entries(study))
         out.line(name, value);
-    out.section("initial");
-    out.number("tilt_rad", study.initial.tilt_rad);
-    out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));
-    out.section("output");
-    out.number("trajectory_rate_hz", study.output.trajectory_rate_hz);
-    out.word("realizations", word_for(kept_realizations_names, study.kept));
-    if (study.kind == StudyKind::single) {
-        const std::optional<std::uint64_t>& kept = study.output.trajectories;
-        if (kept && *kept != OutputSpec::all)
-            out.whole("trajectories", *kept);
-        else
-            out.word("trajectories", kept ? trajectories_all : trajectories_fit);
-        out.number("most_mb", study.output.most_mb);
-    }
-    out.section("outcome");
-    out.word("follow", word_for(follow_names, study.outcome.follow));
-    out.line("collapse", inline_table({{"height_fraction", toml_number(study.outcome.collapse_height_fraction)}}));
-    out.number("rocking_threshold_rad", study.outcome.rocking_threshold_rad);
-    out.number("sliding_threshold", study.outcome.sliding_threshold);
-    out.section("run");
-    out.word("precision", word_for(precision_names, study.run.precision));
-    if (study.run.step_s)
-        out.number("step_s", *study.run.step_s);
-    else
-        out.number("step_fraction", study.run.step_fraction);
-    out.word("step_bound", word_for(step_basis_names, study.run.step_bound));
-    out.boolean("allow_step_above_bound", study.run.allow_step_above_bound);
-    out.number("max_invalid_fraction", study.run.max_invalid_fraction);
+    write_end(out, study);
     return out.text();
 }
 

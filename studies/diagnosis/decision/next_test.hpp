@@ -1,5 +1,5 @@
 #pragma once
-/// The test that would tell apart the causes that are left.
+/// The test that would distinguish the remaining causes.
 
 #include "studies/diagnosis/decision/prediction.hpp"
 

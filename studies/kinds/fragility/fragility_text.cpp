@@ -102,70 +102,81 @@ std::string fragility_text(const Fragility& f)
     return text;
 }
 
+namespace {
+
+Json state_json(const StateFragility& s)
+{
+    Json state = Json::object();
+    state.member("name", s.state.name)
+        .member("limit_state", s.state.describe)
+        .member("trials", s.curve.trials)
+        .member("reached", s.curve.reached)
+        .member("curve", has_curve(s));
+    if (has_curve(s))
+        state.member("median", limits_json(s.curve.median))
+            .member("dispersion", limits_json(s.curve.dispersion))
+            .member("lack_of_fit_p", s.fit.p_value);
+    if (s.stripes) {
+        state.member("monotone_p", s.stripes->p_monotone);
+        Json stripes = Json::list();
+        for (const StripeShare& share : s.stripes->stripes)
+            stripes.item(Json::object()
+                             .member("intensity", share.intensity)
+                             .member("trials", share.trials)
+                             .member("reached", share.reached)
+                             .member("lower", share.limits.lower)
+                             .member("upper", share.limits.upper));
+        state.member("stripes", stripes);
+        state.member("resurrected", s.resurrected).member("reached_ever", s.reached_ever);
+    }
+    if (s.shares) {
+        Json shares = Json::object();
+        for (std::size_t l = 0; l < dispersion_levels; ++l)
+            if (const DispersionShare& share = s.shares->levels[l]; share.known)
+                shares.member(to_string(static_cast<DispersionLevel>(l)),
+                              Json::object()
+                                  .member("share", share.share)
+                                  .member("lower", share.share_limits.lower)
+                                  .member("upper", share.share_limits.upper));
+        state.member("scatter", shares);
+    }
+    Json says = Json::list();
+    for (const std::string& remark : remarks(s))
+        says.item(remark);
+    return state.member("says", says);
+}
+
+Json measure_json(const RankedMeasure& m)
+{
+    Json features = Json::list();
+    for (const Sufficiency& feature : m.sufficiency)
+        features.item(Json::object()
+                          .member("feature", feature.feature)
+                          .member("coefficient", feature.coefficient)
+                          .member("lower", feature.limits.lower)
+                          .member("upper", feature.limits.upper)
+                          .member("p", feature.p_value));
+    return Json::object()
+        .member("measure", m.name)
+        .member("dispersion", m.dispersion)
+        .member("dispersion_lower", m.dispersion_limits.lower)
+        .member("dispersion_upper", m.dispersion_limits.upper)
+        .member("gain_nats", m.gain)
+        .member("behind_lower_nats", m.behind.lower)
+        .member("behind_upper_nats", m.behind.upper)
+        .member("sufficient", m.sufficient)
+        .member("features", features);
+}
+
+} // namespace
+
 Json fragility_json(const Fragility& f)
 {
-    Json states = Json::list();
-    for (const StateFragility& s : f.states) {
-        Json state = Json::object();
-        state.member("name", s.state.name)
-            .member("limit_state", s.state.describe)
-            .member("trials", s.curve.trials)
-            .member("reached", s.curve.reached)
-            .member("curve", has_curve(s));
-        if (has_curve(s))
-            state.member("median", limits_json(s.curve.median))
-                .member("dispersion", limits_json(s.curve.dispersion))
-                .member("lack_of_fit_p", s.fit.p_value);
-        if (s.stripes) {
-            state.member("monotone_p", s.stripes->p_monotone);
-            Json stripes = Json::list();
-            for (const StripeShare& share : s.stripes->stripes)
-                stripes.item(Json::object()
-                                 .member("intensity", share.intensity)
-                                 .member("trials", share.trials)
-                                 .member("reached", share.reached)
-                                 .member("lower", share.limits.lower)
-                                 .member("upper", share.limits.upper));
-            state.member("stripes", stripes);
-            state.member("resurrected", s.resurrected).member("reached_ever", s.reached_ever);
-        }
-        if (s.shares) {
-            Json shares = Json::object();
-            for (std::size_t l = 0; l < dispersion_levels; ++l)
-                if (const DispersionShare& share = s.shares->levels[l]; share.known)
-                    shares.member(to_string(static_cast<DispersionLevel>(l)),
-                                  Json::object()
-                                      .member("share", share.share)
-                                      .member("lower", share.share_limits.lower)
-                                      .member("upper", share.share_limits.upper));
-            state.member("scatter", shares);
-        }
-        Json says = Json::list();
-        for (const std::string& remark : remarks(s))
-            says.item(remark);
-        states.item(state.member("says", says));
-    }
-    Json measures = Json::list();
-    for (const RankedMeasure& m : f.measures) {
-        Json features = Json::list();
-        for (const Sufficiency& feature : m.sufficiency)
-            features.item(Json::object()
-                              .member("feature", feature.feature)
-                              .member("coefficient", feature.coefficient)
-                              .member("lower", feature.limits.lower)
-                              .member("upper", feature.limits.upper)
-                              .member("p", feature.p_value));
-        measures.item(Json::object()
-                          .member("measure", m.name)
-                          .member("dispersion", m.dispersion)
-                          .member("dispersion_lower", m.dispersion_limits.lower)
-                          .member("dispersion_upper", m.dispersion_limits.upper)
-                          .member("gain_nats", m.gain)
-                          .member("behind_lower_nats", m.behind.lower)
-                          .member("behind_upper_nats", m.behind.upper)
-                          .member("sufficient", m.sufficient)
-                          .member("features", features));
-    }
+    Json states = Json::list(), measures = Json::list();
+    for (const StateFragility& s : f.states)
+        states.item(state_json(s));
+    for (const RankedMeasure& m : f.measures)
+        measures.item(measure_json(m));
     Json says = Json::list();
     for (const std::string& line : f.says)
         says.item(line);
