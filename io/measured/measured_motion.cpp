@@ -38,8 +38,8 @@ double spacing(const MeasuredRun& run)
     const double intervals = std::max(std::round(span / step), 1.0);
     constexpr double most_intervals = 1e7;
     if (intervals > most_intervals)
-        throw InputError(fmt::format("run {}: the clock spans {} s at steps of {} s: its gap is too large.", run.name,
-                                     span, step));
+        throw InputError(
+            fmt::format("run {}: the clock spans {} s at steps of {} s: its gap is too large.", run.name, span, step));
     return span / intervals;
 }
 

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_lines = 80; // from the brace that opens a body to the one that closes it
+constexpr std::size_t most_function_lines = 80; // from the brace that opens a body to the one that closes it
 
 struct LongFunction {
     std::size_t line;  ///< of its brace, from 1
@@ -40,7 +40,7 @@ std::vector<LongFunction> long_functions(const std::string& text)
             bool said = false; // in the comment or the declaration before the brace
             for (std::size_t k = opened - 1; k-- > 0 && !lines[k].empty() && !lines[k].starts_with(indent + "}");)
                 said = said || lines[k].starts_with(indent + "// long: ");
-            if (i + 2 - opened > most_lines && !said)
+            if (i + 2 - opened > most_function_lines && !said)
                 found.push_back({opened, i + 2 - opened});
             opened = 0;
         }
@@ -66,7 +66,7 @@ TEST(House, NoFunctionIsTooLong)
             text << file.rdbuf();
             for (const LongFunction& f : long_functions(text.str()))
                 ADD_FAILURE() << entry.path().lexically_relative(root).generic_string() << ':' << f.line
-                              << ": a function of " << f.lines << " lines, more than " << most_lines
+                              << ": a function of " << f.lines << " lines, more than " << most_function_lines
                               << ": name its steps, or say above it: // long: REASON";
         }
     }
@@ -82,11 +82,12 @@ TEST(Rules, FindLongFunctions)
         return text + indent + "}\n";
     };
     const std::string function = "\nvoid f(int x,\n       int y)\n", method = "class A {\n\n    void f()\n";
-    EXPECT_EQ(long_functions(function + body(most_lines, "")).size(), 0U);
-    ASSERT_EQ(long_functions(function + body(most_lines + 1, "")).size(), 1U);
-    EXPECT_EQ(long_functions(function + body(most_lines + 1, ""))[0].line, 4U);
-    EXPECT_EQ(long_functions(function + body(most_lines + 1, ""))[0].lines, most_lines + 1);
-    EXPECT_EQ(long_functions("\n// long: a flat list" + function.substr(0) + body(most_lines + 1, "")).size(), 0U);
-    EXPECT_EQ(long_functions(method + body(most_lines, "    ") + "};\n").size(), 0U);
-    EXPECT_EQ(long_functions(method + body(most_lines + 1, "    ") + "};\n").size(), 1U);
+    EXPECT_EQ(long_functions(function + body(most_function_lines, "")).size(), 0U);
+    ASSERT_EQ(long_functions(function + body(most_function_lines + 1, "")).size(), 1U);
+    EXPECT_EQ(long_functions(function + body(most_function_lines + 1, ""))[0].line, 4U);
+    EXPECT_EQ(long_functions(function + body(most_function_lines + 1, ""))[0].lines, most_function_lines + 1);
+    EXPECT_EQ(long_functions("\n// long: a flat list" + function.substr(0) + body(most_function_lines + 1, "")).size(),
+              0U);
+    EXPECT_EQ(long_functions(method + body(most_function_lines, "    ") + "};\n").size(), 0U);
+    EXPECT_EQ(long_functions(method + body(most_function_lines + 1, "    ") + "};\n").size(), 1U);
 }
