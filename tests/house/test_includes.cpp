@@ -35,7 +35,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble", {"ensemble/model", "ensemble/motion", "ensemble/sampling"}}, // an experiment
     {"ensemble/engine",
      {"ensemble", "ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/sampling", "ensemble/statics"}},
-    {"ensemble/tracking", {"ensemble/engine", "ensemble/model"}},
+    {"ensemble/tracking", {"ensemble/engine", "ensemble/model", "ensemble/numerics"}},
     {"ensemble/replicas",
      {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/sampling", "ensemble/statics"}},
     {"ensemble/estimators/resampling", {"ensemble/numerics"}},

@@ -113,7 +113,7 @@ TEST(Specimen, WhatCannotBeBuiltIsNamed)
     refused(
         sample_specimen(), [](Specimen& s) { s.mass_kg.clear(); }, "mass_kg is absent");
     refused(
-        sample_specimen(), [](Specimen& s) { s.mass_kg[1] = nan_value; }, "mass_kg of block 1 is no number");
+        sample_specimen(), [](Specimen& s) { s.mass_kg[1] = nan_value; }, "mass_kg of block 1 is not a number");
     refused(
         sample_specimen(), [](Specimen& s) { s.depth_m[2] = 0.05; }, "block 2 0.05 m");
     refused(

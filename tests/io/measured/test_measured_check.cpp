@@ -99,7 +99,7 @@ TEST(MeasuredCheck, ClocksAreChecked)
     expect_found(Severity::note, "run 001, time_s", "resampled", [](Campaign& c) { c.runs[1].time_s[8] += 0.0005; });
     expect_found(Severity::warning, "run 001, time_s", "the clock is used",
                  [](Campaign& c) { c.runs[1].rate_hz = 200; });
-    expect_found(Severity::note, "run 001, base", "another one (\"table\")",
+    expect_found(Severity::note, "run 001, base", "its clock (\"table\")",
                  [](Campaign& c) { c.runs[1].base_clock = "table"; });
 }
 

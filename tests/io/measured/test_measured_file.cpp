@@ -351,7 +351,7 @@ TEST(MeasuredFile, ColumnsOfCsvSayTheirUnits)
     refused("time_s,thta0_rad\n0,0\n", "Did you mean theta0_rad?");
     refused("time_s,x0_furlong\n0,0\n", "Did you mean x0_m?");
     refused("time_s,x0_m\n0,0\n1\n", "x.csv:3: has 1 fields where there are 2 columns");
-    refused("time_s,x0_m\n0,O\n", "x.csv:2: x0_m = \"O\" is no number");
+    refused("time_s,x0_m\n0,O\n", "x.csv:2: x0_m = \"O\" is not a number");
     refused("time_s,x0_m,x0_mm\n", "occurs twice");
     refused("", "no line of column names");
 }

@@ -56,7 +56,7 @@ TEST(MeasuredOutcomes, BadTablesAreRefused)
     expect_refused("fell,pga_g\n1\n", "a.csv:2: has 1 fields");
     expect_refused("fell,pga_m_s2\n1,300\n", "outside (0, 100]");
     expect_refused("fell,pga_m_s2\n1,-3\n", "outside (0, 100]");
-    expect_refused("fell,pga_m_s2\n1,x\n", "a.csv:2: pga_m_s2 = \"x\" is no number");
+    expect_refused("fell,pga_m_s2\n1,x\n", "a.csv:2: pga_m_s2 = \"x\" is not a number");
     expect_refused("fell,pga_g,motion_id\n1,1,0.5\n", "is not a whole number");
 }
 

@@ -362,7 +362,7 @@ TEST_F(TallyStore, AnotherStudyIsRefusedAndNothingChanges)
     other.limit_states = {"collapse", "third"};
     expect_part(refusal([&] { TallyWriter::resume(file, other); }), "counts other limit states");
     expect_part(refusal([&] { TallyWriter::resume(file, tally_header(2000)); }), "1000 realizations instead of 2000");
-    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(1000)); }), "has no rows");
+    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(1000)); }), "keeps no rows");
     expect_part(refusal([&] { TallyWriter::create(file, tally_header(1000)); }), "exists already");
     other = tally_header(1000);
     other.code_version = "9";

@@ -113,9 +113,9 @@ TEST(StudyExcitation, RefusesSyntheticExcitationsThatMakeNoSense)
                       sweep = "kind = \"sweep\"\npga_m_s2 = 3\n";
     refused("kind = \"ricker\"\npga_m_s2 = 3", 0, {"excitation.frequency_hz is missing"});
     refused("kind = \"ricker\"\n" + at + "cycles = 3", 4, {"not used by excitation.kind = \"ricker\""});
-    refused(pulse + "gamma = 0.5", 4, {"excitation.gamma = 0.5 is outside [1, 20]", "bell"});
+    refused(pulse + "gamma = 0.5", 4, {"excitation.gamma = 0.5 is outside [1, 20]", "envelope"});
     refused(pulse + "gama = 2", 4, {"unknown key excitation.gama", "Did you mean gamma?"});
-    refused(tapered + "ramp_cycles = 0.5", 4, {"outside [1, 5000]", "jerk"});
+    refused(tapered + "ramp_cycles = 0.5", 4, {"outside [1, 5000]", "abrupt start"});
     refused(tapered + "cycles = 3", 4, {"two ramps of 2 cycles each in 3 cycles", "shorter ramps."});
     refused(tapered + "start = \"smooth\"", 4, {"not used by excitation.kind = \"tapered\""});
     refused(sweep + "from_hz = 1\nduration_s = 9", 0, {"excitation.to_hz is missing"});

@@ -196,7 +196,7 @@ TEST(StudyMechanisms, SaysWhatIsWrong)
     expect_refused("stribeck = { dynamic_friction = -1, velocity_m_s = 0.05 }", {"is outside (0, 10]"});
     expect_refused("stribeck = 0.5", {"mechanisms.stribeck = 0.5 is a number, not a table"});
     expect_refused("stribeck = []", {"mechanisms.stribeck", "is empty"});
-    expect_refused("corner_loss = { joint = 1 }", {"mechanisms.corner_loss says nothing", "left_m, right_m"});
+    expect_refused("corner_loss = { joint = 1 }", {"mechanisms.corner_loss has no value", "left_m, right_m"});
     expect_refused("corner_loss = { joint = 1, left_m = 0.03, right_m = 0.02 }",
                    {"left_m = 0.03", "nothing of joint 1", "0.048 m"});
     expect_refused("dowel = { stiffness_n_m = 1e5 }", {"mechanisms.dowel.yield_n is missing"});
