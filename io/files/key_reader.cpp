@@ -46,19 +46,6 @@ std::string with_todo(const std::string& what, std::string todo)
 
 } // namespace
 
-bool Range::contains(double value) const
-{
-    return std::isfinite(value) && (open ? value > low : value >= low) && value <= high;
-}
-
-std::string Range::text() const
-{
-    const auto bound = [](double value) {
-        return std::abs(value) < 1e6 ? fmt::format("{}", value) : fmt::format("{:g}", value);
-    };
-    return fmt::format("{}{}, {}]", open ? '(' : '[', bound(low), bound(high));
-}
-
 KeyReader::KeyReader(const TomlValue* table, std::string path, const TomlPlace& above)
     : table_(table), path_(std::move(path)), place_(table ? table->place : above)
 {
@@ -119,6 +106,21 @@ void KeyReader::refuse_unused(const std::vector<std::string>& used, const std::s
 KeyReader KeyReader::table(std::string_view key) const
 {
     return KeyReader(find(key), full(key), place_);
+}
+
+KeyReader KeyReader::table(const TableKey& key) const
+{
+    KeyReader keys = table(key.name);
+    keys.allow_only(key.names());
+    return keys;
+}
+
+std::vector<KeyReader> KeyReader::tables(const TableKey& key) const
+{
+    std::vector<KeyReader> all = tables(key.name);
+    for (const KeyReader& keys : all)
+        keys.allow_only(key.names());
+    return all;
 }
 
 std::vector<KeyReader> KeyReader::tables(std::string_view key) const

@@ -3,6 +3,7 @@
 /// key, value, what is allowed and what to do.
 
 #include "io/files/toml_document.hpp"
+#include "io/files/toml_key.hpp"
 
 #include <array>
 #include <cstdint>
@@ -12,19 +13,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// What a number may be; never NaN or infinite.
-struct Range {
-    double low = 0;
-    double high = 0;
-    bool open = false;     ///< `low` itself is outside
-    std::string hint = {}; ///< the unit, as a sentence
-    double guess = 0;      ///< a value outside, times this, may be what was meant (mm for m); 0: no guess
-
-    bool contains(double value) const;
-    /// "(0, 10]"
-    std::string text() const;
-};
 
 class KeyReader {
 public:
@@ -36,6 +24,45 @@ public:
     bool has(std::string_view key) const { return find(key) != nullptr; }
     /// The value as it stands; null if absent.
     const TomlValue* find(std::string_view key) const { return table_ ? table_->find(key) : nullptr; }
+
+    // By the key's description: type, range and default are its own. Without a default, a key that is absent is
+    // missing.
+
+    double read(const NumberKey& key) const { return read_within(key, key.range); }
+    /// In a range that this file allows.
+    double read_within(const NumberKey& key, const Range& range) const
+    {
+        return key.absent_value && !has(key.name) ? *key.absent_value : number(key.name, range);
+    }
+    std::uint64_t read(const WholeKey& key) const { return read_up_to(key, key.high); }
+    /// No more than this file allows.
+    std::uint64_t read_up_to(const WholeKey& key, std::uint64_t high) const
+    {
+        return key.absent_value && !has(key.name) ? *key.absent_value : whole(key.name, key.low, high, key.hint);
+    }
+    bool read(const BooleanKey& key) const { return boolean_or(key.name, key.absent_value.value_or(false)); }
+    template <class Enum>
+    Enum read(const WordKey<Enum>& key) const
+    {
+        return key.absent_value && !has(key.name) ? *key.absent_value : choice(key.name, key.names);
+    }
+    std::string read(const TextKey& key) const { return text(key.name); }
+    /// The value where the key is given, and else this one.
+    template <class Key>
+    typename Key::Value read_or(const Key& key, typename Key::Value absent) const
+    {
+        return has(key.name) ? read(key) : absent;
+    }
+    template <class Key>
+    std::optional<typename Key::Value> maybe(const Key& key) const
+    {
+        return has(key.name) ? std::optional<typename Key::Value>(read(key)) : std::nullopt;
+    }
+    bool has(const TomlKey& key) const { return has(key.name); }
+    /// A table in this one, perhaps absent; its keys are checked.
+    KeyReader table(const TableKey& key) const;
+    /// The tables of a list, with their keys checked; none if the key is absent.
+    std::vector<KeyReader> tables(const TableKey& key) const;
 
     /// Refuses any key that is not one of these: 'did you mean'.
     void allow_only(const std::vector<std::string>& known) const;

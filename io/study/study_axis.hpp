@@ -3,17 +3,17 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/files/key_reader.hpp"
-
-#include <string>
-#include <string_view>
-#include <vector>
+#include "io/keys/axis_key.hpp"
 
 namespace stylobate {
 
-/// @param table which has the axis under `key`
-/// @param more  keys that it may have besides, read elsewhere
+/// @param table which has the axis
+/// @param range of its values, if this study allows others than the key
 /// @throws InputError naming the key
-Axis read_axis(const KeyReader& table, std::string_view key, const Range& range,
-               const std::vector<std::string>& more = {});
+Axis read_axis(const KeyReader& table, const AxisKey& key, const Range& range);
+inline Axis read_axis(const KeyReader& table, const AxisKey& key)
+{
+    return read_axis(table, key, key.from.range);
+}
 
 } // namespace stylobate

@@ -1,7 +1,6 @@
 #include "io/study/study_excitation.hpp"
 
-#include "io/study/study_names.hpp"
-#include "io/study/study_ranges.hpp"
+#include "io/keys/excitation_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -11,36 +10,6 @@
 namespace stylobate {
 
 namespace {
-
-std::vector<std::string> excitation_keys(ExcitationKind kind)
-{
-    switch (kind) {
-    case ExcitationKind::none:
-        return {"kind", "duration_s"};
-    case ExcitationKind::harmonic:
-        return {"kind", "frequency_hz", "pga_m_s2", "start", "end", "ramp_cycles", "cycles", "phase_rad", "tail_s"};
-    case ExcitationKind::half_sine:
-    case ExcitationKind::full_sine:
-    case ExcitationKind::ricker:
-        return {"kind", "frequency_hz", "pga_m_s2", "tail_s"};
-    case ExcitationKind::pulse:
-        return {"kind", "frequency_hz", "pga_m_s2", "phase_rad", "gamma", "tail_s"};
-    case ExcitationKind::tapered:
-        return {"kind", "frequency_hz", "pga_m_s2", "ramp_cycles", "cycles", "phase_rad", "tail_s"};
-    case ExcitationKind::sweep:
-        return {"kind", "from_hz", "to_hz", "spacing", "duration_s", "pga_m_s2", "ramp_cycles", "tail_s"};
-    case ExcitationKind::noise:
-        return {"kind",          "frequency_hz",          "pga_m_s2", "pga_of",   "ground_damping_ratio",
-                "low_cut_ratio", "low_cut_damping_ratio", "rise_s",   "strong_s", "decay_s",
-                "tail_s"};
-    case ExcitationKind::table:
-        return {"kind", "file", "run", "scale_to_pga_m_s2", "time_scale", "tail_s"};
-    case ExcitationKind::record:
-        break;
-    }
-    return {"kind",       "file",     "component",    "unit",  "scale_to_pga_m_s2",
-            "time_scale", "baseline", "band_pass_hz", "tail_s"};
-}
 
 /// @param ramps that must fit into the cycles
 void check_ramps(const KeyReader& keys, int ramps, const ExcitationSpec& e, double cycles)
@@ -60,31 +29,31 @@ void check_ramps(const KeyReader& keys, int ramps, const ExcitationSpec& e, doub
 
 void read_harmonic(const KeyReader& keys, ExcitationSpec& e)
 {
-    e.start = keys.choice_or("start", edge_names, e.start);
-    e.end = keys.choice_or("end", edge_names, e.end);
-    e.ramp_cycles = keys.number_or("ramp_cycles", cycles_range, e.ramp_cycles);
-    e.cycles = keys.number_or("cycles", cycles_range, e.cycles);
-    e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
+    e.start = keys.read(excitation_keys::start);
+    e.end = keys.read(excitation_keys::end);
+    e.ramp_cycles = keys.read(excitation_keys::ramp_cycles);
+    e.cycles = keys.read(excitation_keys::cycles);
+    e.phase_rad = keys.read(excitation_keys::phase);
     check_ramps(keys, (e.start == HarmonicEdge::smooth ? 1 : 0) + (e.end == HarmonicEdge::smooth ? 1 : 0), e, e.cycles);
 }
 
 void read_tapered(const KeyReader& keys, ExcitationSpec& e)
 {
-    e.ramp_cycles = keys.number_or("ramp_cycles", taper_range, e.ramp_cycles);
-    e.cycles = keys.number_or("cycles", cycles_range, e.cycles);
-    e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
+    e.ramp_cycles = keys.read_within(excitation_keys::ramp_cycles, taper_range);
+    e.cycles = keys.read(excitation_keys::cycles);
+    e.phase_rad = keys.read(excitation_keys::phase);
     check_ramps(keys, 2, e, e.cycles);
 }
 
 void read_sweep(const KeyReader& keys, ExcitationSpec& e)
 {
-    e.from_hz = keys.number("from_hz", frequency_range);
-    e.to_hz = keys.number("to_hz", frequency_range);
+    e.from_hz = keys.read(excitation_keys::from);
+    e.to_hz = keys.read(excitation_keys::to);
     if (e.from_hz == e.to_hz)
         keys.refuse("to_hz", "is from_hz too", "Give two frequencies, or excitation.kind = \"harmonic\".");
-    e.spacing = keys.choice_or("spacing", spacing_names, e.spacing);
-    e.duration_s = keys.number("duration_s", duration_range);
-    e.ramp_cycles = keys.number_or("ramp_cycles", cycles_range, e.ramp_cycles);
+    e.spacing = keys.read(excitation_keys::spacing);
+    e.duration_s = keys.read(excitation_keys::duration);
+    e.ramp_cycles = keys.read(excitation_keys::ramp_cycles);
     const double cycles =
         e.duration_s *
         (e.spacing == Spacing::log ? (e.to_hz - e.from_hz) / std::log(e.to_hz / e.from_hz) : (e.from_hz + e.to_hz) / 2);
@@ -96,41 +65,50 @@ void read_sweep(const KeyReader& keys, ExcitationSpec& e)
 
 void read_noise(const KeyReader& keys, ExcitationSpec& e)
 {
-    e.pga_of = keys.choice_or("pga_of", pga_of_names, e.pga_of);
-    e.ground_damping_ratio = keys.number_or("ground_damping_ratio", filter_damping_range, e.ground_damping_ratio);
-    e.low_cut_ratio = keys.number_or("low_cut_ratio", low_cut_ratio_range, e.low_cut_ratio);
-    e.low_cut_damping_ratio = keys.number_or("low_cut_damping_ratio", filter_damping_range, e.low_cut_damping_ratio);
-    e.rise_s = keys.number_or("rise_s", rise_range, e.rise_s);
-    e.strong_s = keys.number_or("strong_s", strong_range, e.strong_s);
-    e.decay_s = keys.number_or("decay_s", rise_range, e.decay_s);
+    e.pga_of = keys.read(excitation_keys::pga_of);
+    e.ground_damping_ratio = keys.read(excitation_keys::ground_damping);
+    e.low_cut_ratio = keys.read(excitation_keys::low_cut);
+    e.low_cut_damping_ratio = keys.read(excitation_keys::low_cut_damping);
+    e.rise_s = keys.read(excitation_keys::rise);
+    e.strong_s = keys.read(excitation_keys::strong);
+    e.decay_s = keys.read(excitation_keys::decay);
 }
 
 /// What records and tables share. @param what is in the file
 void read_sampled(const KeyReader& keys, const char* what, StudyKind kind, ExcitationSpec& e)
 {
     if (kind != StudyKind::fragility) {
-        if (!keys.has("file"))
+        if (!keys.has(excitation_keys::file))
             keys.missing("file", fmt::format("Name {} here, or on the command line: --set excitation.file=PATH", what));
-        e.file = keys.text("file");
+        e.file = keys.read(excitation_keys::file);
     }
     if (kind != StudyKind::surface && kind != StudyKind::fragility)
-        e.pga_m_s2 = keys.number_or("scale_to_pga_m_s2", acceleration_range, e.pga_m_s2);
+        e.pga_m_s2 = keys.read_or(excitation_keys::scale_to_pga, e.pga_m_s2);
     if (kind != StudyKind::surface)
-        e.time_scale = keys.number_or("time_scale", time_scale_range, e.time_scale);
+        e.time_scale = keys.read(excitation_keys::time_scale);
 }
 
 void read_record(const KeyReader& keys, StudyKind kind, ExcitationSpec& e)
 {
     read_sampled(keys, "the record", kind, e);
-    e.component = keys.text_or_empty("component");
-    e.unit = acceleration_unit(keys);
-    e.baseline = keys.boolean_or("baseline", e.baseline);
-    if (const auto corners = keys.maybe_interval("band_pass_hz", corner_range)) {
+    e.component = keys.read_or(excitation_keys::component, {});
+    e.unit = acceleration_unit(keys, excitation_keys::unit);
+    e.baseline = keys.read(excitation_keys::baseline);
+    if (const auto corners = keys.maybe_interval(excitation_keys::band_pass.name, excitation_keys::band_pass.range)) {
         if (!e.baseline)
             keys.refuse("band_pass_hz", "is not used by excitation.baseline = false",
                         "The filter is a part of the correction: remove it, or give baseline = true.");
         e.band_pass = BandPass{(*corners)[0], (*corners)[1]};
     }
+}
+
+/// Refuses keys that this kind of study does not use.
+void refuse_of_other_studies(const KeyReader& keys, StudyKind kind, const char* todo)
+{
+    const char* word = word_for(study_kind_names, kind);
+    for (const TomlKey* each : excitation_keys::table.keys)
+        if (!each->used_where("study.kind", word) && keys.has(*each))
+            keys.refuse(each->name, fmt::format("is not used by study.kind = \"{}\"", word), todo);
 }
 
 /// Of a fragility study: motions of which there can be many.
@@ -142,56 +120,47 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
         keys.refuse("kind", "is no ground motion of a fragility study",
                     "Give \"record\", with fragility.records or fragility.folder, or \"pulse\", \"noise\", "
                     "\"ricker\", \"tapered\" or \"sweep\".");
-    for (const char* key : {"file", "component", "unit", "scale_to_pga_m_s2", "pga_m_s2", "pga_of"})
-        if (keys.has(key))
-            keys.refuse(key, "is not used by study.kind = \"fragility\"",
-                        "Remove it: the motions and their intensities are given by [fragility].");
+    refuse_of_other_studies(keys, StudyKind::fragility,
+                            "Remove it: the motions and their intensities are given by [fragility].");
 }
 
 } // namespace
 
-std::string acceleration_unit(const KeyReader& keys)
+std::string acceleration_unit(const KeyReader& keys, const TextKey& key)
 {
-    if (!keys.has("unit"))
+    if (!keys.has(key))
         return {};
-    const std::vector<std::string> units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};
-    const std::string& unit = units[keys.word_index("unit", units)];
+    const std::string& unit = key.words[keys.word_index(key.name, key.words)];
     return unit == "gal" ? "cm/s2" : unit; // one name for one unit, so that equal studies have equal texts
 }
 
 ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
 {
-    std::vector<std::string> known;
-    for (const auto& name : excitation_kind_names)
-        for (std::string& key : excitation_keys(name.value))
-            if (std::find(known.begin(), known.end(), key) == known.end())
-                known.push_back(std::move(key));
-    keys.allow_only(known);
     ExcitationSpec e;
-    e.kind = keys.choice("kind", excitation_kind_names);
-    keys.refuse_unused(excitation_keys(e.kind),
-                       fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, e.kind)));
+    e.kind = keys.read(excitation_keys::kind);
+    const char* word = word_for(excitation_kind_names, e.kind);
+    keys.refuse_unused(excitation_keys::table.names_where("excitation.kind", word),
+                       fmt::format("excitation.kind = \"{}\"", word));
     if (kind != StudyKind::single && e.kind == ExcitationKind::none)
         keys.refuse("kind", fmt::format("has no motion, but study.kind is \"{}\"", word_for(study_kind_names, kind)),
                     "Give another excitation, or study.kind = \"single\".");
     if (kind == StudyKind::fragility)
         check_fragility_source(keys, e);
     if (kind == StudyKind::surface) {
-        for (const char* key : {"frequency_hz", "pga_m_s2", "scale_to_pga_m_s2", "time_scale"})
-            if (keys.has(key))
-                keys.refuse(key, "is not used by study.kind = \"surface\"",
-                            "Remove it: frequency and PGA are given by the axes of [surface].");
+        refuse_of_other_studies(keys, StudyKind::surface,
+                                "Remove it: frequency and PGA are given by the axes of [surface].");
     }
     if (e.kind == ExcitationKind::none) {
-        e.duration_s = keys.number("duration_s", duration_range);
+        e.duration_s = keys.read(excitation_keys::duration);
         return e;
     }
     if (e.kind != ExcitationKind::record && e.kind != ExcitationKind::table && kind != StudyKind::surface) {
         if (e.kind != ExcitationKind::sweep)
-            e.frequency_hz =
-                keys.number("frequency_hz", e.kind == ExcitationKind::noise ? noise_frequency_range : frequency_range);
+            e.frequency_hz = keys.read_within(excitation_keys::frequency, e.kind == ExcitationKind::noise
+                                                                              ? noise_frequency_range
+                                                                              : excitation_keys::frequency.range);
         // the motions of a fragility study are scaled later
-        e.pga_m_s2 = kind == StudyKind::fragility ? 1 : keys.number("pga_m_s2", acceleration_range);
+        e.pga_m_s2 = kind == StudyKind::fragility ? 1 : keys.read(excitation_keys::pga);
     }
     switch (e.kind) {
     case ExcitationKind::none:
@@ -203,8 +172,8 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
         read_harmonic(keys, e);
         break;
     case ExcitationKind::pulse:
-        e.phase_rad = keys.number_or("phase_rad", phase_range, e.phase_rad);
-        e.gamma = keys.number_or("gamma", gamma_range, e.gamma);
+        e.phase_rad = keys.read(excitation_keys::phase);
+        e.gamma = keys.read(excitation_keys::gamma);
         break;
     case ExcitationKind::tapered:
         read_tapered(keys, e);
@@ -220,12 +189,12 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
         break;
     case ExcitationKind::table:
         read_sampled(keys, "the table of samples", kind, e);
-        e.run = keys.text_or_empty("run");
+        e.run = keys.read_or(excitation_keys::run, {});
         break;
     }
-    if (const TomlValue* tail = keys.find("tail_s");
+    if (const TomlValue* tail = keys.find(excitation_keys::tail.name);
         tail == nullptr || tail->type != TomlValue::Type::string || tail->text != tail_of_structure)
-        e.tail_s = keys.maybe_number("tail_s", tail_range);
+        e.tail_s = keys.maybe(excitation_keys::tail);
     return e;
 }
 

@@ -13,8 +13,9 @@ namespace stylobate {
 /// @throws InputError naming the key
 ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind);
 
-/// The unit of a record, canonical; empty where the key `unit` is absent.
-std::string acceleration_unit(const KeyReader& keys);
+/// The unit of a record, canonical; empty where the key is absent.
+/// @param key whose words are units
+std::string acceleration_unit(const KeyReader& keys, const TextKey& key);
 
 /// Additional requirements of an excitation for the axes of a surface.
 /// @param surface the table [surface]

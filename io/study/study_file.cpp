@@ -4,13 +4,19 @@
 #include "ensemble/sampling/plausible.hpp"
 #include "io/files/key_reader.hpp"
 #include "io/files/suggest.hpp"
+#include "io/keys/contact_keys.hpp"
+#include "io/keys/excitation_keys.hpp"
+#include "io/keys/kind_keys.hpp"
+#include "io/keys/mechanism_keys.hpp"
+#include "io/keys/run_keys.hpp"
+#include "io/keys/spread_key.hpp"
+#include "io/keys/structure_keys.hpp"
+#include "io/keys/study_tables.hpp"
 #include "io/study/study_axis.hpp"
 #include "io/study/study_excitation.hpp"
 #include "io/study/study_fragility.hpp"
 #include "io/study/study_mechanisms.hpp"
-#include "io/study/study_names.hpp"
 #include "io/study/study_perturbations.hpp"
-#include "io/study/study_ranges.hpp"
 #include "io/study/study_sensitivity.hpp"
 #include "io/study/study_structure.hpp"
 #include "io/study/study_twins.hpp"
@@ -22,7 +28,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <limits>
 
 namespace stylobate {
 
@@ -30,101 +35,84 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 constexpr std::size_t most_title_bytes = 200;
-constexpr std::uint64_t most_realizations = 1'000'000'000;
 
 /// A dashpot's ratio or its coefficient.
-void read_damping(const KeyReader& keys, const std::string& direction, double& ratio,
+void read_damping(const KeyReader& keys, const NumberKey& ratio_key, const NumberKey& coefficient_key, double& ratio,
                   std::optional<double>& coefficient)
 {
-    const std::string ratio_key = direction + "_damping_ratio";
-    const std::string coefficient_key = direction + "_damping_n_s_m";
     if (keys.has(ratio_key) && keys.has(coefficient_key))
-        keys.refuse(coefficient_key, "and " + ratio_key + " exclude each other", "Give one of the two.");
-    ratio = keys.number_or(ratio_key, damping_ratio_range, ratio);
-    coefficient = keys.maybe_number(coefficient_key, damping_range);
+        keys.refuse(coefficient_key.name, "and " + ratio_key.name + " exclude each other", "Give one of the two.");
+    ratio = keys.read(ratio_key);
+    coefficient = keys.maybe(coefficient_key);
 }
 
 ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
 {
-    keys.allow_only({"normal_stiffness_n_m2", "tangential_stiffness_n_m", "normal_damping_ratio",
-                     "normal_damping_n_s_m", "tangential_damping_ratio", "tangential_damping_n_s_m", "damping",
-                     "damping_per", "form", "friction"});
-
+    using namespace contact_keys;
     ContactSpec c;
-    c.normal_stiffness_n_m2 = keys.number("normal_stiffness_n_m2", normal_stiffness_range);
+    c.normal_stiffness_n_m2 = keys.read(normal_stiffness);
     double widest = 0;
     for (const DrumSpec& drum : structure.columns[0].drums)
         widest = std::max(widest, drum.width_m);
     // as stiff along the bed as across it: K_T is the axial stiffness K_N B of the full bed
-    c.tangential_stiffness_n_m =
-        keys.number_or("tangential_stiffness_n_m", tangential_stiffness_range, c.normal_stiffness_n_m2 * widest);
-    read_damping(keys, "normal", c.normal_damping_ratio, c.normal_damping_n_s_m);
-    read_damping(keys, "tangential", c.tangential_damping_ratio, c.tangential_damping_n_s_m);
-    c.form = keys.choice_or("form", contact_form_names, c.form);
-    c.damping = keys.choice_or("damping", damping_at_names, c.damping);
-    c.damping_per = keys.choice_or("damping_per", damping_per_names, c.damping_per);
-    c.friction = keys.number("friction", friction_range);
+    c.tangential_stiffness_n_m = keys.read_or(tangential_stiffness, c.normal_stiffness_n_m2 * widest);
+    read_damping(keys, normal_damping_ratio, normal_damping, c.normal_damping_ratio, c.normal_damping_n_s_m);
+    read_damping(keys, tangential_damping_ratio, tangential_damping, c.tangential_damping_ratio,
+                 c.tangential_damping_n_s_m);
+    c.form = keys.read(form);
+    c.damping = keys.read(damping);
+    c.damping_per = keys.read(damping_per);
+    c.friction = keys.read(friction);
     return c;
 }
 
 /// @param most realizations of one cell
 AdaptiveSpec read_adaptive(const KeyReader& keys, std::uint64_t cells, std::uint64_t most)
 {
-    keys.allow_only({"budget", "minimum", "half_width", "borrow"});
+    using namespace adaptive_keys;
     AdaptiveSpec adaptive;
-    adaptive.minimum = keys.whole_or("minimum", 1, most, std::min(adaptive.minimum, most),
-                                     "Realizations of each cell; at most study.realizations.");
+    adaptive.minimum = keys.has(minimum) ? keys.read_up_to(minimum, most) : std::min(adaptive.minimum, most);
     adaptive.budget = keys.whole(
-        "budget", adaptive.minimum * cells, most_realizations,
+        budget.name, adaptive.minimum * cells, budget.high,
         fmt::format("Realizations of the whole surface: {} cells have at least {} each.", cells, adaptive.minimum));
-    adaptive.half_width = keys.number_or(
-        "half_width", {0.01, 0.25, false, "Half the width of the 95 % interval of each cell's probability.", 0.01},
-        adaptive.half_width);
-    adaptive.borrow = keys.boolean_or("borrow", adaptive.borrow);
+    adaptive.half_width = keys.read(half_width);
+    adaptive.borrow = keys.read(pooled);
     return adaptive;
 }
 
 /// @param most realizations of one cell
 SurfaceSpec read_surface(const KeyReader& keys, std::uint64_t most)
 {
-    keys.allow_only({"frequency_hz", "pga_m_s2", "adaptive"});
+    using namespace surface_keys;
     SurfaceSpec surface;
-    surface.frequency_hz = read_axis(keys, "frequency_hz", frequency_range);
-    surface.pga_m_s2 = read_axis(keys, "pga_m_s2", acceleration_range);
-    if (keys.has("adaptive"))
-        surface.adaptive = read_adaptive(keys.table("adaptive"), static_cast<std::uint64_t>(surface.cells()), most);
+    surface.frequency_hz = read_axis(keys, frequency);
+    surface.pga_m_s2 = read_axis(keys, pga);
+    if (keys.has(adaptive))
+        surface.adaptive = read_adaptive(keys.table(adaptive), static_cast<std::uint64_t>(surface.cells()), most);
     return surface;
 }
 
 /// @param structure must be read: from where it may be leaned
 InitialSpec read_initial(const KeyReader& keys, const StructureSpec& structure)
 {
-    keys.allow_only({"tilt_rad", "tilt_from_block"});
     InitialSpec initial;
-    initial.tilt_rad = keys.number_or("tilt_rad", initial_tilt_range, initial.tilt_rad);
+    initial.tilt_rad = keys.read(initial_keys::tilt);
     std::size_t fewest = structure.columns[0].drums.size();
     for (const ColumnSpec& column : structure.columns)
         fewest = std::min(fewest, column.drums.size());
-    initial.tilt_from_block = static_cast<int>(
-        keys.whole_or("tilt_from_block", 0, fewest - 1, 0, "A block of each column, counted from 0, from the bottom."));
+    initial.tilt_from_block = static_cast<int>(keys.read_up_to(initial_keys::tilt_from_block, fewest - 1));
     return initial;
 }
 
 /// @param kind decides how long a realization is followed unless the study says it
 OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
 {
-    keys.allow_only({"follow", "collapse", "rocking_threshold_rad", "sliding_threshold"});
+    using namespace outcome_keys;
     OutcomeSpec o;
-    o.follow =
-        keys.choice_or("follow", follow_names, kind == StructureKind::colonnade ? Follow::rest : Follow::collapse);
-    const KeyReader collapse = keys.table("collapse");
-    collapse.allow_only({"height_fraction"});
-    o.collapse_height_fraction = collapse.number_or(
-        "height_fraction", {0.01, 0.99, false, "A fraction of the rest height.", 0.01}, o.collapse_height_fraction);
-    o.rocking_threshold_rad = keys.number_or("rocking_threshold_rad", {0, 1.5, true, "Angles are in radians.", degree},
-                                             o.rocking_threshold_rad);
-    o.sliding_threshold =
-        keys.number_or("sliding_threshold", {0, 100, true, "A fraction of the drum's width.", 0}, o.sliding_threshold);
+    o.follow = keys.read_or(follow, kind == StructureKind::colonnade ? Follow::rest : Follow::collapse);
+    o.collapse_height_fraction = keys.table(collapse).read(height_fraction);
+    o.rocking_threshold_rad = keys.read(rocking_threshold);
+    o.sliding_threshold = keys.read(sliding_threshold);
     return o;
 }
 
@@ -132,22 +120,21 @@ OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
 void read_trajectories(const KeyReader& keys, StudyKind kind, OutputSpec& output)
 {
     if (kind != StudyKind::single) {
-        for (const char* key : {"trajectories", "most_mb"})
-            if (keys.has(key))
-                keys.refuse(key, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, kind)),
+        const char* word = word_for(study_kind_names, kind);
+        for (const TomlKey* key : output_keys::table.keys)
+            if (!key->used_where("study.kind", word) && keys.has(*key))
+                keys.refuse(key->name, fmt::format("is not used by study.kind = \"{}\"", word),
                             "Remove it: only single studies keep trajectories. `stylobate replay` computes that of any "
                             "realization.");
         return;
     }
-    output.most_mb = keys.number_or("most_mb", {0, 1e6, true, "The trajectories of a results file, in 1e6 bytes.", 0},
-                                    output.most_mb);
-    if (const TomlValue* kept = keys.find("trajectories"); kept && kept->type == TomlValue::Type::string) {
-        if (keys.word_index("trajectories", {trajectories_fit, trajectories_all}) == 1)
+    const WholeKey& key = output_keys::trajectories;
+    output.most_mb = keys.read(output_keys::most_mb);
+    if (const TomlValue* kept = keys.find(key.name); kept && kept->type == TomlValue::Type::string) {
+        if (key.words[keys.word_index(key.name, key.words)] == trajectories_all)
             output.trajectories = OutputSpec::all;
     } else if (kept) {
-        output.trajectories = keys.whole(
-            "trajectories", 0, most_realizations,
-            "The number of realizations, from the first; or \"all\", or \"fit\": as many as fit into most_mb.");
+        output.trajectories = keys.read(key);
     }
 }
 
@@ -155,7 +142,7 @@ void read_trajectories(const KeyReader& keys, StudyKind kind, OutputSpec& output
 std::vector<std::string> read_allow(const KeyReader& keys)
 {
     std::vector<std::string> allow;
-    const TomlValue* list = keys.find("allow");
+    const TomlValue* list = keys.find(study_keys::allow.name);
     if (!list)
         return allow;
     const std::vector<std::string> known = check_names();
@@ -164,11 +151,11 @@ std::vector<std::string> read_allow(const KeyReader& keys)
         names += (names.empty() ? "" : ", ") + toml_quoted(name);
     const std::string todo = fmt::format("Give names of checks: allow = [\"{}\"]. They are {}.", known.front(), names);
     if (list->type != TomlValue::Type::array)
-        keys.refuse("allow", fmt::format("is {}, not a list", list->type_name()), todo);
+        keys.refuse(study_keys::allow.name, fmt::format("is {}, not a list", list->type_name()), todo);
     for (const TomlValue& entry : list->entries)
         if (entry.type != TomlValue::Type::string || std::find(known.begin(), known.end(), entry.text) == known.end()) {
             const std::string meant = nearest_word(entry.text, known);
-            keys.refuse("allow", fmt::format("contains {}, which is not a check", entry.shown()),
+            keys.refuse(study_keys::allow.name, fmt::format("contains {}, which is not a check", entry.shown()),
                         meant.empty() ? todo : fmt::format("Did you mean {}?", toml_quoted(meant)));
         }
     for (const std::string& name : known)
@@ -181,14 +168,12 @@ std::vector<std::string> read_allow(const KeyReader& keys)
 /// @param study its kind, structure, excitation and surface must be read
 void read_output(const KeyReader& keys, Study& study)
 {
-    keys.allow_only({"trajectory_rate_hz", "realizations", "trajectories", "most_mb"});
     OutputSpec& output = study.output;
-    output.trajectory_rate_hz =
-        keys.number_or("trajectory_rate_hz", {0, 1e6, true, "Samples per second.", 0}, usual_trajectory_rate_hz(study));
+    output.trajectory_rate_hz = keys.read_or(output_keys::trajectory_rate, usual_trajectory_rate_hz(study));
     read_trajectories(keys, study.kind, output);
-    study.kept = keys.choice_or("realizations", kept_realizations_names, study.kept);
+    study.kept = keys.read(output_keys::realizations);
     const auto refuse = [&](const std::string& why) {
-        keys.refuse("realizations", "= \"none\" is not available with " + why,
+        keys.refuse(output_keys::realizations.name, "= \"none\" is not available with " + why,
                     "Only a surface with equal numbers of realizations in each cell can omit their rows. Give "
                     "realizations = \"all\", or omit it.");
     };
@@ -202,7 +187,7 @@ void read_output(const KeyReader& keys, Study& study)
 void check_precision(const KeyReader& keys, const Study& study)
 {
     const auto refuse = [&](const std::string& why, const char* what) {
-        keys.refuse("precision", "is not available with " + why,
+        keys.refuse(run_keys::precision.name, "is not available with " + why,
                     std::string("Single precision supports only the paper's model: remove ") + what +
                         ", or give precision = \"double\".");
     };
@@ -227,50 +212,44 @@ void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
 
 RunSpec read_run(const KeyReader& keys)
 {
-    keys.allow_only(
-        {"precision", "step_fraction", "step_bound", "step_s", "allow_step_above_bound", "max_invalid_fraction"});
+    using namespace run_keys;
     RunSpec r;
-    r.precision = keys.choice_or("precision", precision_names, r.precision);
-    if (keys.has("step_fraction") && keys.has("step_s"))
-        keys.refuse("step_s", "and step_fraction exclude each other", "Give one of the two.");
-    r.allow_step_above_bound = keys.boolean_or("allow_step_above_bound", r.allow_step_above_bound);
-    const Range stable{
-        1e-6, 1, false,
-        "It is a fraction of the largest safe step; a value above 1 needs run.allow_step_above_bound = true.", 0};
-    const Range meant{1e-6, 100, false, stable.hint, 0};
-    r.step_bound = keys.choice_or("step_bound", step_basis_names, r.step_bound);
-    r.step_fraction = keys.number_or("step_fraction", r.allow_step_above_bound ? meant : stable, r.step_fraction);
-    r.step_s = keys.maybe_number("step_s", {1e-12, 1, false, "Times are in seconds.", 1e-3});
-    r.max_invalid_fraction = keys.number_or(
-        "max_invalid_fraction", {0, 1, false, "A fraction of all realizations.", 0.01}, r.max_invalid_fraction);
+    r.precision = keys.read(precision);
+    if (keys.has(step_fraction) && keys.has(step))
+        keys.refuse(step.name, "and step_fraction exclude each other", "Give one of the two.");
+    r.allow_step_above_bound = keys.read(allow_step_above_bound);
+    r.step_bound = keys.read(step_bound);
+    r.step_fraction = keys.read_within(step_fraction, r.allow_step_above_bound ? any_step : stable_step);
+    r.step_s = keys.maybe(step);
+    r.max_invalid_fraction = keys.read(max_invalid);
     return r;
 }
 
 /// Refuses the table of another kind of study.
 void check_tables(const KeyReader& top, StudyKind of_study)
 {
-    for (const auto& [table, kind] : {std::pair{"surface", StudyKind::surface},
-                                      {"fragility", StudyKind::fragility},
-                                      {"sensitivity", StudyKind::sensitivity},
-                                      {"rare", StudyKind::rare}})
-        if (of_study != kind && top.has(table))
-            top.refuse(table, fmt::format("is not used by study.kind = \"{}\"", word_for(study_kind_names, of_study)),
-                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table, table));
+    const char* word = word_for(study_kind_names, of_study);
+    for (const TableKey* table :
+         {&surface_keys::table, &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table})
+        if (!table->used_where("study.kind", word) && top.has(*table))
+            top.refuse(table->name, fmt::format("is not used by study.kind = \"{}\"", word),
+                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table->name, table->name));
 }
 
 /// How many realizations. @param keys of [study]
 std::uint64_t read_realizations(const KeyReader& keys, const Study& study)
 {
+    const WholeKey& key = study_keys::realizations;
     const auto refuse = [&](const char* kind, const char* instead) {
-        if (keys.has("realizations"))
-            keys.refuse("realizations", fmt::format("is not used by study.kind = \"{}\"", kind),
+        if (keys.has(key))
+            keys.refuse(key.name, fmt::format("is not used by study.kind = \"{}\"", kind),
                         fmt::format("Give {} instead.", instead));
     };
     switch (study.kind) {
     case StudyKind::surface:
-        return keys.whole("realizations", 1, most_realizations, "The number in each cell.");
+        return keys.whole(key.name, key.low, key.high, "The number in each cell.");
     case StudyKind::fragility:
-        return keys.whole("realizations", 1, most_realizations, "Structures under each motion in each stripe.");
+        return keys.whole(key.name, key.low, key.high, "Structures under each motion in each stripe.");
     case StudyKind::sensitivity:
         refuse("sensitivity", "sensitivity.samples and sensitivity.inner");
         break;
@@ -280,48 +259,47 @@ std::uint64_t read_realizations(const KeyReader& keys, const Study& study)
     case StudyKind::single:
         break;
     }
-    return keys.whole_or("realizations", 1, most_realizations, study.realizations);
+    return keys.read_or(key, study.realizations);
 }
 
 /// @param folder beside which the study's files are looked for
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
     const KeyReader top(&root, "", root.place);
-    top.allow_only({"study", "structure", "contact", "excitation", "surface", "twins", "fragility", "sensitivity",
-                    "rare", "perturbation", "mechanisms", "initial", "output", "outcome", "run",
-                    "claim"}); // [claim] is for stylobate_claims, which reads it itself
+    std::vector<std::string> tables = study_file_keys().names();
+    tables.emplace_back("claim"); // for stylobate_claims, which reads it itself
+    top.allow_only(tables);
 
     Study study;
-    const KeyReader keys = top.table("study");
-    keys.allow_only({"kind", "title", "seed", "realizations", "sampling", "allow"});
-    study.kind = keys.choice("kind", study_kind_names);
-    study.title = keys.text_or_empty("title");
+    const KeyReader keys = top.table(study_keys::table);
+    study.kind = keys.read(study_keys::kind);
+    study.title = keys.read_or(study_keys::title, {});
     if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
         keys.refuse("title", "is not a valid line of text",
                     fmt::format("At most {} bytes, on one line.", most_title_bytes));
     const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
-    study.seed = keys.whole_or("seed", 0, std::numeric_limits<std::int64_t>::max(), study.seed);
+    study.seed = keys.read(study_keys::seed);
     const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;
     study.realizations = read_realizations(keys, study);
-    study.sampling = keys.choice_or("sampling", sampling_names, study.sampling);
+    study.sampling = keys.read(study_keys::sampling);
     study.allow = read_allow(keys);
     if (is_rare && study.sampling != Sampling::independent)
         keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains use their own random numbers.");
 
-    study.structure = read_structure(top.table("structure"));
-    study.contact = read_contact(top.table("contact"), study.structure);
-    study.excitation = read_excitation(top.table("excitation"), study.kind);
+    study.structure = read_structure(top.table(structure_keys::table));
+    study.contact = read_contact(top.table(contact_keys::table), study.structure);
+    study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
     if (is_surface) {
         if (!top.has("surface"))
             top.missing("surface", "study.kind = \"surface\" needs the axes frequency_hz and pga_m_s2 in [surface].");
-        study.surface = read_surface(top.table("surface"), study.realizations);
-        check_axes(top.table("surface"), study.excitation, *study.surface);
+        study.surface = read_surface(top.table(surface_keys::table), study.realizations);
+        check_axes(top.table(surface_keys::table), study.excitation, *study.surface);
     }
     if (is_fragility) {
         if (!top.has("fragility"))
             top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
-        study.fragility = read_fragility(top.table("fragility"), keys, study.excitation, study.realizations);
-        list_records(top.table("fragility"), folder, *study.fragility);
+        study.fragility = read_fragility(top.table(fragility_keys::table), keys, study.excitation, study.realizations);
+        list_records(top.table(fragility_keys::table), folder, *study.fragility);
         if (study.sampling != Sampling::independent)
             keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
     }
@@ -332,24 +310,24 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
                                 most_realizations),
                     "Give fewer realizations or fewer cells.");
     check_tables(top, study.kind);
-    read_mechanisms(top.table("mechanisms"), study);
-    read_perturbations(top.table("perturbation"), study);
+    read_mechanisms(top.table(mechanisms_table()), study);
+    read_perturbations(top.table(perturbation_table()), study);
     if (is_fragility)
-        check_mechanisms_of_fragility(top.table("mechanisms"), study);
+        check_mechanisms_of_fragility(top.table(mechanisms_table()), study);
     if (is_sensitivity)
-        study.sensitivity = read_sensitivity(top.table("sensitivity"), study, most_realizations);
+        study.sensitivity = read_sensitivity(top.table(sensitivity_keys::table), study);
 
     if (is_rare)
-        study.rare = read_rare(top.table("rare"), study);
+        study.rare = read_rare(top.table(rare_keys::table), study);
 
-    study.initial = read_initial(top.table("initial"), study.structure);
-    read_output(top.table("output"), study);
-    study.outcome = read_outcome(top.table("outcome"), study.structure.kind);
-    study.run = read_run(top.table("run"));
+    study.initial = read_initial(top.table(initial_keys::table), study.structure);
+    read_output(top.table(output_keys::table), study);
+    study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
+    study.run = read_run(top.table(run_keys::table));
     if (study.run.precision == Precision::single)
-        check_precision(top.table("run"), study);
+        check_precision(top.table(run_keys::table), study);
     if (top.has("twins")) {
-        study.twins = read_twins(top.table("twins"), study);
+        study.twins = read_twins(top.table(twins_keys::table), study);
         if (study.total() > most_realizations)
             keys.refuse("realizations",
                         fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),

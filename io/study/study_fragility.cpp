@@ -1,10 +1,9 @@
 #include "io/study/study_fragility.hpp"
 
+#include "io/keys/kind_keys.hpp"
 #include "io/records/record.hpp"
 #include "io/study/study_axis.hpp"
 #include "io/study/study_excitation.hpp"
-#include "io/study/study_names.hpp"
-#include "io/study/study_ranges.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -16,8 +15,6 @@
 namespace stylobate {
 
 namespace {
-
-constexpr std::uint64_t most_motions = 100'000;
 
 Range range_of(IntensityMeasure measure)
 {
@@ -37,23 +34,23 @@ Range range_of(IntensityMeasure measure)
     return {};
 }
 
-std::vector<double> ascending(const KeyReader& keys, const char* key, const Range& range,
-                              const std::vector<double>& absent)
+std::vector<double> ascending(const KeyReader& keys, const ListKey& key, const std::vector<double>& absent)
 {
     if (!keys.has(key))
         return absent;
-    const std::vector<double> values = keys.number_list(key, range);
+    const std::vector<double> values = keys.number_list(key.name, key.range);
     for (std::size_t i = 1; i < values.size(); ++i)
         if (!(values[i] > values[i - 1]))
-            keys.refuse(key, fmt::format("is not in ascending order: {:g} comes before {:g}", values[i - 1], values[i]),
+            keys.refuse(key.name,
+                        fmt::format("is not in ascending order: {:g} comes before {:g}", values[i - 1], values[i]),
                         "Give the slightest first: a structure that reaches a limit has reached those before it.");
     return values;
 }
 
 RecordSpec record_spec(const KeyReader& keys)
 {
-    keys.allow_only({"file", "component", "unit"});
-    return {keys.text("file"), keys.text_or_empty("component"), acceleration_unit(keys)};
+    return {keys.read(fragility_keys::file), keys.read_or(fragility_keys::component, {}),
+            acceleration_unit(keys, fragility_keys::record_unit)};
 }
 
 /// Of the names that agencies give to components.
@@ -73,92 +70,83 @@ bool is_vertical(const Record& record)
 FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
                              std::uint64_t structures)
 {
-    keys.allow_only({"method", "records", "folder", "pattern", "unit", "motions", "intensity", "scale", "shakings",
-                     "pause_s", "contacts", "twins", "twin_m", "peak_limits", "residual_limits", "periods_s"});
     FragilitySpec f;
-    f.method = keys.choice_or("method", fragility_method_names, f.method);
+    f.method = keys.read(fragility_keys::method);
     const bool recorded = excitation.kind == ExcitationKind::record;
+    const char* motion = word_for(excitation_kind_names, excitation.kind);
+    keys.refuse_unused(fragility_keys::table.names_where("excitation.kind", motion),
+                       fmt::format("excitation.kind = \"{}\"", motion));
     if (recorded) {
-        keys.refuse_unused({"method", "records", "folder", "pattern", "unit", "intensity", "scale", "shakings",
-                            "pause_s", "contacts", "twins", "twin_m", "peak_limits", "residual_limits", "periods_s"},
-                           "excitation.kind = \"record\"");
-        for (const KeyReader& record : keys.tables("records"))
+        for (const KeyReader& record : keys.tables(fragility_keys::records))
             f.records.push_back(record_spec(record));
-        if (f.records.empty() == !keys.has("folder"))
+        if (f.records.empty() == !keys.has(fragility_keys::folder))
             keys.refuse_all(f.records.empty()
                                 ? "fragility has no motions: give records = [{ file = \"...\" }, ...], or "
                                   "folder = \"...\""
                                 : "fragility.records and fragility.folder exclude each other: give one");
-        for (const char* key : {"pattern", "unit"})
-            if (keys.has(key) && !keys.has("folder"))
-                keys.refuse(key, "applies to the files of a folder, and no folder is given", "Give fragility.folder.");
+        for (const TextKey* each : {&fragility_keys::pattern, &fragility_keys::unit})
+            if (keys.has(*each) && !keys.has(fragility_keys::folder))
+                keys.refuse(each->name, "applies to the files of a folder, and no folder is given",
+                            "Give fragility.folder.");
         f.motions = static_cast<int>(f.records.size()); // those of a folder are listed later
     } else {
-        keys.refuse_unused({"method", "motions", "intensity", "shakings", "pause_s", "contacts", "twins", "twin_m",
-                            "peak_limits", "residual_limits", "periods_s"},
-                           fmt::format("excitation.kind = \"{}\"", word_for(excitation_kind_names, excitation.kind)));
         if (f.method == FragilityMethod::cloud)
             keys.refuse("method", "uses recorded motions, and these are synthetic",
                         "Give method = \"stripes\", or excitation.kind = \"record\".");
-        f.motions = static_cast<int>(keys.whole("motions", fewest_motions, most_motions,
-                                                "Motions drawn from the seed. The interval of a curve is estimated "
-                                                "from their scatter: 20 are few, 100 are sufficient."));
+        f.motions = static_cast<int>(keys.read(fragility_keys::motions));
     }
     if (recorded && !f.records.empty() && f.motions < fewest_motions)
         keys.refuse("records", fmt::format("has {} motions, fewer than {}", f.motions, fewest_motions),
                     "The interval of a curve is estimated from the scatter of the motions: give more.");
-    f.periods_s = ascending(keys, "periods_s", {0.01, 20, false, "Periods are in seconds.", 1e-3}, f.periods_s);
+    f.periods_s = ascending(keys, fragility_keys::periods, f.periods_s);
     if (f.method == FragilityMethod::stripes) {
-        if (keys.has("scale"))
+        if (keys.has(fragility_keys::scale))
             keys.refuse("scale", "is not used by method = \"stripes\"", "Remove it, or give method = \"cloud\".");
-        if (!keys.has("intensity"))
+        if (!keys.has(fragility_keys::intensity))
             keys.missing("intensity", "Give it as { measure = \"pga\", from = ..., to = ..., count = ..., spacing = "
                                       "\"log\" }: motions are scaled to each of these.");
-        const KeyReader axis = keys.table("intensity");
-        f.measure = axis.choice_or("measure", intensity_measure_names, f.measure);
+        const KeyReader axis = keys.table(fragility_keys::intensity);
+        f.measure = axis.read(fragility_keys::measure);
         if (f.measure == IntensityMeasure::sa)
-            f.period_s = axis.number("period_s", {0.01, 20, false, "Periods are in seconds.", 1e-3});
-        else if (axis.has("period_s"))
-            axis.refuse("period_s", "is not used by this measure", "Remove it, or give measure = \"sa\".");
-        f.intensity = read_axis(keys, "intensity", range_of(f.measure), {"measure", "period_s"});
+            f.period_s = axis.read(fragility_keys::period);
+        else if (axis.has(fragility_keys::period))
+            axis.refuse(fragility_keys::period.name, "is not used by this measure",
+                        "Remove it, or give measure = \"sa\".");
+        f.intensity = read_axis(keys, fragility_keys::intensity, range_of(f.measure));
     } else {
-        if (keys.has("intensity"))
+        if (keys.has(fragility_keys::intensity))
             keys.refuse("intensity", "is not used by method = \"cloud\"", "Remove it, or give method = \"stripes\".");
-        f.scale = keys.number_or("scale", {0, 100, true, "The scale factor of every motion.", 0}, f.scale);
+        f.scale = keys.read(fragility_keys::scale);
     }
-    f.shakings = static_cast<int>(keys.whole_or("shakings", 1, 100, 1, "Shakings in a sequence."));
-    f.pause_s = keys.number_or("pause_s", {0, 1000, false, "Times are in seconds.", 1e-3}, f.pause_s);
-    f.contacts = static_cast<int>(
-        keys.whole_or("contacts", 1, structures, 1, "Structures of the same geometry with different contacts."));
-    f.twins = static_cast<int>(keys.whole_or("twins", 1, structures, 1,
-                                             "Structures that differ only by fragility.twin_m: the effect of chaos."));
+    f.shakings = static_cast<int>(keys.read(fragility_keys::shakings));
+    f.pause_s = keys.read(fragility_keys::pause);
+    f.contacts = static_cast<int>(keys.read_up_to(fragility_keys::contacts, structures));
+    f.twins = static_cast<int>(keys.read_up_to(fragility_keys::twins, structures));
     const auto group = static_cast<std::uint64_t>(f.contacts) * static_cast<std::uint64_t>(f.twins);
     if (structures % group != 0) {
         const std::uint64_t below = structures / group * group;
         study.refuse("realizations", fmt::format("is no multiple of fragility.contacts x twins = {}", group),
                      below > 0 ? fmt::format("Give {} or {}.", below, below + group) : fmt::format("Give {}.", group));
     }
-    f.twin_m =
-        keys.number_or("twin_m", {0, 1e-3, true, "The displacement of a perturbed replica, in metres.", 0}, f.twin_m);
-    const Range part{0, 100, true, "A fraction of the width.", 0.01};
-    f.peak_limits = ascending(keys, "peak_limits", part, f.peak_limits);
-    f.residual_limits = ascending(keys, "residual_limits", part, f.residual_limits);
+    f.twin_m = keys.read(fragility_keys::twin);
+    f.peak_limits = ascending(keys, fragility_keys::peak_limits, f.peak_limits);
+    f.residual_limits = ascending(keys, fragility_keys::residual_limits, f.residual_limits);
     return f;
 }
 
 void list_records(const KeyReader& keys, const std::filesystem::path& beside, FragilitySpec& fragility)
 {
-    if (!keys.has("folder"))
+    if (!keys.has(fragility_keys::folder))
         return;
     namespace fs = std::filesystem;
-    fs::path folder = keys.text("folder");
+    fs::path folder = keys.read(fragility_keys::folder);
     std::error_code error;
     if (folder.is_relative() && fs::is_directory(beside / folder, error))
         folder = beside / folder;
     folder = fs::absolute(folder).lexically_normal();
     if (!fs::is_directory(folder, error))
         keys.refuse("folder", "is not a folder", "Give the folder in which the records are.");
-    const std::string pattern = keys.has("pattern") ? keys.text("pattern") : "*";
+    const std::string pattern = keys.read_or(fragility_keys::pattern, "*");
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder, error))
         if (entry.is_regular_file(error) && fnmatch(pattern.c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0)
@@ -166,7 +154,7 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Fr
     std::sort(files.begin(), files.end());
     if (files.empty())
         keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Check fragility.pattern.");
-    const std::string unit = acceleration_unit(keys);
+    const std::string unit = acceleration_unit(keys, fragility_keys::unit);
     for (const fs::path& file : files) {
         const std::vector<Record> records = read_records(file, unit);
         for (const Record& record : records)

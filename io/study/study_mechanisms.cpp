@@ -1,8 +1,9 @@
 #include "io/study/study_mechanisms.hpp"
 
 #include "io/files/toml_document.hpp"
+#include "io/keys/mechanism_keys.hpp"
+#include "io/keys/words.hpp"
 #include "io/study/study_excitation.hpp"
-#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,9 +20,6 @@ const char* place_word(MechanismPlace place)
     return place == MechanismPlace::joint ? "joint" : "block";
 }
 
-/// The keys of a record, for the vertical motion of the base.
-const std::vector<std::string> record_keys = {"file", "component", "unit", "baseline"};
-
 class Reader {
 public:
     Reader(const KeyReader& section, Study& study) : section_(section), study_(study), layout_(lay_out(study.structure))
@@ -30,10 +28,6 @@ public:
 
     void read()
     {
-        std::vector<std::string> known;
-        for (const MechanismRule& rule : mechanism_rules())
-            known.emplace_back(rule.name);
-        section_.allow_only(known);
         for (const MechanismRule& rule : mechanism_rules())
             if (section_.has(rule.name))
                 read_mechanism(rule);
@@ -86,13 +80,13 @@ private:
         if (rule.mechanism == Mechanism::face_damping && study_.contact.damping == DampingAt::ends)
             section_.refuse(rule.name, "and contact.damping = \"ends\" exclude each other",
                             "\"ends\" is a share of 1 in every joint. Give one of the two.");
+        const TableKey& key = mechanism_key(rule.mechanism);
         std::vector<MechanismSpec> specs;
         std::vector<bool> taken(static_cast<std::size_t>(rule.place == MechanismPlace::base ? 1 : places(rule.place)));
         const bool list = section_.find(rule.name)->type == TomlValue::Type::array;
         if (list && rule.place == MechanismPlace::base)
             section_.refuse(rule.name, "is a list, and there is one base", "Give one table: { key = value, ... }.");
-        const std::vector<KeyReader> tables =
-            list ? section_.tables(rule.name) : std::vector<KeyReader>{section_.table(rule.name)};
+        const std::vector<KeyReader> tables = list ? section_.tables(key) : std::vector<KeyReader>{section_.table(key)};
         if (tables.empty())
             section_.refuse(rule.name, "is empty", "Remove it, or give { key = value, ... }.");
         for (const KeyReader& keys : tables) {
@@ -127,18 +121,10 @@ private:
 
     MechanismSpec read_one(const KeyReader& keys, const MechanismRule& rule)
     {
-        std::vector<std::string> known;
-        if (rule.place != MechanismPlace::base)
-            known = {place_word(rule.place), std::string(place_word(rule.place)) + "s"};
-        for (const MechanismParameter& parameter : rule.parameters)
-            known.push_back(parameter.key());
+        const MechanismKey& key = mechanism_key(rule.mechanism);
         const bool vertical = rule.mechanism == Mechanism::vertical_motion;
-        if (vertical)
-            known.insert(known.end(), record_keys.begin(), record_keys.end());
-        keys.allow_only(known);
-
         MechanismSpec spec = neutral_spec(rule.mechanism, study_.contact.friction);
-        if (vertical && keys.has("file")) {
+        if (vertical && keys.has(vertical_keys::file)) {
             read_vertical(keys);
             return spec;
         }
@@ -147,19 +133,18 @@ private:
         bool acts = false;
         std::vector<std::string> acting;
         for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
-            const MechanismParameter& parameter = rule.parameters[i];
-            const std::string key = parameter.key();
-            if (parameter.role == ParameterRole::needed)
-                spec.values[i] = keys.number(key, range_of(parameter));
-            else
-                spec.values[i] = keys.number_or(key, range_of(parameter), spec.values[i]);
-            if (parameter.role == ParameterRole::acting) {
-                acting.push_back(key);
-                acts = acts || keys.has(key);
+            const NumberKey& parameter = key.parameters[i];
+            // the neutral value may be the study's, not the key's default
+            spec.values[i] = keys.read_or(parameter, spec.values[i]);
+            if (rule.parameters[i].role == ParameterRole::needed)
+                spec.values[i] = keys.read(parameter);
+            if (rule.parameters[i].role == ParameterRole::acting) {
+                acting.push_back(parameter.name);
+                acts = acts || keys.has(parameter);
             }
         }
         if (acting.size() == 1 && !acts)
-            keys.missing(acting.front(), range_of(rule.parameters.front()).hint);
+            keys.missing(acting.front(), key.parameters.front().range.hint);
         if (!acts)
             keys.refuse_all(fmt::format("{} has no value.\n  Give one of {}.", keys.path(), fmt::join(acting, ", ")));
         return spec;
@@ -170,10 +155,10 @@ private:
         if (keys.has("ratio"))
             keys.refuse("ratio", "and file exclude each other", "Give one of the two.");
         VerticalSpec vertical;
-        vertical.file = keys.text("file");
-        vertical.component = keys.text_or_empty("component");
-        vertical.unit = acceleration_unit(keys);
-        vertical.baseline = keys.boolean_or("baseline", vertical.baseline);
+        vertical.file = keys.read(vertical_keys::file);
+        vertical.component = keys.read_or(vertical_keys::component, {});
+        vertical.unit = acceleration_unit(keys, vertical_keys::unit);
+        vertical.baseline = keys.read(vertical_keys::baseline);
         study_.vertical = vertical;
     }
 
@@ -244,39 +229,31 @@ private:
 /// In TOML: { joint = 0, ratio = 0.57 }
 std::string entry(const MechanismSpec& spec, const Study& study)
 {
-    const MechanismRule& rule = rule_of(spec.mechanism);
+    const MechanismKey& key = mechanism_key(spec.mechanism);
     std::vector<std::string> parts;
+    const auto add = [&parts](const TomlKey& each, const auto& value) {
+        parts.push_back(each.name + " = " + toml_text(value));
+    };
     if (spec.places.size() == 1)
-        parts.push_back(fmt::format("{} = {}", place_word(rule.place), spec.places.front()));
+        add(*key.place, static_cast<std::uint64_t>(spec.places.front()));
     else if (!spec.places.empty())
-        parts.push_back(fmt::format("{}s = [{}]", place_word(rule.place), fmt::join(spec.places, ", ")));
+        parts.push_back(fmt::format("{} = [{}]", key.places->name, fmt::join(spec.places, ", ")));
     if (spec.mechanism == Mechanism::vertical_motion && study.vertical) {
         const VerticalSpec& vertical = *study.vertical;
-        parts.push_back("file = " + toml_quoted(vertical.file));
+        add(vertical_keys::file, vertical.file);
         if (!vertical.component.empty())
-            parts.push_back("component = " + toml_quoted(vertical.component));
+            add(vertical_keys::component, vertical.component);
         if (!vertical.unit.empty())
-            parts.push_back("unit = " + toml_quoted(vertical.unit));
-        parts.push_back(fmt::format("baseline = {}", vertical.baseline));
+            add(vertical_keys::unit, vertical.unit);
+        add(vertical_keys::baseline, vertical.baseline);
     } else {
-        for (std::size_t i = 0; i < rule.parameters.size(); ++i)
-            parts.push_back(rule.parameters[i].key() + " = " + toml_number(spec.values[i]));
+        for (std::size_t i = 0; i < key.parameters.size(); ++i)
+            add(key.parameters[i], spec.values[i]);
     }
     return fmt::format("{{ {} }}", fmt::join(parts, ", "));
 }
 
 } // namespace
-
-Range range_of(const MechanismParameter& parameter)
-{
-    const std::string unit = parameter.unit;
-    std::string hint = parameter.says;
-    if (!unit.empty())
-        hint = fmt::format("In {}: {}", unit, hint);
-    else if (hint[0] >= 'a' && hint[0] <= 'z')
-        hint[0] = static_cast<char>(hint[0] - 'a' + 'A');
-    return {parameter.low, parameter.high, parameter.open, hint + ".", 0};
-}
 
 void read_mechanisms(const KeyReader& section, Study& study)
 {

@@ -17,9 +17,6 @@ namespace stylobate {
 ///         given twice, a mechanism that the excitation has no use for, and values that do not fit into the blocks
 void read_mechanisms(const KeyReader& section, Study& study);
 
-/// What a parameter may be, with its unit and meaning as the hint.
-Range range_of(const MechanismParameter& parameter);
-
 /// The entries of the section: key and value, in TOML.
 std::vector<std::pair<std::string, std::string>> mechanism_entries(const Study& study);
 

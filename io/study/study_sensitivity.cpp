@@ -1,7 +1,7 @@
 #include "io/study/study_sensitivity.hpp"
 
 #include "io/files/suggest.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/kind_keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,23 +15,26 @@ namespace {
 /// Those named, in the order of `perturbed`; without the key all.
 std::vector<std::string> read_factors(const KeyReader& keys, const std::vector<std::string>& perturbed)
 {
-    const TomlValue* list = keys.find("factors");
+    const TomlValue* list = keys.find(sensitivity_keys::factors.name);
     if (!list)
         return perturbed;
     const std::string known = fmt::format("Perturbed are {}.", fmt::join(perturbed, ", "));
     if (list->type != TomlValue::Type::array || list->entries.empty())
-        keys.refuse("factors", "is not a list of names", "Give factors = [\"friction\", ...]. " + known);
+        keys.refuse(sensitivity_keys::factors.name, "is not a list of names",
+                    "Give factors = [\"friction\", ...]. " + known);
     std::vector<std::string> named;
     for (const TomlValue& entry : list->entries) {
         if (entry.type != TomlValue::Type::string)
-            keys.refuse("factors", fmt::format("has {}, which is {}", entry.shown(), entry.type_name()), known);
+            keys.refuse(sensitivity_keys::factors.name,
+                        fmt::format("has {}, which is {}", entry.shown(), entry.type_name()), known);
         if (std::find(perturbed.begin(), perturbed.end(), entry.text) == perturbed.end()) {
             const std::string near = nearest_word(entry.text, perturbed);
-            keys.refuse("factors", fmt::format("names '{}', which [perturbation] does not", entry.text),
+            keys.refuse(sensitivity_keys::factors.name,
+                        fmt::format("names '{}', which [perturbation] does not", entry.text),
                         (near.empty() ? "" : fmt::format("Did you mean '{}'? ", near)) + known);
         }
         if (std::find(named.begin(), named.end(), entry.text) != named.end())
-            keys.refuse("factors", fmt::format("names '{}' twice", entry.text), "Name each once.");
+            keys.refuse(sensitivity_keys::factors.name, fmt::format("names '{}' twice", entry.text), "Name each once.");
         named.push_back(entry.text);
     }
     std::vector<std::string> factors;
@@ -53,35 +56,34 @@ std::vector<std::string> perturbed_names(const Study& study)
     return names;
 }
 
-SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study, std::uint64_t most)
+SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study)
 {
-    keys.allow_only({"method", "samples", "inner", "factors"});
     const std::vector<std::string> perturbed = perturbed_names(study);
     if (perturbed.empty())
         keys.refuse_all("study.kind = \"sensitivity\" needs perturbed quantities, and [perturbation] has none.\n  Give "
                         "distributions there, for example friction = { distribution = \"normal\", cov = "
                         "0.1 }.");
     SensitivitySpec spec;
-    spec.method = keys.choice_or("method", sensitivity_method_names, spec.method);
+    spec.method = keys.read(sensitivity_keys::method);
     spec.factors = read_factors(keys, perturbed);
     const bool rest = spec.factors.size() < perturbed.size() || study.excitation.kind == ExcitationKind::noise;
-    spec.inner = keys.whole_or("inner", 1, 10000, rest ? 4 : 1, "Realizations at each point of the design.");
+    spec.inner = keys.read_or(sensitivity_keys::inner, rest ? 4 : 1);
     if (rest && spec.inner == 1)
-        keys.refuse("inner", "cannot separate the factors from the other random quantities",
+        keys.refuse(sensitivity_keys::inner.name, "cannot separate the factors from the other random quantities",
                     "Give 2 or more (4 is recommended), or name every perturbed quantity in factors.");
     if (!rest && spec.inner > 1)
-        keys.refuse("inner", "would run the same realizations again: every perturbed quantity is a factor",
+        keys.refuse(sensitivity_keys::inner.name,
+                    "would run the same realizations again: every perturbed quantity is a factor",
                     "Give 1, or omit some quantities from factors.");
     const std::uint64_t of_row = spec.points() * spec.inner;
     spec.samples = keys.whole(
-        "samples", 2, most / of_row,
+        sensitivity_keys::samples.name, sensitivity_keys::samples.low, most_realizations / of_row,
         fmt::format("Rows of the design, each of {} points with {} realizations.", spec.points(), spec.inner));
     return spec;
 }
 
 RareSpec read_rare(const KeyReader& keys, const Study& study)
 {
-    keys.allow_only({"samples", "repeats"});
     if (perturbed_names(study).empty())
         keys.refuse_all(
             "study.kind = \"rare\" needs random quantities, and [perturbation] has none.\n  Give distributions there.");
@@ -89,10 +91,8 @@ RareSpec read_rare(const KeyReader& keys, const Study& study)
         keys.refuse_all("study.kind = \"rare\" has no chains of synthetic earthquakes: excitation.kind = \"noise\" "
                         "draws thousands of numbers for each.\n  Give another excitation.");
     RareSpec spec;
-    spec.samples = keys.whole_or("samples", 100, 1'000'000, spec.samples,
-                                 "Realizations of each level; a tenth of them is the number of chains.");
-    spec.repeats =
-        keys.whole_or("repeats", 5, 1000, spec.repeats, "Independent repeats: their scatter gives the interval.");
+    spec.samples = keys.read(rare_keys::samples);
+    spec.repeats = keys.read(rare_keys::repeats);
     return spec;
 }
 

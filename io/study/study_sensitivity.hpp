@@ -4,15 +4,15 @@
 #include "ensemble/model/study.hpp"
 #include "io/files/key_reader.hpp"
 
-#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace stylobate {
 
 /// @param study with its perturbations
-/// @param most  realizations of the whole study
 /// @throws InputError for a key, word or number that is not allowed, for a factor that is not perturbed or named twice,
 ///         and where `inner` does not fit what is left to draw
-SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study, std::uint64_t most);
+SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study);
 
 /// @param study with its perturbations and its excitation
 /// @throws InputError for a key or number that is not allowed, and where nothing is perturbed, or not everything by

@@ -1,94 +1,89 @@
 #include "io/study/study_structure.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/study/study_names.hpp"
-#include "io/study/study_ranges.hpp"
+#include "io/keys/structure_keys.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace stylobate {
 
 namespace {
 
-constexpr std::uint64_t most_blocks = 200; ///< in all: every two of them may meet
-constexpr std::uint64_t most_columns = 50;
-
-/// A key of one of several tables: of a drum, or of all drums; of a column, or of all columns.
-struct Key {
+/// A number that may stand in one of several tables: of a drum, or of all drums; of a column, or of all columns.
+struct Source {
     const KeyReader* keys;
-    std::string name;
-    bool given() const { return keys->has(name); }
+    const NumberKey* key;
+    bool given() const { return keys->has(*key); }
+    double read() const { return keys->read(*key); }
+    const std::string& name() const { return key->name; }
 };
 
-/// The first of the keys that is given; the first one where none is.
-const Key& first_given(const std::vector<Key>& keys)
+/// The first of the sources that is given; the first one where none is.
+const Source& first_given(const std::vector<Source>& sources)
 {
-    const auto at = std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.given(); });
-    return at == keys.end() ? keys.front() : *at;
+    const auto at = std::find_if(sources.begin(), sources.end(), [](const Source& source) { return source.given(); });
+    return at == sources.end() ? sources.front() : *at;
 }
 
-const Key& need(const std::vector<Key>& keys, const Range& range)
+const Source& need(const std::vector<Source>& sources)
 {
-    const Key& key = first_given(keys);
-    if (!key.given() && keys.size() > 1)
-        key.keys->missing(key.name, fmt::format("Give a number in {}, or {} for all. {}", range.text(),
-                                                keys.back().name, range.hint));
-    return key;
-}
-
-double number(const std::vector<Key>& keys, const Range& range)
-{
-    const Key& key = need(keys, range);
-    return key.keys->number(key.name, range);
+    const Source& source = first_given(sources);
+    if (!source.given() && sources.size() > 1)
+        source.keys->missing(source.name(),
+                             fmt::format("Give a number in {}, or {} for all. {}", source.key->range.text(),
+                                         sources.back().name(), source.key->range.hint));
+    return source;
 }
 
 /// Where a mass may stand: itself, or as a density.
-struct MassKeys {
+struct MassSource {
     const KeyReader* keys;
-    std::string mass; ///< empty: only the density
-    std::string density;
-    bool given() const { return keys->has(density) || (!mass.empty() && keys->has(mass)); }
+    const NumberKey* mass; ///< null: only the density
+    const NumberKey* density;
+    bool given() const { return keys->has(*density) || (mass && keys->has(*mass)); }
 };
 
 /// @param size the key that tells the block's width @param volume of the block [m3]
-double read_mass(const std::vector<MassKeys>& sources, const Key& size, double volume)
+double read_mass(const std::vector<MassSource>& sources, const Source& size, double volume)
 {
     if (!(volume >= std::numeric_limits<double>::min()))
-        size.keys->refuse(size.name, "gives a drum of zero volume", length_range.hint);
-    const auto at = std::find_if(sources.begin(), sources.end(), [](const MassKeys& source) { return source.given(); });
+        size.keys->refuse(size.name(), "gives a drum of zero volume", length_range.hint);
+    const auto at =
+        std::find_if(sources.begin(), sources.end(), [](const MassSource& source) { return source.given(); });
     if (at == sources.end())
-        sources.front().keys->missing(sources.front().mass,
-                                      "Give the mass in kilograms, or " + sources.front().density + ".");
+        sources.front().keys->missing(sources.front().mass->name,
+                                      "Give the mass in kilograms, or " + sources.front().density->name + ".");
     const KeyReader& keys = *at->keys;
-    const bool by_mass = !at->mass.empty() && keys.has(at->mass);
-    if (by_mass && keys.has(at->density))
-        keys.refuse(at->density, "and " + at->mass + " exclude each other", "Give one of the two.");
+    const bool by_mass = at->mass && keys.has(*at->mass);
+    if (by_mass && keys.has(*at->density))
+        keys.refuse(at->density->name, "and " + at->mass->name + " exclude each other", "Give one of the two.");
     if (!by_mass) {
-        const double mass = keys.number(at->density, density_range) * volume;
+        const double mass = keys.read(*at->density) * volume;
         if (!mass_range.contains(mass))
-            keys.refuse(at->density, fmt::format("gives a mass of {} kg, outside {}", mass, mass_range.text()),
+            keys.refuse(at->density->name, fmt::format("gives a mass of {} kg, outside {}", mass, mass_range.text()),
                         density_range.hint);
         return mass;
     }
-    const double mass = keys.number(at->mass, mass_range);
+    const double mass = keys.read(*at->mass);
     // the mass of a density at the end of its range may round to just beyond it
     constexpr double slack = 1 + 1e-12;
     const double density = mass / volume;
     if (!(density > 0 && density <= density_range.high * slack))
-        keys.refuse(at->mass, fmt::format("makes a density of {:.6g} kg/m3, outside {}", density, density_range.text()),
+        keys.refuse(at->mass->name,
+                    fmt::format("makes a density of {:.6g} kg/m3, outside {}", density, density_range.text()),
                     "Masses are in kilograms and lengths in metres: is one in other units?");
     return mass;
 }
 
 BedSpec read_bed(const KeyReader& keys)
 {
-    return {keys.maybe_number("friction", friction_range),
-            keys.maybe_number("normal_stiffness_n_m2", normal_stiffness_range),
-            keys.maybe_number("tangential_stiffness_n_m", tangential_stiffness_range)};
+    using namespace structure_keys;
+    return {keys.maybe(bed_friction), keys.maybe(bed_normal_stiffness), keys.maybe(bed_tangential_stiffness)};
 }
 
 /// The keys of one column: its own ones, and behind them those of the structure for what it does not say.
@@ -100,117 +95,118 @@ public:
 
     ColumnSpec read() const
     {
+        using namespace structure_keys;
         ColumnSpec column;
-        const KeyReader& shape = own_.has("blocks") || own_.has("drums") ? own_ : all_;
-        if (shape.has("drums"))
+        const KeyReader& shape = which(blocks, &drums);
+        if (shape.has(drums))
             column.drums = listed_drums(shape);
         else
             column.drums = equal_or_tapering_drums(shape);
-        if (const Key capital = first_given(both("capital")); capital.given())
-            column.drums.push_back(read_capital(capital.keys->table("capital")));
+        if (const KeyReader& keys = which(capital); keys.has(capital))
+            column.drums.push_back(read_capital(keys.table(capital)));
         if (column.drums.size() > most_blocks)
-            shape.refuse(shape.has("drums") ? "drums" : "blocks",
+            shape.refuse(shape.has(drums) ? drums.name : blocks.name,
                          fmt::format("makes a column of {} blocks", column.drums.size()),
                          fmt::format("At most {}.", most_blocks));
-        const Key fixed = first_given(both("fixed_blocks"));
-        column.fixed_blocks = static_cast<int>(fixed.keys->whole_or("fixed_blocks", 0, column.drums.size() - 1, 0,
-                                                                    "At least one of the drums must be free."));
+        column.fixed_blocks = static_cast<int>(which(fixed_blocks).read_up_to(fixed_blocks, column.drums.size() - 1));
         return column;
     }
 
 private:
-    std::vector<Key> both(const char* name) const { return {{&own_, name}, {&all_, name}}; }
+    /// The column's own keys where they have one of these, else those of the structure.
+    const KeyReader& which(const TomlKey& key, const TomlKey* other = nullptr) const
+    {
+        return own_.has(key) || (other && own_.has(*other)) ? own_ : all_;
+    }
+    std::vector<Source> both(const NumberKey& key) const { return {{&own_, &key}, {&all_, &key}}; }
 
     /// What all drums of the column have in common.
-    MassKeys common_mass() const
+    MassSource common_mass() const
     {
-        const KeyReader& keys = own_.has("drum_mass_kg") || own_.has("density_kg_m3") ? own_ : all_;
-        return {&keys, "drum_mass_kg", "density_kg_m3"};
+        using namespace structure_keys;
+        return {&which(drum_mass, &density_of_all), &drum_mass, &density_of_all};
     }
 
     std::vector<DrumSpec> equal_or_tapering_drums(const KeyReader& shape) const
     {
-        const auto blocks =
-            shape.whole("blocks", 1, most_blocks,
-                        "Drums of the column, including the fixed ones; or give drums = [ { ... }, ... ].");
-        const Key width = first_given(both("drum_width_m"));
-        const Key top_width = first_given(both("top_width_m"));
+        using namespace structure_keys;
+        const std::uint64_t count_of_blocks = shape.read(blocks);
+        const Source width_of_all = first_given(both(drum_width));
+        const Source top = first_given(both(top_width));
         DrumSpec drum;
-        drum.width_m = width.keys->number(width.name, length_range);
-        drum.height_m = number(both("drum_height_m"), length_range);
-        std::vector<DrumSpec> drums(blocks, drum);
-        if (!top_width.given()) {
-            drum.mass_kg = read_mass({common_mass()}, width, drum.width_m * drum.height_m * depth_m_);
-            drums.assign(blocks, drum);
-            return drums;
+        drum.width_m = width_of_all.read();
+        drum.height_m = need(both(drum_height)).read();
+        std::vector<DrumSpec> all(count_of_blocks, drum);
+        if (!top.given()) {
+            drum.mass_kg = read_mass({common_mass()}, width_of_all, drum.width_m * drum.height_m * depth_m_);
+            all.assign(count_of_blocks, drum);
+            return all;
         }
-        const double top = top_width.keys->number(top_width.name, length_range);
-        if (blocks == 1)
-            top_width.keys->refuse(top_width.name, "tapers a column of one drum", "Give more blocks, or omit it.");
-        const MassKeys mass = common_mass();
-        if (mass.keys->has("drum_mass_kg"))
-            mass.keys->refuse("drum_mass_kg", "is not used with top_width_m",
-                              "The drums of a taper differ: give density_kg_m3.");
-        for (std::size_t i = 0; i < blocks; ++i) {
-            const double part = static_cast<double>(i) / static_cast<double>(blocks - 1);
-            drums[i].width_m = drum.width_m + (top - drum.width_m) * part;
-            drums[i].mass_kg =
-                read_mass({{mass.keys, "", "density_kg_m3"}}, width, drums[i].width_m * drum.height_m * depth_m_);
+        const double top_m = top.read();
+        if (count_of_blocks == 1)
+            top.keys->refuse(top.name(), "tapers a column of one drum", "Give more blocks, or omit it.");
+        const MassSource mass_of_all = common_mass();
+        if (mass_of_all.keys->has(drum_mass))
+            mass_of_all.keys->refuse(drum_mass.name, "is not used with top_width_m",
+                                     "The drums of a taper differ: give density_kg_m3.");
+        for (std::size_t i = 0; i < count_of_blocks; ++i) {
+            const double part = static_cast<double>(i) / static_cast<double>(count_of_blocks - 1);
+            all[i].width_m = drum.width_m + (top_m - drum.width_m) * part;
+            all[i].mass_kg = read_mass({{mass_of_all.keys, nullptr, &density_of_all}}, width_of_all,
+                                       all[i].width_m * drum.height_m * depth_m_);
         }
-        return drums;
+        return all;
     }
 
     std::vector<DrumSpec> listed_drums(const KeyReader& shape) const
     {
-        if (shape.has("blocks"))
-            shape.refuse("blocks", "and drums exclude each other", "The drums of the list are counted.");
-        if (const Key top_width = first_given(both("top_width_m")); top_width.given())
-            top_width.keys->refuse(top_width.name, "is not used with drums", "Give each drum of the list its width_m.");
-        std::vector<DrumSpec> drums;
-        for (const KeyReader& keys : shape.tables("drums")) {
-            keys.allow_only({"width_m", "height_m", "mass_kg", "density_kg_m3", "offset_m", "friction",
-                             "normal_stiffness_n_m2", "tangential_stiffness_n_m", "count"});
-            const DrumSpec drum = read_drum(keys, {&keys, "width_m"}, "drum_width_m", "drum_height_m",
-                                            {{&keys, "mass_kg", "density_kg_m3"}, common_mass()});
-            drums.insert(drums.end(), keys.whole_or("count", 1, most_blocks, 1, "Equal drums, one on the other."),
-                         drum);
+        using namespace structure_keys;
+        if (shape.has(blocks))
+            shape.refuse(blocks.name, "and drums exclude each other", "The drums of the list are counted.");
+        if (const Source top = first_given(both(top_width)); top.given())
+            top.keys->refuse(top.name(), "is not used with drums", "Give each drum of the list its width_m.");
+        std::vector<DrumSpec> all;
+        for (const KeyReader& keys : shape.tables(drums)) {
+            const DrumSpec drum = read_drum(keys, &drum_width, &drum_height, {{&keys, &mass, &density}, common_mass()});
+            all.insert(all.end(), keys.read(count), drum);
         }
-        if (drums.empty())
-            shape.refuse("drums", "is empty", "Give at least one drum: drums = [ { width_m = ..., height_m = ... } ].");
-        return drums;
+        if (all.empty())
+            shape.refuse(drums.name, "is empty",
+                         "Give at least one drum: drums = [ { width_m = ..., height_m = ... } ].");
+        return all;
     }
 
     DrumSpec read_capital(const KeyReader& keys) const
     {
-        keys.allow_only({"width_m", "height_m", "mass_kg", "density_kg_m3", "offset_m", "friction",
-                         "normal_stiffness_n_m2", "tangential_stiffness_n_m"});
-        DrumSpec capital = read_drum(keys, {&keys, "width_m"}, "", "",
-                                     {{&keys, "mass_kg", "density_kg_m3"}, {common_mass().keys, "", "density_kg_m3"}});
-        capital.capital = true;
-        return capital;
+        using namespace structure_keys;
+        DrumSpec top = read_drum(keys, nullptr, nullptr,
+                                 {{&keys, &mass, &density}, {common_mass().keys, nullptr, &density_of_all}});
+        top.capital = true;
+        return top;
     }
 
-    /// @param width_for_all, height_for_all keys of the column or the structure; empty: there are none
-    DrumSpec read_drum(const KeyReader& keys, const Key& own_width, const char* width_for_all,
-                       const char* height_for_all, const std::vector<MassKeys>& mass) const
+    /// @param width_of_all, height_of_all keys of the column or the structure; null: there are none
+    DrumSpec read_drum(const KeyReader& keys, const NumberKey* width_of_all, const NumberKey* height_of_all,
+                       const std::vector<MassSource>& masses) const
     {
-        const auto with = [&](const Key& own, const char* for_all) {
-            std::vector<Key> all = {own};
-            if (*for_all != '\0')
-                for (const Key& key : both(for_all))
-                    all.push_back(key);
+        using namespace structure_keys;
+        const auto with = [&](const NumberKey& own, const NumberKey* of_all) {
+            std::vector<Source> all = {{&keys, &own}};
+            if (of_all)
+                for (const Source& source : both(*of_all))
+                    all.push_back(source);
             return all;
         };
-        const Key width = need(with(own_width, width_for_all), length_range);
+        const Source size = need(with(width, width_of_all));
         DrumSpec drum;
-        drum.width_m = width.keys->number(width.name, length_range);
-        drum.height_m = number(with({&keys, "height_m"}, height_for_all), length_range);
-        drum.mass_kg = read_mass(mass, width, drum.width_m * drum.height_m * depth_m_);
-        Range offset = length_range;
-        offset.low = -drum.width_m;
-        offset.high = drum.width_m;
-        offset.open = false;
-        drum.offset_m = keys.number_or("offset_m", offset, 0);
+        drum.width_m = size.read();
+        drum.height_m = need(with(height, height_of_all)).read();
+        drum.mass_kg = read_mass(masses, size, drum.width_m * drum.height_m * depth_m_);
+        Range allowed = offset.range;
+        allowed.low = -drum.width_m;
+        allowed.high = drum.width_m;
+        allowed.open = false;
+        drum.offset_m = keys.read_within(offset, allowed);
         drum.bed = read_bed(keys);
         return drum;
     }
@@ -222,83 +218,82 @@ private:
 
 std::vector<ColumnSpec> read_columns(const KeyReader& keys, double depth_m)
 {
-    std::vector<ColumnSpec> columns;
-    if (!keys.has("column_list")) {
-        const auto count = keys.whole("columns", 2, most_columns, "Or give column_list = [ { x_m = ... }, ... ].");
-        const double spacing = keys.number("column_spacing_m", spacing_range);
-        columns.assign(count, ColumnReader(keys, keys, depth_m).read());
-        for (std::size_t i = 0; i < count; ++i) // about the middle of the shaking table
-            columns[i].x_m = (static_cast<double>(i) - 0.5 * static_cast<double>(count - 1)) * spacing;
-        return columns;
+    using namespace structure_keys;
+    std::vector<ColumnSpec> all;
+    if (!keys.has(column_list)) {
+        const std::uint64_t number = keys.read(columns);
+        const double spacing = keys.read(column_spacing);
+        all.assign(number, ColumnReader(keys, keys, depth_m).read());
+        for (std::size_t i = 0; i < number; ++i) // about the middle of the shaking table
+            all[i].x_m = (static_cast<double>(i) - 0.5 * static_cast<double>(number - 1)) * spacing;
+        return all;
     }
-    for (const char* other : {"columns", "column_spacing_m"})
-        if (keys.has(other))
-            keys.refuse(other, "and column_list exclude each other", "The columns of the list have their own x_m.");
-    for (const KeyReader& own : keys.tables("column_list")) {
-        own.allow_only({"x_m", "blocks", "fixed_blocks", "drums", "drum_width_m", "drum_height_m", "drum_mass_kg",
-                        "density_kg_m3", "top_width_m", "capital"});
+    for (const TomlKey* other : std::initializer_list<const TomlKey*>{&columns, &column_spacing})
+        if (keys.has(*other))
+            keys.refuse(other->name, "and column_list exclude each other",
+                        "The columns of the list have their own x_m.");
+    for (const KeyReader& own : keys.tables(column_list)) {
         ColumnSpec column = ColumnReader(own, keys, depth_m).read();
-        column.x_m = own.number("x_m", position_range);
-        columns.push_back(std::move(column));
+        column.x_m = own.read(x);
+        all.push_back(std::move(column));
     }
-    if (columns.empty() || columns.size() > most_columns)
-        keys.refuse("column_list", fmt::format("has {} columns, outside [1, {}]", columns.size(), most_columns));
-    return columns;
+    if (all.empty() || all.size() > most_columns)
+        keys.refuse(column_list.name, fmt::format("has {} columns, outside [1, {}]", all.size(), most_columns));
+    return all;
 }
 
 /// The epistyles that are given one by one.
 std::vector<EpistyleSpec> listed_epistyles(const KeyReader& keys, const StructureSpec& structure)
 {
-    if (keys.has("epistyle_bays"))
-        keys.refuse("epistyle_bays", "is not used with epistyles", "Each of the list has its first and last column.");
-    const std::uint64_t last_column = structure.columns.size() - 1;
-    std::vector<EpistyleSpec> epistyles;
-    for (const KeyReader& own : keys.tables("epistyles")) {
-        own.allow_only({"first_column", "last_column", "x_m", "length_m", "height_m", "mass_kg", "density_kg_m3",
-                        "friction", "normal_stiffness_n_m2", "tangential_stiffness_n_m"});
-        const char* counted = "Columns are counted from 0, from the left.";
-        const auto first = own.whole("first_column", 0, last_column, counted);
-        const auto last = own.whole("last_column", first, last_column, counted);
-        const Key length = need({{&own, "length_m"}, {&keys, "epistyle_length_m"}}, length_range);
+    using namespace structure_keys;
+    if (keys.has(epistyle_bays))
+        keys.refuse(epistyle_bays.name, "is not used with epistyles",
+                    "Each of the list has its first and last column.");
+    const std::uint64_t last_of_all = structure.columns.size() - 1;
+    std::vector<EpistyleSpec> all;
+    for (const KeyReader& own : keys.tables(epistyles)) {
+        const std::uint64_t first = own.read_up_to(first_column, last_of_all);
+        const std::uint64_t last = own.whole(last_column.name, first, last_of_all, last_column.hint);
+        const Source size = need({{&own, &length}, {&keys, &epistyle_length}});
         EpistyleSpec epistyle;
         epistyle.first_column = static_cast<int>(first);
         epistyle.last_column = static_cast<int>(last);
-        epistyle.length_m = length.keys->number(length.name, length_range);
-        epistyle.height_m = number({{&own, "height_m"}, {&keys, "epistyle_height_m"}}, length_range);
-        epistyle.x_m =
-            own.number_or("x_m", position_range, (structure.columns[first].x_m + structure.columns[last].x_m) / 2);
-        epistyle.mass_kg = read_mass({{&own, "mass_kg", "density_kg_m3"},
-                                      {&keys, "epistyle_mass_kg", "epistyle_density_kg_m3"},
-                                      {&keys, "", "density_kg_m3"}},
-                                     length, epistyle.length_m * epistyle.height_m * structure.depth_m);
+        epistyle.length_m = size.read();
+        epistyle.height_m = need({{&own, &own_epistyle_height}, {&keys, &epistyle_height}}).read();
+        epistyle.x_m = own.read_or(epistyle_x, (structure.columns[first].x_m + structure.columns[last].x_m) / 2);
+        epistyle.mass_kg = read_mass(
+            {{&own, &mass, &density}, {&keys, &epistyle_mass, &epistyle_density}, {&keys, nullptr, &density_of_all}},
+            size, epistyle.length_m * epistyle.height_m * structure.depth_m);
         epistyle.bed = read_bed(own);
-        epistyles.push_back(epistyle);
+        all.push_back(epistyle);
     }
-    return epistyles;
+    return all;
 }
 
 /// Equal pieces over all columns. Where their length is not given they meet over the axes of the columns, and the
 /// outermost ones end flush with the outer faces of their seats.
 std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const StructureSpec& structure)
 {
+    namespace key = structure_keys;
     const std::vector<ColumnSpec>& columns = structure.columns;
     const std::size_t bays = columns.size() - 1;
     if (bays == 0)
-        keys.refuse("column_list", "has one column and no bay", "Give epistyles = [].");
+        keys.refuse(key::column_list.name, "has one column and no bay", "Give epistyles = [].");
     std::size_t span = 1;
-    if (const TomlValue* value = keys.find("epistyle_bays"); value != nullptr) {
+    const std::string& bays_key = key::epistyle_bays.name;
+    if (const TomlValue* value = keys.find(bays_key); value != nullptr) {
         if (value->type == TomlValue::Type::string) {
-            keys.word_index("epistyle_bays", {"all"});
+            keys.word_index(bays_key, key::epistyle_bays.words);
             span = bays;
         } else {
-            span = keys.whole("epistyle_bays", 1, bays, "Bays that one piece spans, or \"all\".");
+            span = keys.read_up_to(key::epistyle_bays, bays);
         }
         if (bays % span != 0)
-            keys.refuse("epistyle_bays", fmt::format("does not divide the {} bays of the colonnade", bays),
+            keys.refuse(bays_key, fmt::format("does not divide the {} bays of the colonnade", bays),
                         "Give another number, \"all\", or each piece in epistyles = [ { ... }, ... ].");
     }
-    const double height = keys.number("epistyle_height_m", length_range);
-    const std::optional<double> length = keys.maybe_number("epistyle_length_m", length_range);
+    const double height = keys.read(key::epistyle_height);
+    const std::optional<double> length = keys.maybe(key::epistyle_length);
 
     std::vector<EpistyleSpec> epistyles;
     for (std::size_t first = 0; first < bays; first += span) {
@@ -324,20 +319,20 @@ std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const Structu
         epistyle.length_m = length.value_or(right - left);
         epistyle.height_m = height;
         if (!length_range.contains(epistyle.length_m))
-            keys.refuse("epistyle_height_m",
+            keys.refuse(key::epistyle_height.name,
                         fmt::format("belongs to an epistyle of {:.6g} m, longer than {:g} m", epistyle.length_m,
                                     length_range.high),
                         "Give fewer epistyle_bays, or epistyle_length_m.");
         const std::size_t before = epistyles.size();
-        if (before > 0 && keys.has("epistyle_mass_kg") &&
+        if (before > 0 && keys.has(key::epistyle_mass) &&
             std::abs(epistyle.length_m - epistyles[0].length_m) > 1e-9 * epistyle.length_m)
-            keys.refuse("epistyle_mass_kg",
+            keys.refuse(key::epistyle_mass.name,
                         fmt::format("is one mass for epistyles of {:.6g} m and of {:.6g} m", epistyles[0].length_m,
                                     epistyle.length_m),
                         "Give epistyle_density_kg_m3, or epistyle_length_m.");
         epistyle.mass_kg =
-            read_mass({{&keys, "epistyle_mass_kg", "epistyle_density_kg_m3"}, {&keys, "", "density_kg_m3"}},
-                      {&keys, "epistyle_height_m"}, epistyle.length_m * height * structure.depth_m);
+            read_mass({{&keys, &key::epistyle_mass, &key::epistyle_density}, {&keys, nullptr, &key::density_of_all}},
+                      {&keys, &key::epistyle_height}, epistyle.length_m * height * structure.depth_m);
         epistyles.push_back(epistyle);
     }
     return epistyles;
@@ -345,11 +340,12 @@ std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const Structu
 
 std::vector<EpistyleSpec> read_epistyles(const KeyReader& keys, const StructureSpec& structure)
 {
-    if (keys.has("epistyles"))
+    if (keys.has(structure_keys::epistyles))
         return listed_epistyles(keys, structure);
-    if (!keys.has("epistyle_height_m"))
-        keys.missing("epistyle_height_m", "Give the height of the epistyles in metres; columns that carry none have "
-                                          "epistyles = [].");
+    if (!keys.has(structure_keys::epistyle_height))
+        keys.missing(structure_keys::epistyle_height.name,
+                     "Give the height of the epistyles in metres; columns that carry none have "
+                     "epistyles = [].");
     return epistyles_by_bays(keys, structure);
 }
 
@@ -357,20 +353,13 @@ std::vector<EpistyleSpec> read_epistyles(const KeyReader& keys, const StructureS
 
 StructureSpec read_structure(const KeyReader& keys)
 {
-    const std::vector<std::string> of_both = {"kind",         "blocks",        "fixed_blocks", "drums",
-                                              "drum_width_m", "drum_height_m", "top_width_m",  "depth_m",
-                                              "drum_mass_kg", "density_kg_m3", "capital",      "gravity_m_s2"};
-    std::vector<std::string> known = of_both;
-    known.insert(known.end(), {"columns", "column_spacing_m", "column_list", "epistyles", "epistyle_bays",
-                               "epistyle_length_m", "epistyle_height_m", "epistyle_mass_kg", "epistyle_density_kg_m3"});
-    keys.allow_only(known);
-
     StructureSpec s;
-    s.kind = keys.choice_or("kind", structure_kind_names, s.kind);
-    if (s.kind == StructureKind::column)
-        keys.refuse_unused(of_both, "structure.kind = \"column\"");
-    s.depth_m = keys.number("depth_m", length_range);
-    s.gravity_m_s2 = keys.number_or("gravity_m_s2", gravity_range, s.gravity_m_s2);
+    s.kind = keys.read(structure_keys::kind);
+    const char* word = word_for(structure_kind_names, s.kind);
+    keys.refuse_unused(structure_keys::table.names_where("structure.kind", word),
+                       fmt::format("structure.kind = \"{}\"", word));
+    s.depth_m = keys.read(structure_keys::depth);
+    s.gravity_m_s2 = keys.read(structure_keys::gravity);
     if (s.kind == StructureKind::column) {
         s.columns = {ColumnReader(keys, keys, s.depth_m).read()};
     } else {
@@ -381,8 +370,8 @@ StructureSpec read_structure(const KeyReader& keys)
     std::size_t blocks = s.epistyles.size();
     for (const ColumnSpec& column : s.columns)
         blocks += column.drums.size();
-    if (blocks > most_blocks)
-        keys.refuse_all(fmt::format("structure: {} blocks in all. At most {}.", blocks, most_blocks));
+    if (blocks > structure_keys::most_blocks)
+        keys.refuse_all(fmt::format("structure: {} blocks in all. At most {}.", blocks, structure_keys::most_blocks));
     try {
         lay_out(s);
     } catch (const InputError& error) {

@@ -2,60 +2,76 @@
 
 #include "ensemble/model/nominal.hpp"
 #include "io/files/toml_document.hpp"
+#include "io/keys/contact_keys.hpp"
+#include "io/keys/excitation_keys.hpp"
+#include "io/keys/kind_keys.hpp"
+#include "io/keys/mechanism_keys.hpp"
+#include "io/keys/run_keys.hpp"
+#include "io/keys/spread_key.hpp"
+#include "io/keys/structure_keys.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_mechanisms.hpp"
-#include "io/study/study_names.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <string_view>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
 
 namespace {
 
-/// Writes sections of "key = value" lines, or the entries of an inline table.
-class Writer {
+/// "key = value" lines under their [table], or the entries of an inline table.
+class Entries {
 public:
-    void section(std::string_view name)
+    template <class Key>
+    void add(const Key& key, const typename Key::Value& value)
     {
-        out_ += out_.empty() ? "[" : "\n[";
-        out_ += name;
-        out_ += "]\n";
+        if constexpr (std::is_enum_v<typename Key::Value>)
+            add_text(key, toml_quoted(word_for(key.names, value)));
+        else
+            add_text(key, toml_text(value));
     }
-    void line(std::string_view key, const std::string& value)
-    {
-        out_ += key;
-        out_ += " = ";
-        out_ += value;
-        out_ += '\n';
-    }
-    void number(std::string_view key, double value) { line(key, toml_number(value)); }
-    void number(std::string_view key, const std::optional<double>& value)
+    template <class Key>
+    void add(const Key& key, const std::optional<typename Key::Value>& value)
     {
         if (value)
-            number(key, *value);
+            add(key, *value);
     }
-    void whole(std::string_view key, std::uint64_t value) { line(key, std::to_string(value)); }
-    void word(std::string_view key, std::string_view value) { line(key, toml_quoted(value)); }
-    void boolean(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
-    const std::string& text() const { return out_; }
+    /// Left out where it is empty.
+    void add_if_named(const TextKey& key, const std::string& value)
+    {
+        if (!value.empty())
+            add_text(key, toml_quoted(value));
+    }
+    void add(const WholeKey& key, int value) { add_text(key, std::to_string(value)); }
+    void add(const ListKey& key, const std::vector<double>& values) { add_text(key, toml_text(values)); }
+    void add(const ListKey& key, const std::vector<std::string>& values) { add_text(key, toml_text(values)); }
+    void add_text(const TomlKey& key, std::string toml) { add_text(key.name, std::move(toml)); }
+    void add_text(std::string key, std::string toml) { entries_.emplace_back(std::move(key), std::move(toml)); }
+
+    /// { key = value, ... }
+    std::string inline_table() const
+    {
+        std::string out = "{ ";
+        for (const auto& [key, value] : entries_)
+            out += (out.size() > 2 ? ", " : "") + key + " = " + value;
+        return out + " }";
+    }
+    std::string lines() const
+    {
+        std::string out;
+        for (const auto& [key, value] : entries_)
+            out += key + " = " + value + "\n";
+        return out;
+    }
 
 private:
-    std::string out_;
+    std::vector<std::pair<std::string, std::string>> entries_;
 };
-
-using Entries = std::vector<std::pair<std::string, std::string>>;
-
-std::string inline_table(const Entries& entries)
-{
-    std::string out = "{ ";
-    for (const auto& [key, value] : entries)
-        out += (out.size() > 2 ? ", " : "") + key + " = " + value;
-    return out + " }";
-}
 
 /// An array of many lines, one element on each.
 std::string list(const std::vector<std::string>& elements, const std::string& indent)
@@ -68,21 +84,19 @@ std::string list(const std::vector<std::string>& elements, const std::string& in
 
 void add(Entries& entries, const BedSpec& bed)
 {
-    if (bed.friction)
-        entries.emplace_back("friction", toml_number(*bed.friction));
-    if (bed.normal_stiffness_n_m2)
-        entries.emplace_back("normal_stiffness_n_m2", toml_number(*bed.normal_stiffness_n_m2));
-    if (bed.tangential_stiffness_n_m)
-        entries.emplace_back("tangential_stiffness_n_m", toml_number(*bed.tangential_stiffness_n_m));
+    entries.add(structure_keys::bed_friction, bed.friction);
+    entries.add(structure_keys::bed_normal_stiffness, bed.normal_stiffness_n_m2);
+    entries.add(structure_keys::bed_tangential_stiffness, bed.tangential_stiffness_n_m);
 }
 
 Entries entries_of(const DrumSpec& drum)
 {
-    Entries entries = {{"width_m", toml_number(drum.width_m)},
-                       {"height_m", toml_number(drum.height_m)},
-                       {"mass_kg", toml_number(drum.mass_kg)}};
+    Entries entries;
+    entries.add(structure_keys::width, drum.width_m);
+    entries.add(structure_keys::height, drum.height_m);
+    entries.add(structure_keys::mass, drum.mass_kg);
     if (drum.offset_m != 0)
-        entries.emplace_back("offset_m", toml_number(drum.offset_m));
+        entries.add(structure_keys::offset, drum.offset_m);
     add(entries, drum.bed);
     return entries;
 }
@@ -98,8 +112,8 @@ std::string drums(const std::vector<DrumSpec>& drums, const std::string& indent)
             ++count;
         Entries entries = entries_of(drum);
         if (count > 1)
-            entries.emplace_back("count", std::to_string(count));
-        lines.push_back(inline_table(entries));
+            entries.add(structure_keys::count, count);
+        lines.push_back(entries.inline_table());
         i += count;
     }
     return list(lines, indent);
@@ -109,12 +123,13 @@ std::string columns(const std::vector<ColumnSpec>& columns)
 {
     std::vector<std::string> lines;
     for (const ColumnSpec& column : columns) {
-        Entries entries = {{"x_m", toml_number(column.x_m)},
-                           {"fixed_blocks", std::to_string(column.fixed_blocks)},
-                           {"drums", drums(column.drums, "    ")}};
+        Entries entries;
+        entries.add(structure_keys::x, column.x_m);
+        entries.add(structure_keys::fixed_blocks, column.fixed_blocks);
+        entries.add_text(structure_keys::drums, drums(column.drums, "    "));
         if (column.drums.back().capital)
-            entries.emplace_back("capital", inline_table(entries_of(column.drums.back())));
-        lines.push_back(inline_table(entries));
+            entries.add_text(structure_keys::capital, entries_of(column.drums.back()).inline_table());
+        lines.push_back(entries.inline_table());
     }
     return list(lines, "");
 }
@@ -123,350 +138,376 @@ std::string epistyles(const std::vector<EpistyleSpec>& epistyles)
 {
     std::vector<std::string> lines;
     for (const EpistyleSpec& epistyle : epistyles) {
-        Entries entries = {{"first_column", std::to_string(epistyle.first_column)},
-                           {"last_column", std::to_string(epistyle.last_column)},
-                           {"x_m", toml_number(epistyle.x_m)},
-                           {"length_m", toml_number(epistyle.length_m)},
-                           {"height_m", toml_number(epistyle.height_m)},
-                           {"mass_kg", toml_number(epistyle.mass_kg)}};
+        Entries entries;
+        entries.add(structure_keys::first_column, epistyle.first_column);
+        entries.add(structure_keys::last_column, epistyle.last_column);
+        entries.add(structure_keys::epistyle_x, epistyle.x_m);
+        entries.add(structure_keys::length, epistyle.length_m);
+        entries.add(structure_keys::own_epistyle_height, epistyle.height_m);
+        entries.add(structure_keys::mass, epistyle.mass_kg);
         add(entries, epistyle.bed);
-        lines.push_back(inline_table(entries));
+        lines.push_back(entries.inline_table());
     }
     return list(lines, "");
 }
 
 /// A column of equal drums in few words; all else block by block.
-void write(Writer& out, const StructureSpec& structure)
+Entries entries_of(const StructureSpec& structure)
 {
-    out.section("structure");
-    out.word("kind", word_for(structure_kind_names, structure.kind));
-    out.number("depth_m", structure.depth_m);
-    out.number("gravity_m_s2", structure.gravity_m_s2);
+    using namespace structure_keys;
+    Entries out;
+    out.add(kind, structure.kind);
+    out.add(depth, structure.depth_m);
+    out.add(gravity, structure.gravity_m_s2);
     if (structure.kind == StructureKind::colonnade) {
-        out.line("column_list", columns(structure.columns));
-        out.line("epistyles", epistyles(structure.epistyles));
-        return;
+        out.add_text(column_list, stylobate::columns(structure.columns));
+        out.add_text(structure_keys::epistyles, stylobate::epistyles(structure.epistyles));
+        return out;
     }
     const ColumnSpec& column = structure.columns[0];
     const DrumSpec& lowest = column.drums[0];
-    const int count = static_cast<int>(column.drums.size());
-    if (structure == equal_column(count, column.fixed_blocks, lowest.width_m, lowest.height_m, structure.depth_m,
+    const int number = static_cast<int>(column.drums.size());
+    if (structure == equal_column(number, column.fixed_blocks, lowest.width_m, lowest.height_m, structure.depth_m,
                                   lowest.mass_kg, structure.gravity_m_s2)) {
-        out.whole("blocks", column.drums.size());
-        out.number("drum_width_m", lowest.width_m);
-        out.number("drum_height_m", lowest.height_m);
-        out.number("drum_mass_kg", lowest.mass_kg);
+        out.add(blocks, number);
+        out.add(drum_width, lowest.width_m);
+        out.add(drum_height, lowest.height_m);
+        out.add(drum_mass, lowest.mass_kg);
     } else {
-        out.line("drums", drums(column.drums, ""));
+        out.add_text(structure_keys::drums, stylobate::drums(column.drums, ""));
         if (column.drums.back().capital)
-            out.line("capital", inline_table(entries_of(column.drums.back())));
+            out.add_text(capital, entries_of(column.drums.back()).inline_table());
     }
-    out.whole("fixed_blocks", static_cast<std::uint64_t>(column.fixed_blocks));
+    out.add(fixed_blocks, column.fixed_blocks);
+    return out;
 }
 
-void write(Writer& out, const ContactSpec& contact)
+Entries entries_of(const ContactSpec& contact)
 {
-    out.section("contact");
-    out.number("normal_stiffness_n_m2", contact.normal_stiffness_n_m2);
-    out.number("tangential_stiffness_n_m", contact.tangential_stiffness_n_m);
+    using namespace contact_keys;
+    Entries out;
+    out.add(normal_stiffness, contact.normal_stiffness_n_m2);
+    out.add(tangential_stiffness, contact.tangential_stiffness_n_m);
     if (contact.normal_damping_n_s_m)
-        out.number("normal_damping_n_s_m", *contact.normal_damping_n_s_m);
+        out.add(normal_damping, contact.normal_damping_n_s_m);
     else
-        out.number("normal_damping_ratio", contact.normal_damping_ratio);
+        out.add(normal_damping_ratio, contact.normal_damping_ratio);
     if (contact.tangential_damping_n_s_m)
-        out.number("tangential_damping_n_s_m", *contact.tangential_damping_n_s_m);
+        out.add(tangential_damping, contact.tangential_damping_n_s_m);
     else
-        out.number("tangential_damping_ratio", contact.tangential_damping_ratio);
-    out.word("damping", word_for(damping_at_names, contact.damping));
-    out.word("damping_per", word_for(damping_per_names, contact.damping_per));
-    out.word("form", word_for(contact_form_names, contact.form));
-    out.number("friction", contact.friction);
+        out.add(tangential_damping_ratio, contact.tangential_damping_ratio);
+    out.add(damping, contact.damping);
+    out.add(damping_per, contact.damping_per);
+    out.add(form, contact.form);
+    out.add(friction, contact.friction);
+    return out;
 }
 
-/// @param kind in a surface frequency and PGA come from the cells, in a fragility study the motions from elsewhere:
-/// they
-///        are not the excitation's
-void write(Writer& out, const ExcitationSpec& excitation, StudyKind kind, const StructureSpec& structure)
+/// Those keys that the kinds of the excitation and of the study use; a value that nobody gave is left out.
+Entries entries_of(const ExcitationSpec& e, StudyKind study, const StructureSpec& structure)
 {
-    const bool in_surface = kind == StudyKind::surface, in_fragility = kind == StudyKind::fragility;
-    out.section("excitation");
-    out.word("kind", word_for(excitation_kind_names, excitation.kind));
-    if (excitation.kind == ExcitationKind::none) {
-        out.number("duration_s", excitation.duration_s);
-        return;
-    }
-    const auto is = [&](ExcitationKind asked) { return excitation.kind == asked; };
-    if (is(ExcitationKind::record) || is(ExcitationKind::table)) {
-        if (!in_fragility)
-            out.word("file", excitation.file);
-        if (!excitation.run.empty())
-            out.word("run", excitation.run);
-        if (!excitation.component.empty())
-            out.word("component", excitation.component);
-        if (!excitation.unit.empty())
-            out.word("unit", excitation.unit);
-        if (!in_surface) {
-            if (excitation.pga_m_s2 > 0 && !in_fragility)
-                out.number("scale_to_pga_m_s2", excitation.pga_m_s2);
-            out.number("time_scale", excitation.time_scale);
-        }
-        if (is(ExcitationKind::record))
-            out.boolean("baseline", excitation.baseline);
-        if (excitation.band_pass)
-            out.line("band_pass_hz", fmt::format("[{}, {}]", toml_number(excitation.band_pass->low_hz),
-                                                 toml_number(excitation.band_pass->high_hz)));
-    } else if (!in_surface) {
-        if (!is(ExcitationKind::sweep))
-            out.number("frequency_hz", excitation.frequency_hz);
-        if (!in_fragility)
-            out.number("pga_m_s2", excitation.pga_m_s2);
-    }
-    if (is(ExcitationKind::harmonic)) {
-        out.word("start", word_for(edge_names, excitation.start));
-        out.word("end", word_for(edge_names, excitation.end));
-    }
-    if (is(ExcitationKind::sweep)) {
-        out.number("from_hz", excitation.from_hz);
-        out.number("to_hz", excitation.to_hz);
-        out.word("spacing", word_for(spacing_names, excitation.spacing));
-        out.number("duration_s", excitation.duration_s);
-    }
-    if (is(ExcitationKind::harmonic) || is(ExcitationKind::tapered) || is(ExcitationKind::sweep))
-        out.number("ramp_cycles", excitation.ramp_cycles);
-    if (is(ExcitationKind::harmonic) || is(ExcitationKind::tapered))
-        out.number("cycles", excitation.cycles);
-    if (is(ExcitationKind::harmonic) || is(ExcitationKind::tapered) || is(ExcitationKind::pulse))
-        out.number("phase_rad", excitation.phase_rad);
-    if (is(ExcitationKind::pulse))
-        out.number("gamma", excitation.gamma);
-    if (is(ExcitationKind::noise)) {
-        if (!in_fragility)
-            out.word("pga_of", word_for(pga_of_names, excitation.pga_of));
-        out.number("ground_damping_ratio", excitation.ground_damping_ratio);
-        out.number("low_cut_ratio", excitation.low_cut_ratio);
-        out.number("low_cut_damping_ratio", excitation.low_cut_damping_ratio);
-        out.number("rise_s", excitation.rise_s);
-        out.number("strong_s", excitation.strong_s);
-        out.number("decay_s", excitation.decay_s);
-    }
-    if (excitation.tail_s)
-        out.number("tail_s", excitation.tail_s);
-    else // each realization has its own
-        out.line("tail_s", fmt::format("{} # 12 / p of each realization; of the structure as given {:.4g} s",
+    using namespace excitation_keys;
+    const char* motion = word_for(excitation_kind_names, e.kind);
+    const char* of_study = word_for(study_kind_names, study);
+    Entries out;
+    const auto add = [&](const auto& key, const auto& value) {
+        if (key.used_where("excitation.kind", motion) && key.used_where("study.kind", of_study))
+            out.add(key, value);
+    };
+    const auto named = [](const std::string& text) {
+        return text.empty() ? std::optional<std::string>() : std::optional(text);
+    };
+    add(kind, e.kind);
+    if (e.kind == ExcitationKind::none)
+        add(duration, e.duration_s);
+    add(file, e.file);
+    add(run, named(e.run));
+    add(component, named(e.component));
+    add(unit, named(e.unit));
+    add(scale_to_pga, e.pga_m_s2 > 0 ? std::optional(e.pga_m_s2) : std::nullopt);
+    add(time_scale, e.time_scale);
+    add(baseline, e.baseline);
+    if (e.band_pass)
+        out.add(band_pass, std::vector{e.band_pass->low_hz, e.band_pass->high_hz});
+    add(frequency, e.frequency_hz);
+    add(pga, e.pga_m_s2);
+    add(start, e.start);
+    add(end, e.end);
+    add(from, e.from_hz);
+    add(to, e.to_hz);
+    add(spacing, e.spacing);
+    if (e.kind == ExcitationKind::sweep)
+        add(duration, e.duration_s);
+    add(ramp_cycles, e.ramp_cycles);
+    add(cycles, e.cycles);
+    add(phase, e.phase_rad);
+    add(gamma, e.gamma);
+    add(pga_of, e.pga_of);
+    add(ground_damping, e.ground_damping_ratio);
+    add(low_cut, e.low_cut_ratio);
+    add(low_cut_damping, e.low_cut_damping_ratio);
+    add(rise, e.rise_s);
+    add(strong, e.strong_s);
+    add(decay, e.decay_s);
+    if (e.tail_s)
+        add(tail, e.tail_s);
+    else if (tail.used_where("excitation.kind", motion)) // each realization has its own
+        out.add_text(tail, fmt::format("{} # 12 / p of each realization; of the structure as given {:.4g} s",
                                        toml_quoted(tail_of_structure), nominal_tail_s(structure)));
+    return out;
 }
 
-void add_axis(Entries& entries, const Axis& axis)
+void add(Entries& entries, const AxisKey& key, const Axis& axis)
 {
-    entries.emplace_back("from", toml_number(axis.from));
-    entries.emplace_back("to", toml_number(axis.to));
-    entries.emplace_back("count", std::to_string(axis.count));
-    entries.emplace_back("spacing", toml_quoted(word_for(spacing_names, axis.spacing)));
+    entries.add(key.from, axis.from);
+    entries.add(key.to, axis.to);
+    entries.add(key.count, axis.count);
+    entries.add(key.spacing, axis.spacing);
 }
 
-std::string axis(const Axis& axis)
+Entries entries_of(const SurfaceSpec& surface)
+{
+    const auto axis = [](const AxisKey& key, const Axis& values) {
+        Entries entries;
+        add(entries, key, values);
+        return entries.inline_table();
+    };
+    Entries out;
+    out.add_text(surface_keys::frequency, axis(surface_keys::frequency, surface.frequency_hz));
+    out.add_text(surface_keys::pga, axis(surface_keys::pga, surface.pga_m_s2));
+    if (const std::optional<AdaptiveSpec>& adaptive = surface.adaptive) {
+        Entries entries;
+        entries.add(adaptive_keys::budget, adaptive->budget);
+        entries.add(adaptive_keys::minimum, adaptive->minimum);
+        entries.add(adaptive_keys::half_width, adaptive->half_width);
+        entries.add(adaptive_keys::pooled, adaptive->borrow);
+        out.add_text(surface_keys::adaptive, entries.inline_table());
+    }
+    return out;
+}
+
+std::string spread(const SpreadKey& key, const Spread& p)
 {
     Entries entries;
-    add_axis(entries, axis);
-    return inline_table(entries);
-}
-
-/// @param sd the key of a standard deviation
-std::string spread(const Spread& p, const std::string& sd)
-{
-    Entries entries = {{"distribution", toml_quoted(word_for(distribution_names, p.distribution))}};
+    entries.add(key.distribution, p.distribution);
     switch (p.distribution) {
     case DistributionKind::normal:
-        entries.emplace_back(p.cov > 0 ? "cov" : sd, toml_number(p.cov > 0 ? p.cov : p.sd));
+        if (p.cov > 0)
+            entries.add(key.cov, p.cov);
+        else
+            entries.add(key.sd, p.sd);
         break;
     case DistributionKind::lognormal:
-        entries.emplace_back("sigma_ln", toml_number(p.sigma_ln));
+        entries.add(key.sigma_ln, p.sigma_ln);
         break;
     case DistributionKind::uniform:
     case DistributionKind::log_uniform:
-        entries.emplace_back("from", toml_number(p.from));
-        entries.emplace_back("to", toml_number(p.to));
+        entries.add(key.from, p.from);
+        entries.add(key.to, p.to);
         break;
     }
-    if (p.min)
-        entries.emplace_back("min", toml_number(*p.min));
-    if (p.max)
-        entries.emplace_back("max", toml_number(*p.max));
-    entries.emplace_back("per", toml_quoted(word_for(per_names, p.per)));
-    return inline_table(entries);
+    entries.add(key.min, p.min);
+    entries.add(key.max, p.max);
+    entries.add(key.per, p.per);
+    return entries.inline_table();
 }
 
-std::string numbers(const std::vector<double>& values)
+Entries entries_of(const FragilitySpec& f)
 {
-    std::string text;
-    for (const double value : values)
-        text += (text.empty() ? "" : ", ") + toml_number(value);
-    return "[" + text + "]";
-}
-
-std::string words(const std::vector<std::string>& values)
-{
-    std::string text;
-    for (const std::string& value : values)
-        text += (text.empty() ? "" : ", ") + toml_quoted(value);
-    return "[" + text + "]";
-}
-
-void write(Writer& out, const FragilitySpec& f)
-{
-    out.section("fragility");
-    out.word("method", word_for(fragility_method_names, f.method));
+    using namespace fragility_keys;
+    Entries out;
+    out.add(method, f.method);
     if (f.records.empty()) {
-        out.whole("motions", static_cast<std::uint64_t>(f.motions));
+        out.add(motions, f.motions);
     } else {
         std::vector<std::string> lines;
         for (const RecordSpec& record : f.records) {
-            Entries entries = {{"file", toml_quoted(record.file)}};
-            if (!record.component.empty())
-                entries.emplace_back("component", toml_quoted(record.component));
-            if (!record.unit.empty())
-                entries.emplace_back("unit", toml_quoted(record.unit));
-            lines.push_back(inline_table(entries));
+            Entries entries;
+            entries.add(file, record.file);
+            entries.add_if_named(component, record.component);
+            entries.add_if_named(record_unit, record.unit);
+            lines.push_back(entries.inline_table());
         }
-        out.line("records", list(lines, ""));
+        out.add_text(records, list(lines, ""));
     }
     if (f.method == FragilityMethod::cloud) {
-        out.number("scale", f.scale);
+        out.add(scale, f.scale);
     } else {
-        Entries entries = {{"measure", toml_quoted(word_for(intensity_measure_names, f.measure))}};
+        Entries entries;
+        entries.add(measure, f.measure);
         if (f.measure == IntensityMeasure::sa)
-            entries.emplace_back("period_s", toml_number(f.period_s));
-        add_axis(entries, f.intensity);
-        out.line("intensity", inline_table(entries));
+            entries.add(period, f.period_s);
+        add(entries, intensity, f.intensity);
+        out.add_text(intensity, entries.inline_table());
     }
-    out.whole("shakings", static_cast<std::uint64_t>(f.shakings));
-    out.number("pause_s", f.pause_s);
-    out.whole("contacts", static_cast<std::uint64_t>(f.contacts));
-    out.whole("twins", static_cast<std::uint64_t>(f.twins));
-    out.number("twin_m", f.twin_m);
-    out.line("peak_limits", numbers(f.peak_limits));
-    out.line("residual_limits", numbers(f.residual_limits));
-    out.line("periods_s", numbers(f.periods_s));
+    out.add(shakings, f.shakings);
+    out.add(pause, f.pause_s);
+    out.add(contacts, f.contacts);
+    out.add(twins, f.twins);
+    out.add(twin, f.twin_m);
+    out.add(peak_limits, f.peak_limits);
+    out.add(residual_limits, f.residual_limits);
+    out.add(periods, f.periods_s);
+    return out;
 }
 
-void write(Writer& out, const TwinsSpec& twins)
+Entries entries_of(const TwinsSpec& spec)
 {
-    out.section("twins");
-    std::vector<double> moves;
-    double step_ratio = 1;
-    bool precision = false, forms = false;
-    for (const Twin& kind : twins.kinds) {
-        if (kind.by == TwinBy::move)
-            moves.push_back(kind.size);
-        if (kind.by == TwinBy::step)
-            step_ratio = kind.size;
-        precision = precision || kind.by == TwinBy::precision;
-        forms = forms || kind.by == TwinBy::form;
+    using namespace twins_keys;
+    std::vector<double> displacements;
+    double ratio = 1;
+    bool single = false, other_forms = false;
+    for (const Twin& each : spec.kinds) {
+        if (each.by == TwinBy::move)
+            displacements.push_back(each.size);
+        if (each.by == TwinBy::step)
+            ratio = each.size;
+        single = single || each.by == TwinBy::precision;
+        other_forms = other_forms || each.by == TwinBy::form;
     }
-    out.line("moves_m", numbers(moves));
-    out.whole("block", static_cast<std::uint64_t>(twins.block));
-    out.number("step_ratio", step_ratio);
-    out.boolean("precision", precision);
-    out.boolean("forms", forms);
-    out.whole("followed", twins.followed);
-    out.number("tolerance", twins.tolerance);
+    Entries out;
+    out.add(moves, displacements);
+    out.add(block, spec.block);
+    out.add(step_ratio, ratio);
+    out.add(precision, single);
+    out.add(forms, other_forms);
+    out.add(followed, spec.followed);
+    out.add(tolerance, spec.tolerance);
+    return out;
 }
 
-/// What every study has at its end: start, output, outcome, run.
-void write_end(Writer& out, const Study& study)
+Entries entries_of_study(const Study& study)
 {
-    out.section("initial");
-    out.number("tilt_rad", study.initial.tilt_rad);
-    out.whole("tilt_from_block", static_cast<std::uint64_t>(study.initial.tilt_from_block));
-    out.section("output");
-    out.number("trajectory_rate_hz", study.output.trajectory_rate_hz);
-    out.word("realizations", word_for(kept_realizations_names, study.kept));
+    using namespace study_keys;
+    Entries out;
+    out.add(kind, study.kind);
+    out.add_if_named(title, study.title); // a study without a title has the text that it always had
+    out.add(seed, study.seed);
+    if (realizations.used_where("study.kind", word_for(study_kind_names, study.kind)))
+        out.add(realizations, study.realizations);
+    out.add(sampling, study.sampling);
+    out.add(allow, study.allow);
+    return out;
+}
+
+Entries entries_of(const SensitivitySpec& sensitivity)
+{
+    Entries out;
+    out.add(sensitivity_keys::method, sensitivity.method);
+    out.add(sensitivity_keys::samples, sensitivity.samples);
+    out.add(sensitivity_keys::inner, sensitivity.inner);
+    out.add(sensitivity_keys::factors, sensitivity.factors);
+    return out;
+}
+
+Entries entries_of(const RareSpec& rare)
+{
+    Entries out;
+    out.add(rare_keys::samples, rare.samples);
+    out.add(rare_keys::repeats, rare.repeats);
+    return out;
+}
+
+Entries entries_of(const InitialSpec& initial)
+{
+    Entries out;
+    out.add(initial_keys::tilt, initial.tilt_rad);
+    out.add(initial_keys::tilt_from_block, initial.tilt_from_block);
+    return out;
+}
+
+Entries entries_of_output(const Study& study)
+{
+    using namespace output_keys;
+    Entries out;
+    out.add(trajectory_rate, study.output.trajectory_rate_hz);
+    out.add(realizations, study.kept);
     if (study.kind == StudyKind::single) {
         const std::optional<std::uint64_t>& kept = study.output.trajectories;
         if (kept && *kept != OutputSpec::all)
-            out.whole("trajectories", *kept);
+            out.add(trajectories, kept);
         else
-            out.word("trajectories", kept ? trajectories_all : trajectories_fit);
-        out.number("most_mb", study.output.most_mb);
+            out.add_text(trajectories, toml_quoted(kept ? trajectories_all : trajectories_fit));
+        out.add(most_mb, study.output.most_mb);
     }
-    out.section("outcome");
-    out.word("follow", word_for(follow_names, study.outcome.follow));
-    out.line("collapse", inline_table({{"height_fraction", toml_number(study.outcome.collapse_height_fraction)}}));
-    out.number("rocking_threshold_rad", study.outcome.rocking_threshold_rad);
-    out.number("sliding_threshold", study.outcome.sliding_threshold);
-    out.section("run");
-    out.word("precision", word_for(precision_names, study.run.precision));
-    if (study.run.step_s)
-        out.number("step_s", *study.run.step_s);
+    return out;
+}
+
+Entries entries_of(const OutcomeSpec& outcome)
+{
+    using namespace outcome_keys;
+    Entries fallen;
+    fallen.add(height_fraction, outcome.collapse_height_fraction);
+    Entries out;
+    out.add(follow, outcome.follow);
+    out.add_text(collapse, fallen.inline_table());
+    out.add(rocking_threshold, outcome.rocking_threshold_rad);
+    out.add(sliding_threshold, outcome.sliding_threshold);
+    return out;
+}
+
+Entries entries_of(const RunSpec& run)
+{
+    using namespace run_keys;
+    Entries out;
+    out.add(precision, run.precision);
+    if (run.step_s)
+        out.add(step, run.step_s);
     else
-        out.number("step_fraction", study.run.step_fraction);
-    out.word("step_bound", word_for(step_basis_names, study.run.step_bound));
-    out.boolean("allow_step_above_bound", study.run.allow_step_above_bound);
-    out.number("max_invalid_fraction", study.run.max_invalid_fraction);
+        out.add(step_fraction, run.step_fraction);
+    out.add(step_bound, run.step_bound);
+    out.add(allow_step_above_bound, run.allow_step_above_bound);
+    out.add(max_invalid, run.max_invalid_fraction);
+    return out;
 }
 
 } // namespace
 
 std::string study_text(const Study& study)
 {
-    Writer out;
-    out.section("study");
-    out.word("kind", word_for(study_kind_names, study.kind));
-    if (!study.title.empty()) // a study without a title has the text that it always had
-        out.word("title", study.title);
-    out.whole("seed", study.seed);
-    if (!study.sensitivity && !study.rare)
-        out.whole("realizations", study.realizations);
-    out.word("sampling", word_for(sampling_names, study.sampling));
-    out.line("allow", words(study.allow));
-    write(out, study.structure);
-    write(out, study.contact);
-    write(out, study.excitation, study.kind, study.structure);
-    if (study.surface) {
-        out.section("surface");
-        out.line("frequency_hz", axis(study.surface->frequency_hz));
-        out.line("pga_m_s2", axis(study.surface->pga_m_s2));
-        if (const std::optional<AdaptiveSpec>& adaptive = study.surface->adaptive)
-            out.line("adaptive", inline_table({{"budget", std::to_string(adaptive->budget)},
-                                               {"minimum", std::to_string(adaptive->minimum)},
-                                               {"half_width", toml_number(adaptive->half_width)},
-                                               {"borrow", adaptive->borrow ? "true" : "false"}}));
-    }
+    std::string text;
+    const auto table = [&text](const std::string& name, const Entries& entries) {
+        text += (text.empty() ? "[" : "\n[") + name + "]\n" + entries.lines();
+    };
+    table(study_keys::table.name, entries_of_study(study));
+    table(structure_keys::table.name, entries_of(study.structure));
+    table(contact_keys::table.name, entries_of(study.contact));
+    table(excitation_keys::table.name, entries_of(study.excitation, study.kind, study.structure));
+    if (study.surface)
+        table(surface_keys::table.name, entries_of(*study.surface));
     if (study.twins)
-        write(out, *study.twins);
+        table(twins_keys::table.name, entries_of(*study.twins));
     if (study.fragility)
-        write(out, *study.fragility);
-    if (const std::optional<SensitivitySpec>& sensitivity = study.sensitivity) {
-        out.section("sensitivity");
-        out.word("method", word_for(sensitivity_method_names, sensitivity->method));
-        out.whole("samples", sensitivity->samples);
-        out.whole("inner", sensitivity->inner);
-        out.line("factors", words(sensitivity->factors));
-    }
-    if (study.rare) {
-        out.section("rare");
-        out.whole("samples", study.rare->samples);
-        out.whole("repeats", study.rare->repeats);
-    }
-    if (!study.perturbations.empty())
-        out.section("perturbation");
+        table(fragility_keys::table.name, entries_of(*study.fragility));
+    if (study.sensitivity)
+        table(sensitivity_keys::table.name, entries_of(*study.sensitivity));
+    if (study.rare)
+        table(rare_keys::table.name, entries_of(*study.rare));
+    Entries perturbed;
     for (const auto& p : study.perturbations)
-        out.line(to_string(p.quantity), spread(p, sd_key(p.quantity)));
-    const MechanismRule* last = nullptr;
-    for (const auto& p : study.mechanism_perturbations) {
-        const MechanismRule& rule = rule_of(p.mechanism);
-        if (&rule != last)
-            out.section(std::string("perturbation.mechanisms.") + rule.name);
-        last = &rule;
-        const MechanismParameter& parameter = rule.parameters[p.parameter];
-        out.line(parameter.key(), spread(p, std::string("sd") + parameter.suffix));
+        perturbed.add_text(spread_key(p.quantity), spread(spread_key(p.quantity), p));
+    if (!study.perturbations.empty())
+        table(perturbation_table().name, perturbed);
+    for (std::size_t i = 0; i < study.mechanism_perturbations.size();) {
+        const Mechanism mechanism = study.mechanism_perturbations[i].mechanism;
+        Entries of_mechanism;
+        for (; i < study.mechanism_perturbations.size() && study.mechanism_perturbations[i].mechanism == mechanism;
+             ++i) {
+            const SpreadKey& key = spread_key(mechanism, study.mechanism_perturbations[i].parameter);
+            of_mechanism.add_text(key, spread(key, study.mechanism_perturbations[i]));
+        }
+        table(perturbation_table().name + "." + perturbed_mechanisms().name + "." + to_string(mechanism), of_mechanism);
     }
-    if (!study.mechanisms.empty())
-        out.section("mechanisms");
+    Entries extensions;
     for (const auto& [name, value] : mechanism_entries(study))
-        out.line(name, value);
-    write_end(out, study);
-    return out.text();
+        extensions.add_text(name, value);
+    if (!study.mechanisms.empty())
+        table(mechanisms_table().name, extensions);
+    table(initial_keys::table.name, entries_of(study.initial));
+    table(output_keys::table.name, entries_of_output(study));
+    table(outcome_keys::table.name, entries_of(study.outcome));
+    table(run_keys::table.name, entries_of(study.run));
+    return text;
 }
 
 } // namespace stylobate

@@ -5,7 +5,7 @@
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_outcomes.hpp"
 #include "io/study/study_file.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"

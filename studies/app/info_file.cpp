@@ -9,7 +9,7 @@
 #include "io/records/record.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"

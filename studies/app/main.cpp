@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/version.hpp"

@@ -1,6 +1,6 @@
 #include "studies/app/run_report.hpp"
 
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 

@@ -4,7 +4,7 @@
 #include "ensemble/tracking/specimen.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/calibration_search.hpp"
 #include "studies/calibration/kept_evidence.hpp"

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/hdf5.hpp"
 #include "io/study/study_file.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 
 #include <fmt/format.h>
 

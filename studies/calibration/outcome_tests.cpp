@@ -6,8 +6,8 @@
 #include "io/measured/measured_motion.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
-#include "io/study/study_names.hpp"
-#include "io/study/study_ranges.hpp"
+#include "io/keys/words.hpp"
+#include "io/keys/ranges.hpp"
 
 #include <fmt/format.h>
 

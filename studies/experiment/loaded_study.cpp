@@ -6,7 +6,7 @@
 #include "io/records/record.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/experiment/block_names.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/motions.hpp"

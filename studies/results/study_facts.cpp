@@ -4,7 +4,7 @@
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/structure.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 
 #include <fmt/format.h>
 

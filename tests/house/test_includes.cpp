@@ -49,7 +49,8 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"io/records", {}},
     {"io/motion", {"io/records"}},
     {"io/measured", {"io/files", "io/motion", "io/records"}},
-    {"io/study", {"io/files", "io/records"}},
+    {"io/keys", {"io/files"}},
+    {"io/study", {"io/files", "io/keys", "io/records"}},
     {"io/store", {"io/files", "io/tables"}},
     {"io/plots", {"io/files", "io/store", "io/tables"}},
 

@@ -305,8 +305,10 @@ TEST_F(Resume, TwoRunsDoNotWriteOneFile)
         const Ended ended = run(first);
         ::_exit(ended.status == 130 ? 0 : 1);
     }
-    while (!fs::exists(folder / "a.h5"))
+    while (!fs::exists(folder / "a.h5")) {
+        ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << "the first one ended before it began to write";
         ::usleep(2'000);
+    }
     const Ended second = run(part("a.h5", {"1", "auto"}).arguments);
     EXPECT_EQ(second.status, 2) << testing::PrintToString(second);
     EXPECT_EQ(second.out, "");

@@ -5,7 +5,7 @@
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/measured/measured_motion.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 #include "studies/calibration/calibration_windows.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/key_reader.hpp"
-#include "io/study/study_ranges.hpp"
+#include "io/keys/ranges.hpp"
 #include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>

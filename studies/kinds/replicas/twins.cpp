@@ -1,6 +1,6 @@
 #include "studies/kinds/replicas/twins.hpp"
 
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 
 #include <fmt/format.h>
 

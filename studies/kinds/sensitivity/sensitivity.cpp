@@ -4,7 +4,7 @@
 #include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
-#include "io/study/study_names.hpp"
+#include "io/keys/words.hpp"
 
 #include <gtest/gtest.h>
 

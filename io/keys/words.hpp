@@ -2,16 +2,11 @@
 /// The words of the study file for the enumerations of a study: read and written from the same lists.
 
 #include "ensemble/model/study.hpp"
+#include "io/files/toml_key.hpp"
 
 #include <array>
 
 namespace stylobate {
-
-template <class Enum>
-struct Name {
-    const char* word;
-    Enum value;
-};
 
 inline constexpr std::array study_kind_names = {
     Name<StudyKind>{"single", StudyKind::single}, Name<StudyKind>{"surface", StudyKind::surface},
@@ -70,16 +65,6 @@ inline constexpr std::array distribution_names = {Name<DistributionKind>{"normal
                                                   Name<DistributionKind>{"log_uniform", DistributionKind::log_uniform}};
 inline constexpr std::array per_names = {Name<Per>{"joint", Per::joint}, Name<Per>{"block", Per::block},
                                          Name<Per>{"structure", Per::structure}};
-
-/// The word for a value that its list holds.
-template <class List, class Enum>
-const char* word_for(const List& names, Enum value)
-{
-    for (const auto& name : names)
-        if (name.value == value)
-            return name.word;
-    return "?";
-}
 
 /// The study file's key for the standard deviation of a quantity: its unit is part of it.
 constexpr const char* sd_key(Quantity quantity)

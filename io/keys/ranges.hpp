@@ -1,13 +1,16 @@
 #pragma once
 /// What the numbers of a study file may be: wide enough for any structure of stone, narrow enough for a slip of units.
 
-#include "io/files/key_reader.hpp"
+#include "io/files/toml_key.hpp"
 
 #include <numbers>
 
 namespace stylobate {
 
 inline constexpr double degree = std::numbers::pi / 180;
+
+/// Of a record.
+inline const std::vector<std::string> acceleration_units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};
 
 inline const Range length_range{0, 10, true, "Lengths are in metres.", 1e-3};
 inline const Range spacing_range{0, 100, true, "Lengths are in metres.", 1e-3};

@@ -1,0 +1,203 @@
+#include "io/files/toml_key.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace stylobate {
+
+namespace {
+
+/// Ends of keys and what they mean; a longer one stands before those that it ends with.
+constexpr std::array unit_endings = {std::pair{"_n_s2_m2", "N s2/m2"},
+                                     std::pair{"_rad_s2_m", "rad s2/m"},
+                                     std::pair{"_n_s_m", "N s/m"},
+                                     std::pair{"_kg_m3", "kg/m3"},
+                                     std::pair{"_n_m2", "N/m2"},
+                                     std::pair{"_n_m", "N/m"},
+                                     std::pair{"_m_s2", "m/s2"},
+                                     std::pair{"_m_rad", "m/rad"},
+                                     std::pair{"_per_m", "1/m"},
+                                     std::pair{"_m_s", "m/s"},
+                                     std::pair{"_s_m", "s/m"},
+                                     std::pair{"_m2", "m2"},
+                                     std::pair{"_rad", "rad"},
+                                     std::pair{"_hz", "Hz"},
+                                     std::pair{"_kg", "kg"},
+                                     std::pair{"_mb", "1e6 bytes"},
+                                     std::pair{"_n", "N"},
+                                     std::pair{"_m", "m"},
+                                     std::pair{"_s", "s"}};
+
+template <class List, class Text>
+std::string in_brackets(const List& values, const Text& text)
+{
+    std::string all;
+    for (const auto& value : values)
+        all += (all.empty() ? "" : ", ") + text(value);
+    return "[" + all + "]";
+}
+
+} // namespace
+
+bool Range::contains(double value) const
+{
+    return std::isfinite(value) && (open ? value > low : value >= low) && value <= high;
+}
+
+std::string Range::text() const
+{
+    const auto bound = [](double value) {
+        return std::abs(value) < 1e6 ? fmt::format("{}", value) : fmt::format("{:g}", value);
+    };
+    return fmt::format("{}{}, {}]", open ? '(' : '[', bound(low), bound(high));
+}
+
+std::string toml_text(double value)
+{
+    return toml_number(value);
+}
+std::string toml_text(bool value)
+{
+    return value ? "true" : "false";
+}
+std::string toml_text(std::uint64_t value)
+{
+    return std::to_string(value);
+}
+std::string toml_text(const std::string& value)
+{
+    return toml_quoted(value);
+}
+std::string toml_text(const std::vector<double>& values)
+{
+    return in_brackets(values, [](double value) { return toml_number(value); });
+}
+std::string toml_text(const std::vector<std::string>& values)
+{
+    return in_brackets(values, [](const std::string& value) { return toml_quoted(value); });
+}
+
+TomlKey::TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts facts)
+    : name(std::move(key)), type(of_type), meaning(std::move(means)), words(std::move(facts.words)),
+      absent(std::move(facts.absent)), used(std::move(facts.used)), example(std::move(facts.example))
+{
+}
+
+void TomlKey::set_default(std::string toml)
+{
+    if (!absent.empty())
+        return; // a word that stands for it
+    absent = std::move(toml);
+    absent_is_value = true;
+}
+
+bool TomlKey::used_where(std::string_view key, std::string_view value) const
+{
+    return std::all_of(used.begin(), used.end(), [&](const Condition& condition) {
+        return condition.key != key ||
+               std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
+    });
+}
+
+std::string TomlKey::unit() const
+{
+    if (type != KeyType::number && type != KeyType::numbers && type != KeyType::interval && type != KeyType::table)
+        return {};
+    for (const auto& [ending, unit] : unit_endings)
+        if (name.ends_with(ending))
+            return unit;
+    return {};
+}
+
+NumberKey::NumberKey(std::string key, const Range& allowed, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::number, std::move(means), std::move(facts))
+{
+    range = allowed;
+}
+
+NumberKey::NumberKey(std::string key, const Range& allowed, double without, std::string means, KeyFacts facts)
+    : NumberKey(std::move(key), allowed, std::move(means), std::move(facts))
+{
+    absent_value = without;
+    set_default(toml_text(without));
+}
+
+WholeKey::WholeKey(std::string key, Limits allowed, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::whole, std::move(means), std::move(facts)), low(allowed.low), high(allowed.high),
+      hint(std::move(allowed.hint))
+{
+    range = {static_cast<double>(low), static_cast<double>(high)};
+}
+
+WholeKey::WholeKey(std::string key, Limits allowed, std::uint64_t without, std::string means, KeyFacts facts)
+    : WholeKey(std::move(key), std::move(allowed), std::move(means), std::move(facts))
+{
+    absent_value = without;
+    set_default(toml_text(without));
+}
+
+BooleanKey::BooleanKey(std::string key, bool without, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::boolean, std::move(means), std::move(facts)), absent_value(without)
+{
+    set_default(toml_text(without));
+}
+
+BooleanKey::BooleanKey(std::string key, const char* means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::boolean, means, std::move(facts))
+{
+}
+
+TextKey::TextKey(std::string key, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::text, std::move(means), std::move(facts))
+{
+    if (!words.empty())
+        type = KeyType::word;
+}
+
+ListKey::ListKey(std::string key, KeyType of_type, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), of_type, std::move(means), std::move(facts))
+{
+}
+
+ListKey::ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts)
+    : ListKey(std::move(key), of_type, std::move(means), std::move(facts))
+{
+    range = allowed;
+}
+
+ListKey::ListKey(std::string key, const Range& allowed, const std::vector<double>& without, std::string means,
+                 KeyFacts facts)
+    : ListKey(std::move(key), KeyType::numbers, allowed, std::move(means), std::move(facts))
+{
+    set_default(toml_text(without));
+}
+
+TableKey::TableKey(std::string key, std::string means, std::vector<const TomlKey*> of_table, KeyFacts facts,
+                   KeyType of_type)
+    : TomlKey(std::move(key), of_type, std::move(means), std::move(facts))
+{
+    keys = std::move(of_table);
+}
+
+std::vector<std::string> TableKey::names() const
+{
+    std::vector<std::string> all;
+    for (const TomlKey* key : keys)
+        all.push_back(key->name);
+    return all;
+}
+
+std::vector<std::string> TableKey::names_where(std::string_view key, std::string_view value) const
+{
+    std::vector<std::string> all;
+    for (const TomlKey* each : keys)
+        if (each->used_where(key, value))
+            all.push_back(each->name);
+    return all;
+}
+
+} // namespace stylobate

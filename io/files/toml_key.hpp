@@ -1,0 +1,191 @@
+#pragma once
+/// The description of a key of a TOML file: its name, type, range, default and meaning, once. `KeyReader` reads by it,
+/// `toml_text` writes by it, and documentation, schema and templates are made from it (io/keys/).
+
+#include "io/files/toml_document.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stylobate {
+
+/// What a number may be; never NaN or infinite.
+struct Range {
+    double low = 0;
+    double high = 0;
+    bool open = false;     ///< `low` itself is outside
+    std::string hint = {}; ///< the unit, as a sentence
+    double guess = 0;      ///< a value outside, times this, may be what was meant (mm for m); 0: no guess
+
+    bool contains(double value) const;
+    /// "(0, 10]"
+    std::string text() const;
+};
+
+/// A word of a file and what it stands for.
+template <class Enum>
+struct Name {
+    const char* word;
+    Enum value;
+};
+
+/// The word for a value that its list holds.
+template <class List, class Enum>
+const char* word_for(const List& names, Enum value)
+{
+    for (const auto& name : names)
+        if (name.value == value)
+            return name.word;
+    return "?";
+}
+
+enum class KeyType {
+    number,
+    whole, ///< a whole number
+    boolean,
+    word,     ///< one of `TomlKey::words`
+    text,     ///< any string
+    numbers,  ///< a list
+    interval, ///< [low, high]
+    wholes,   ///< a list of whole numbers
+    texts,    ///< a list of strings
+    table,
+    tables,       ///< a list of tables
+    table_or_list ///< a table, or a list of such tables
+};
+
+/// A key is used only where another one has one of these values.
+struct Condition {
+    std::string key; ///< dotted, from the top: "excitation.kind"
+    std::vector<std::string> values;
+};
+
+/// What only some keys have.
+struct KeyFacts {
+    /// What applies where the key is absent, if that is no plain value: "K_N times the width of the widest drum".
+    std::string absent = {};
+    std::vector<Condition> used = {}; ///< all must hold; none: always used
+    /// A value to begin with, as TOML, for a file that is written for the user; empty: the default.
+    std::string example = {};
+    std::vector<std::string> words = {}; ///< of a number: words that may stand in its place
+};
+
+/// What all descriptions have in common.
+struct TomlKey {
+    std::string name;
+    KeyType type = KeyType::number;
+    std::string meaning; ///< a phrase for people, without a full stop
+    Range range = {};    ///< of numbers, also in lists
+    std::vector<std::string> words = {};
+    std::string absent = {};          ///< the default as TOML, or in words; empty: the key must be given
+    bool absent_is_value = false;     ///< `absent` is TOML
+    std::vector<Condition> used = {}; ///< see `KeyFacts`
+    std::string example = {};
+    std::vector<const TomlKey*> keys = {}; ///< of a table
+
+    /// Must be given wherever it is used.
+    bool needed() const { return absent.empty(); }
+    /// Whether a condition on `key` allows `value`; true where there is no such condition.
+    bool used_where(std::string_view key, std::string_view value) const;
+    /// "m/s2", from the end of the name: the unit is part of the key; empty: none.
+    std::string unit() const;
+
+protected:
+    TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts facts);
+    TomlKey(const TomlKey&) = default;
+    TomlKey(TomlKey&&) = default;
+    TomlKey& operator=(const TomlKey&) = delete;
+    ~TomlKey() = default;
+    void set_default(std::string toml);
+};
+
+/// The value of a key as TOML.
+std::string toml_text(double value);
+std::string toml_text(bool value);
+std::string toml_text(std::uint64_t value);
+std::string toml_text(const std::string& value);
+std::string toml_text(const std::vector<double>& values);
+std::string toml_text(const std::vector<std::string>& values);
+
+struct NumberKey : TomlKey {
+    using Value = double;
+    std::optional<double> absent_value;
+
+    NumberKey(std::string key, const Range& allowed, std::string means, KeyFacts facts = {});
+    NumberKey(std::string key, const Range& allowed, double without, std::string means, KeyFacts facts = {});
+};
+
+struct WholeKey : TomlKey {
+    using Value = std::uint64_t;
+    std::uint64_t low, high; ///< @pre high is at most 2^63 - 1
+    std::string hint;        ///< a sentence of what is counted
+    std::optional<std::uint64_t> absent_value;
+
+    struct Limits {
+        std::uint64_t low, high;
+        std::string hint = {};
+    };
+    WholeKey(std::string key, Limits allowed, std::string means, KeyFacts facts = {});
+    WholeKey(std::string key, Limits allowed, std::uint64_t without, std::string means, KeyFacts facts = {});
+};
+
+struct BooleanKey : TomlKey {
+    using Value = bool;
+    std::optional<bool> absent_value;
+
+    BooleanKey(std::string key, bool without, std::string means, KeyFacts facts = {});
+    /// @param facts say what applies where it is absent
+    BooleanKey(std::string key, const char* means, KeyFacts facts);
+};
+
+template <class Enum>
+struct WordKey : TomlKey {
+    using Value = Enum;
+    std::vector<Name<Enum>> names;
+    std::optional<Enum> absent_value;
+
+    template <class List>
+    WordKey(std::string key, const List& allowed, std::string means, KeyFacts facts = {})
+        : TomlKey(std::move(key), KeyType::word, std::move(means), std::move(facts)),
+          names(allowed.begin(), allowed.end())
+    {
+        for (const Name<Enum>& each : names)
+            words.emplace_back(each.word);
+    }
+    template <class List>
+    WordKey(std::string key, const List& allowed, Enum without, std::string means, KeyFacts facts = {})
+        : WordKey(std::move(key), allowed, std::move(means), std::move(facts))
+    {
+        absent_value = without;
+        set_default(toml_quoted(word_for(names, without)));
+    }
+};
+
+struct TextKey : TomlKey {
+    using Value = std::string;
+    TextKey(std::string key, std::string means, KeyFacts facts = {});
+};
+
+/// A list of numbers, an interval or a list of strings.
+struct ListKey : TomlKey {
+    ListKey(std::string key, KeyType of_type, std::string means, KeyFacts facts = {});
+    ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts = {});
+    ListKey(std::string key, const Range& allowed, const std::vector<double>& without, std::string means,
+            KeyFacts facts = {});
+};
+
+/// A table, or a list of tables, with its keys.
+struct TableKey : TomlKey {
+    TableKey(std::string key, std::string means, std::vector<const TomlKey*> of_table, KeyFacts facts = {},
+             KeyType of_type = KeyType::table);
+
+    std::vector<std::string> names() const;
+    /// The names of those keys that a condition on `key` does not exclude.
+    std::vector<std::string> names_where(std::string_view key, std::string_view value) const;
+};
+
+} // namespace stylobate

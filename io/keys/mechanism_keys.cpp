@@ -1,0 +1,83 @@
+#include "io/keys/mechanism_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::uint64_t most_places = 199; ///< joints or blocks of a structure, counted from 0
+
+/// How a parameter is described where it may be absent, and a value to begin with.
+KeyFacts facts_of(const MechanismRule& rule, const MechanismParameter& parameter)
+{
+    if (parameter.role == ParameterRole::needed)
+        return {};
+    if (rule.mechanism == Mechanism::stribeck) // neutral: as much as the friction of [contact]
+        return {.absent = "contact.friction: no effect"};
+    return {};
+}
+
+} // namespace
+
+Range range_of(const MechanismParameter& parameter)
+{
+    const std::string unit = parameter.unit;
+    std::string hint = parameter.says;
+    if (!unit.empty())
+        hint = fmt::format("In {}: {}", unit, hint);
+    else if (hint[0] >= 'a' && hint[0] <= 'z')
+        hint[0] = static_cast<char>(hint[0] - 'a' + 'A');
+    return {parameter.low, parameter.high, parameter.open, hint + ".", 0};
+}
+
+MechanismKey::MechanismKey(const MechanismRule& rule)
+    : TableKey(rule.name, rule.says, {}, {.absent = "no effect"},
+               rule.place == MechanismPlace::base ? KeyType::table : KeyType::table_or_list)
+{
+    if (rule.place != MechanismPlace::base) {
+        const std::string one = rule.place == MechanismPlace::joint ? "joint" : "block";
+        place.emplace(one, WholeKey::Limits{0, most_places}, "the " + one + " at which it acts, counted from 0",
+                      KeyFacts{.absent = "every " + one});
+        places.emplace(one + "s", KeyType::wholes, Range{0, static_cast<double>(most_places)},
+                       "several of them, instead", KeyFacts{.absent = "every " + one});
+        keys = {&*place, &*places};
+    }
+    parameters.reserve(rule.parameters.size());
+    for (const MechanismParameter& p : rule.parameters)
+        if (p.role == ParameterRole::needed)
+            parameters.emplace_back(p.key(), range_of(p), p.says, facts_of(rule, p));
+        else
+            parameters.emplace_back(p.key(), range_of(p), p.neutral, p.says, facts_of(rule, p));
+    for (const NumberKey& parameter : parameters)
+        keys.push_back(&parameter);
+    if (rule.mechanism == Mechanism::vertical_motion)
+        keys.insert(keys.end(),
+                    {&vertical_keys::file, &vertical_keys::component, &vertical_keys::unit, &vertical_keys::baseline});
+}
+
+const MechanismKey& mechanism_key(Mechanism mechanism)
+{
+    static const std::vector<std::unique_ptr<MechanismKey>> all = [] {
+        std::vector<std::unique_ptr<MechanismKey>> made;
+        for (const MechanismRule& rule : mechanism_rules())
+            made.push_back(std::make_unique<MechanismKey>(rule));
+        return made;
+    }();
+    return *all[static_cast<std::size_t>(mechanism)];
+}
+
+const TableKey& mechanisms_table()
+{
+    static const TableKey table = [] {
+        std::vector<const TomlKey*> keys;
+        for (const MechanismRule& rule : mechanism_rules())
+            keys.push_back(&mechanism_key(rule.mechanism));
+        return TableKey("mechanisms", "extensions of the baseline model", std::move(keys), {.absent = "the baseline"});
+    }();
+    return table;
+}
+
+} // namespace stylobate

@@ -1,0 +1,202 @@
+#include "io/keys/spread_key.hpp"
+
+#include "io/keys/mechanism_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+namespace stylobate {
+
+namespace {
+
+constexpr Name<Per> joint{"joint", Per::joint}, block{"block", Per::block}, structure{"structure", Per::structure};
+
+std::vector<Name<DistributionKind>> distributions(bool relative)
+{
+    std::vector<Name<DistributionKind>> allowed;
+    for (const auto& name : distribution_names)
+        if (relative || name.value == DistributionKind::normal || name.value == DistributionKind::uniform)
+            allowed.push_back(name);
+    return allowed;
+}
+
+/// A deviation is above 0 and no larger than `high`.
+Range up_to(Range range, double high)
+{
+    range.low = 0;
+    range.high = high;
+    range.open = true;
+    return range;
+}
+
+SpreadKey::Quality quality(const Range& value, Quantity quantity, bool relative, std::vector<Name<Per>> allowed)
+{
+    return {value,    up_to(value, value.high), sd_key(quantity),
+            relative, std::move(allowed),       quantity == Quantity::phase};
+}
+
+std::unique_ptr<SpreadKey> make(Quantity quantity)
+{
+    const auto key = [&](const Range& value, bool relative, std::vector<Name<Per>> allowed, const char* means,
+                         const char* absent = "not perturbed") {
+        return std::make_unique<SpreadKey>(to_string(quantity), means,
+                                           quality(value, quantity, relative, std::move(allowed)),
+                                           KeyFacts{.absent = absent});
+    };
+    switch (quantity) {
+    case Quantity::friction:
+        return key(friction_range, true, {joint, structure}, "coefficient of friction, each joint about its own");
+    case Quantity::normal_stiffness:
+        return key(normal_stiffness_range, true, {structure, joint}, "K_N, each joint about its own");
+    case Quantity::tangential_stiffness:
+        return key(tangential_stiffness_range, true, {structure, joint}, "K_T, each joint about its own");
+    case Quantity::damping_ratio:
+        return key(damping_ratio_range, true, {structure}, "both damping ratios at once");
+    case Quantity::drum_width:
+        return key(length_range, true, {block, structure}, "width of each block; of an epistyle its length");
+    case Quantity::drum_height:
+        return key(length_range, true, {block, structure}, "height of each block");
+    case Quantity::drum_offset: {
+        Range offset = length_range;
+        offset.low = -offset.high;
+        offset.open = false;
+        return key(offset, false, {block}, "displacement of each block from its nominal place");
+    }
+    case Quantity::density:
+        return key(density_range, true, {block, structure}, "density of each block at its size");
+    case Quantity::tilt:
+        return key(tilt_range, false, {structure}, "tilt of the base");
+    case Quantity::phase:
+        return key(phase_range, false, {structure}, "phase of a harmonic, tapered or pulse excitation");
+    case Quantity::pulse_frequency:
+        return key(frequency_range, true, {structure}, "frequency of a velocity pulse; not in a surface");
+    case Quantity::pulse_gamma:
+        break;
+    }
+    return key(gamma_range, true, {structure}, "oscillatory character of a velocity pulse");
+}
+
+std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParameter& parameter)
+{
+    SpreadKey::Quality quality;
+    quality.value = range_of(parameter);
+    quality.deviation = {0, parameter.high, true, quality.value.hint, 0};
+    quality.deviation_key = std::string("sd") + parameter.suffix;
+    quality.relative = parameter.low >= 0;
+    quality.allowed = rule.place == MechanismPlace::joint   ? std::vector{joint, structure}
+                      : rule.place == MechanismPlace::block ? std::vector{block, structure}
+                                                            : std::vector{structure};
+    return std::make_unique<SpreadKey>(parameter.key(), parameter.says, quality, KeyFacts{.absent = "not perturbed"});
+}
+
+} // namespace
+
+SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality, KeyFacts facts)
+    : TableKey(std::move(key), std::move(means), {}, std::move(facts)), relative(quality.relative),
+      turns(quality.turns), value(quality.value),
+      distribution("distribution", distributions(quality.relative), "the distribution"),
+      sd(quality.deviation_key, quality.deviation, "standard deviation of a normal distribution",
+         {.absent = quality.relative ? "`cov`" : "needed for a normal distribution"}),
+      cov("cov", cov_range, "the same as a fraction of the nominal value",
+          {.absent = "`" + quality.deviation_key + "`"}),
+      sigma_ln("sigma_ln", sigma_ln_range, "standard deviation of the logarithm of a lognormal distribution",
+               {.absent = "needed for a lognormal distribution"}),
+      from("from", quality.value, "lower end of a uniform or log_uniform distribution",
+           {.absent = quality.turns ? "0, with `to` = 2 pi" : "needed for a uniform distribution"}),
+      to("to", quality.value, "upper end of a uniform or log_uniform distribution",
+         {.absent = quality.turns ? "2 pi" : "needed for a uniform distribution"}),
+      min("min", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
+      max("max", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
+      per("per", quality.allowed, quality.allowed.front().value, "whether each has its own value, or all the same")
+{
+    keys = {&distribution, &sd};
+    if (relative)
+        keys.insert(keys.end(), {&cov, &sigma_ln});
+    keys.insert(keys.end(), {&from, &to, &min, &max, &per});
+}
+
+std::vector<std::string> SpreadKey::names_for(DistributionKind kind) const
+{
+    switch (kind) {
+    case DistributionKind::normal:
+        if (relative)
+            return {distribution.name, sd.name, cov.name, min.name, max.name, per.name};
+        return {distribution.name, sd.name, min.name, max.name, per.name};
+    case DistributionKind::lognormal:
+        return {distribution.name, sigma_ln.name, min.name, max.name, per.name};
+    case DistributionKind::uniform:
+    case DistributionKind::log_uniform:
+        break;
+    }
+    return {distribution.name, from.name, to.name, per.name};
+}
+
+const SpreadKey& spread_key(Quantity quantity)
+{
+    static const auto all = [] {
+        std::array<std::unique_ptr<SpreadKey>, quantity_count> made;
+        for (int i = 0; i < quantity_count; ++i)
+            made[static_cast<std::size_t>(i)] = make(static_cast<Quantity>(i));
+        return made;
+    }();
+    return *all[static_cast<std::size_t>(quantity)];
+}
+
+const SpreadKey& spread_key(Mechanism mechanism, std::size_t parameter)
+{
+    static const auto all = [] {
+        std::vector<std::vector<std::unique_ptr<SpreadKey>>> made;
+        for (const MechanismRule& rule : mechanism_rules()) {
+            made.emplace_back();
+            for (const MechanismParameter& p : rule.parameters)
+                made.back().push_back(make(rule, p));
+        }
+        return made;
+    }();
+    return *all[static_cast<std::size_t>(mechanism)][parameter];
+}
+
+const TableKey& perturbed_parameters(Mechanism mechanism)
+{
+    static const std::vector<TableKey> tables = [] {
+        std::vector<TableKey> made;
+        for (const MechanismRule& rule : mechanism_rules()) {
+            std::vector<const TomlKey*> keys;
+            for (std::size_t i = 0; i < rule.parameters.size(); ++i)
+                keys.push_back(&spread_key(rule.mechanism, i));
+            made.emplace_back(rule.name, std::string("parameters of ") + rule.name, std::move(keys),
+                              KeyFacts{.absent = "not perturbed"});
+        }
+        return made;
+    }();
+    return tables[static_cast<std::size_t>(mechanism)];
+}
+
+const TableKey& perturbed_mechanisms()
+{
+    static const TableKey table = [] {
+        std::vector<const TomlKey*> keys;
+        for (const MechanismRule& rule : mechanism_rules())
+            keys.push_back(&perturbed_parameters(rule.mechanism));
+        return TableKey("mechanisms", "perturbed parameters of the mechanisms that [mechanisms] names", std::move(keys),
+                        {.absent = "not perturbed"});
+    }();
+    return table;
+}
+
+const TableKey& perturbation_table()
+{
+    static const TableKey table = [] {
+        std::vector<const TomlKey*> keys;
+        for (int i = 0; i < quantity_count; ++i)
+            keys.push_back(&spread_key(static_cast<Quantity>(i)));
+        keys.push_back(&perturbed_mechanisms());
+        return TableKey("perturbation", "what differs from one realization to the next", std::move(keys),
+                        {.absent = "nothing is perturbed"});
+    }();
+    return table;
+}
+
+} // namespace stylobate

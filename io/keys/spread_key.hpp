@@ -1,0 +1,44 @@
+#pragma once
+/// The keys of a distribution: { distribution, per, ... }.
+
+#include "ensemble/model/study.hpp"
+#include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
+
+namespace stylobate {
+
+struct SpreadKey : TableKey {
+    struct Quality {
+        Range value;                    ///< what a value may be
+        Range deviation;                ///< what a standard deviation may be
+        std::string deviation_key;      ///< its unit is part of it
+        bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
+        std::vector<Name<Per>> allowed; ///< the first is the default
+        bool turns = false;             ///< a phase: without ends a uniform one is a full turn
+    };
+    SpreadKey(std::string key, std::string means, const Quality& quality, KeyFacts facts = {});
+    SpreadKey(const SpreadKey&) = delete; // `keys` points into it
+
+    bool relative;
+    bool turns;
+    Range value;
+    WordKey<DistributionKind> distribution;
+    NumberKey sd, cov, sigma_ln, from, to, min, max;
+    WordKey<Per> per;
+
+    /// The keys that a distribution uses.
+    std::vector<std::string> names_for(DistributionKind kind) const;
+};
+
+/// That of a perturbed quantity.
+const SpreadKey& spread_key(Quantity quantity);
+/// That of a mechanism's parameter.
+const SpreadKey& spread_key(Mechanism mechanism, std::size_t parameter);
+
+/// [perturbation], with [perturbation.mechanisms] in it.
+const TableKey& perturbation_table();
+/// [perturbation.mechanisms], and the table of one mechanism in it
+const TableKey& perturbed_mechanisms();
+const TableKey& perturbed_parameters(Mechanism mechanism);
+
+} // namespace stylobate
