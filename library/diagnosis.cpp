@@ -3,7 +3,7 @@
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
-#include "studies/app/fingerprint.hpp"
+#include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"

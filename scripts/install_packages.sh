@@ -13,7 +13,7 @@ packages=(
     libcli11-dev libfmt-dev                             # command line, text
     libpugixml-dev                                      # fragility functions in NRML
     gnuplot-nox fonts-dejavu-core                       # pictures
-    libgtest-dev libbenchmark-dev                       # tests, benchmarks
+    libgtest-dev libbenchmark-dev python3-jsonschema    # tests, benchmarks
 )
 [[ $# -eq 0 ]] || packages=("$@")
 

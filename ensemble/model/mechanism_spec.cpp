@@ -29,7 +29,7 @@ constexpr MechanismParameter drag[] = {{"coefficient", "_n_s2_m2", "N s2/m2", 0,
                                         &Block_::drag_n_s2_m2, "c in F = -c |v| v, v in the laboratory"}};
 constexpr MechanismParameter corner_loss[] = {
     {"left", "_m", "m", 0, 10, false, acting, 0, &Joint_::chip_left_m, "length of the face lost at its left end"},
-    {"right", "_m", "m", 0, 10, false, acting, 0, &Joint_::chip_right_m, "at its right end"}};
+    {"right", "_m", "m", 0, 10, false, acting, 0, &Joint_::chip_right_m, "length of the face lost at its right end"}};
 constexpr MechanismParameter hertz[] = {
     {"exponent", "", "", 0.5, 3, false, acting, 1, &Joint_::force_exponent, "q in F = K A^q"},
     {"reference_overlap", "_m2", "m2", 0, 1, false, detail, 0, by_sampler,
@@ -37,7 +37,7 @@ constexpr MechanismParameter hertz[] = {
 constexpr MechanismParameter rate_damping[] = {
     {"rate", "_s_m", "s/m", 0, 1e6, false, acting, 0, &Joint_::rate_s_m, "lambda in F = K A (1 + lambda v)"}};
 constexpr MechanismParameter face_damping[] = {{"share", "", "", 0, 1, false, acting, 0, &Joint_::face_damping,
-                                                "of the normal dashpot that acts at the ends of the contact"}};
+                                                "share of the normal dashpot that acts at the ends of the contact"}};
 constexpr MechanismParameter friction_wear[] = {
     {"rate", "_per_m", "1/m", 0, 1e6, false, acting, 0, &Joint_::wear_per_m, "k in mu (1 - k S), S the slip so far"}};
 constexpr MechanismParameter corner_wear[] = {{"loss", "_m_rad", "m/rad", 0, 10, false, acting, 0,
@@ -50,24 +50,27 @@ constexpr MechanismParameter vertical_motion[] = {
     {"ratio", "", "", -10, 10, false, acting, 0, &BaseExtension::vertical_ratio,
      "vertical over horizontal acceleration; or file, component, unit and baseline of a vertical record"}};
 constexpr MechanismParameter harmonic_distortion[] = {
-    {"second", "", "", -1, 1, false, acting, 0, &BaseChange::second, "of the displacement, at twice the frequency"},
+    {"second", "", "", -1, 1, false, acting, 0, &BaseChange::second,
+     "overtone at twice the frequency, as a fraction of the displacement"},
     {"second_quadrature", "", "", -1, 1, false, acting, 0, &BaseChange::second_quadrature,
-     "the same, a quarter of a period ahead"},
-    {"third", "", "", -1, 1, false, acting, 0, &BaseChange::third, "at three times the frequency"},
+     "the same, a quarter of its period ahead"},
+    {"third", "", "", -1, 1, false, acting, 0, &BaseChange::third,
+     "overtone at three times the frequency, as a fraction of the displacement"},
     {"third_quadrature", "", "", -1, 1, false, acting, 0, &BaseChange::third_quadrature,
-     "the same, a quarter of a period ahead"}};
+     "the same, a quarter of its period ahead"}};
 constexpr MechanismParameter time_offset[] = {{"offset", "_s", "s", -100, 100, false, acting, 0, &BaseChange::offset_s,
                                                "delay of the given motion relative to the base"}};
 constexpr MechanismParameter sensor_gain[] = {{"gain", "", "", 0, 100, true, acting, 1, &BaseChange::gain,
                                                "ratio of the true motion of the base to the given one"}};
 constexpr MechanismParameter dowel[] = {
-    {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &Joint_::dowel_stiffness_n_m, "against sliding"},
-    {"yield", "_n", "N", 0, 1e12, true, needed, 0, &Joint_::dowel_yield_n, "capacity"},
-    {"gap", "_m", "m", 0, 1, false, detail, 0, &Joint_::dowel_gap_m, "free play to either side"}};
+    {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &Joint_::dowel_stiffness_n_m, "stiffness against sliding"},
+    {"yield", "_n", "N", 0, 1e12, true, needed, 0, &Joint_::dowel_yield_n, "force at which the dowel yields"},
+    {"gap", "_m", "m", 0, 1, false, detail, 0, &Joint_::dowel_gap_m, "free play to either side before it acts"}};
 constexpr MechanismParameter adhesion[] = {{"force", "_n_m", "N/m", 0, 1e9, false, acting, 0, &Joint_::adhesion_n_m,
-                                            "per contact length, until the joint first slips"}};
-constexpr MechanismParameter eccentricity[] = {{"offset", "_m", "m", -10, 10, false, acting, 0, &Block_::eccentricity_m,
-                                                "centre of mass from the geometric centre, to the right"}};
+                                            "force of adhesion per contact length, until the joint first slips"}};
+constexpr MechanismParameter eccentricity[] = {
+    {"offset", "_m", "m", -10, 10, false, acting, 0, &Block_::eccentricity_m,
+     "distance of the centre of mass from the geometric centre, to the right"}};
 constexpr MechanismParameter wedge[] = {{"angle", "_rad", "rad", -0.5, 0.5, false, acting, 0, &Joint_::wedge_rad,
                                          "rotation of the lower block's face, counter-clockwise"}};
 constexpr MechanismParameter drum_offset[] = {{"offset", "_m", "m", -10, 10, false, acting, 0, by_sampler,
@@ -80,7 +83,7 @@ constexpr auto base = MechanismPlace::base;
 constexpr MechanismRule rules[] = {
     {Mechanism::stribeck, "stribeck", joint, "friction falls with the velocity of the slip", stribeck},
     {Mechanism::joint_friction, "joint_friction", joint, "a joint with another friction", joint_friction},
-    {Mechanism::drag, "drag", block, "resistance of the air", drag},
+    {Mechanism::drag, "drag", block, "drag of a medium on a block", drag},
     {Mechanism::corner_loss, "corner_loss", joint, "chipped corners: a shorter contact face", corner_loss},
     {Mechanism::hertz, "hertz", joint, "contact force that is a nonlinear function of the overlap", hertz},
     {Mechanism::rate_damping, "rate_damping", joint, "damping in proportion to the overlap (Hunt and Crossley)",
@@ -91,10 +94,11 @@ constexpr MechanismRule rules[] = {
     {Mechanism::table_pitch, "table_pitch", base, "a shaking table that rotates as it accelerates", table_pitch},
     {Mechanism::vertical_motion, "vertical_motion", base, "a base that moves vertically too", vertical_motion},
     {Mechanism::harmonic_distortion, "harmonic_distortion", base, "overtones of the base motion", harmonic_distortion},
-    {Mechanism::time_offset, "time_offset", base, "clocks that differ", time_offset},
+    {Mechanism::time_offset, "time_offset", base, "a clock of the base that differs from that of the blocks",
+     time_offset},
     {Mechanism::sensor_gain, "sensor_gain", base, "a base motion with another amplitude than the given one",
      sensor_gain},
-    {Mechanism::dowel, "dowel", joint, "dowels", dowel},
+    {Mechanism::dowel, "dowel", joint, "dowels between two blocks", dowel},
     {Mechanism::adhesion, "adhesion", joint, "adhesion until the first slip", adhesion},
     {Mechanism::eccentricity, "eccentricity", block, "an eccentric centre of mass", eccentricity},
     {Mechanism::wedge, "wedge", joint, "a face that is not square", wedge},

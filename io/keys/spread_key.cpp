@@ -1,6 +1,8 @@
 #include "io/keys/spread_key.hpp"
 
+#include "io/keys/conditions.hpp"
 #include "io/keys/mechanism_keys.hpp"
+#include "io/keys/structure_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -40,16 +42,19 @@ SpreadKey::Quality quality(const Range& value, Quantity quantity, bool relative,
 std::unique_ptr<SpreadKey> make(Quantity quantity)
 {
     const auto key = [&](const Range& value, bool relative, std::vector<Name<Per>> allowed, const char* means,
-                         const char* absent = "not perturbed") {
+                         KeyFacts facts = {}) {
+        facts.absent = "not perturbed";
         return std::make_unique<SpreadKey>(to_string(quantity), means,
-                                           quality(value, quantity, relative, std::move(allowed)),
-                                           KeyFacts{.absent = absent});
+                                           quality(value, quantity, relative, std::move(allowed)), std::move(facts));
     };
+    using Motion = ExcitationKind;
     switch (quantity) {
     case Quantity::friction:
-        return key(friction_range, true, {joint, structure}, "coefficient of friction, each joint about its own");
+        return key(friction_range, true, {joint, structure}, "coefficient of friction, each joint about its own",
+                   {.example = "{ distribution = \"normal\", cov = 0.1, min = 0.36, max = 0.84 }"});
     case Quantity::normal_stiffness:
-        return key(normal_stiffness_range, true, {structure, joint}, "K_N, each joint about its own");
+        return key(normal_stiffness_range, true, {structure, joint}, "K_N, each joint about its own",
+                   {.example = "{ distribution = \"lognormal\", sigma_ln = 0.7 }"});
     case Quantity::tangential_stiffness:
         return key(tangential_stiffness_range, true, {structure, joint}, "K_T, each joint about its own");
     case Quantity::damping_ratio:
@@ -58,24 +63,26 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
         return key(length_range, true, {block, structure}, "width of each block; of an epistyle its length");
     case Quantity::drum_height:
         return key(length_range, true, {block, structure}, "height of each block");
-    case Quantity::drum_offset: {
-        Range offset = length_range;
-        offset.low = -offset.high;
-        offset.open = false;
-        return key(offset, false, {block}, "displacement of each block from its nominal place");
-    }
+    case Quantity::drum_offset:
+        return key(structure_keys::offset_range, false, {block}, "displacement of each block from its nominal place");
     case Quantity::density:
         return key(density_range, true, {block, structure}, "density of each block at its size");
     case Quantity::tilt:
         return key(tilt_range, false, {structure}, "tilt of the base");
     case Quantity::phase:
-        return key(phase_range, false, {structure}, "phase of a harmonic, tapered or pulse excitation");
+        return key(phase_range, false, {structure}, "phase of a harmonic, tapered or pulse excitation",
+                   {.used = {for_motions({Motion::harmonic, Motion::tapered, Motion::pulse})},
+                    .example = "{ distribution = \"uniform\" }"});
     case Quantity::pulse_frequency:
-        return key(frequency_range, true, {structure}, "frequency of a velocity pulse; not in a surface");
+        return key(frequency_range, true, {structure}, "frequency of a velocity pulse",
+                   {.used = {for_motions({Motion::pulse}), not_in_studies({StudyKind::surface})},
+                    .example = "{ distribution = \"lognormal\", sigma_ln = 0.4 }"});
     case Quantity::pulse_gamma:
         break;
     }
-    return key(gamma_range, true, {structure}, "oscillatory character of a velocity pulse");
+    return key(
+        gamma_range, true, {structure}, "oscillatory character of a velocity pulse",
+        {.used = {for_motions({Motion::pulse})}, .example = "{ distribution = \"uniform\", from = 1.5, to = 3.0 }"});
 }
 
 std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParameter& parameter)
@@ -96,9 +103,9 @@ std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParame
 SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality, KeyFacts facts)
     : TableKey(std::move(key), std::move(means), {}, std::move(facts)), relative(quality.relative),
       turns(quality.turns), value(quality.value),
-      distribution("distribution", distributions(quality.relative), "the distribution"),
+      distribution("distribution", distributions(quality.relative), "the distribution", {.example = "\"normal\""}),
       sd(quality.deviation_key, quality.deviation, "standard deviation of a normal distribution",
-         {.absent = quality.relative ? "`cov`" : "needed for a normal distribution"}),
+         {.absent = quality.relative ? "`cov`" : "needed for a normal distribution", .example = "..."}),
       cov("cov", cov_range, "the same as a fraction of the nominal value",
           {.absent = "`" + quality.deviation_key + "`"}),
       sigma_ln("sigma_ln", sigma_ln_range, "standard deviation of the logarithm of a lognormal distribution",
@@ -115,6 +122,11 @@ SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality,
     if (relative)
         keys.insert(keys.end(), {&cov, &sigma_ln});
     keys.insert(keys.end(), {&from, &to, &min, &max, &per});
+}
+
+std::vector<std::string> SpreadKey::names_of_all() const
+{
+    return {distribution.name, sd.name, cov.name, sigma_ln.name, from.name, to.name, min.name, max.name, per.name};
 }
 
 std::vector<std::string> SpreadKey::names_for(DistributionKind kind) const

@@ -26,6 +26,8 @@ struct SpreadKey : TableKey {
     NumberKey sd, cov, sigma_ln, from, to, min, max;
     WordKey<Per> per;
 
+    /// The keys of this and of other quantities: one of those is not unknown, but not used.
+    std::vector<std::string> names_of_all() const;
     /// The keys that a distribution uses.
     std::vector<std::string> names_for(DistributionKind kind) const;
 };

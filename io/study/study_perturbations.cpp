@@ -147,6 +147,7 @@ void read_uniform(const KeyReader& keys, const Rule& rule, Spread& p)
 Spread read_spread(const KeyReader& keys, const Rule& rule)
 {
     const SpreadKey& key = *rule.key;
+    keys.allow_only(key.names_of_all());
     Spread p;
     p.distribution = keys.read(key.distribution);
     p.per = keys.read(key.per);
@@ -184,17 +185,15 @@ Spread read_spread(const KeyReader& keys, const Rule& rule)
 /// Refuses what the excitation has not.
 void check_used(const KeyReader& section, Quantity quantity, const Study& study)
 {
-    const ExcitationKind kind = study.excitation.kind;
-    const bool pulse = kind == ExcitationKind::pulse;
-    const bool phase = pulse || kind == ExcitationKind::harmonic || kind == ExcitationKind::tapered;
-    const auto unused = fmt::format("is not used by excitation.kind = \"{}\"", word_for(excitation_kind_names, kind));
-    if (quantity == Quantity::phase && !phase)
-        section.refuse(to_string(quantity), unused,
-                       "Remove it: only a harmonic, a tapered and a pulse excitation have a phase.");
-    if ((quantity == Quantity::pulse_frequency || quantity == Quantity::pulse_gamma) && !pulse)
-        section.refuse(to_string(quantity), unused, "Remove it, or give excitation.kind = \"pulse\".");
-    if (quantity == Quantity::pulse_frequency && study.surface)
-        section.refuse(to_string(quantity), "is not used by study.kind = \"surface\"",
+    const TomlKey& key = spread_key(quantity);
+    const char* motion = word_for(excitation_kind_names, study.excitation.kind);
+    if (!key.used_where("excitation.kind", motion))
+        section.refuse(key.name, fmt::format("is not used by excitation.kind = \"{}\"", motion),
+                       quantity == Quantity::phase
+                           ? "Remove it: only a harmonic, a tapered and a pulse excitation have a phase."
+                           : "Remove it, or give excitation.kind = \"pulse\".");
+    if (!key.used_where("study.kind", word_for(study_kind_names, study.kind)))
+        section.refuse(key.name, "is not used by study.kind = \"surface\"",
                        "Remove it: the frequency comes from the axis of [surface].");
 }
 
@@ -214,8 +213,8 @@ void read_of_mechanisms(const KeyReader& section, Study& study)
             const SpreadKey& key = spread_key(rule.mechanism, i);
             if (!keys.has(key))
                 continue;
-            MechanismPerturbation perturbation{read_spread(keys.table(key), rule_for(rule, i, study)), rule.mechanism,
-                                               i};
+            MechanismPerturbation perturbation{read_spread(keys.table(key.name), rule_for(rule, i, study)),
+                                               rule.mechanism, i};
             study.mechanism_perturbations.push_back(perturbation);
         }
     }
@@ -230,7 +229,7 @@ void read_perturbations(const KeyReader& section, Study& study)
         const auto quantity = static_cast<Quantity>(i);
         if (!section.has(to_string(quantity)))
             continue;
-        const KeyReader keys = section.table(spread_key(quantity));
+        const KeyReader keys = section.table(to_string(quantity));
         check_used(section, quantity, study);
         if (quantity == Quantity::damping_ratio &&
             (study.contact.normal_damping_n_s_m || study.contact.tangential_damping_n_s_m))

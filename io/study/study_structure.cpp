@@ -205,7 +205,6 @@ private:
         Range allowed = offset.range;
         allowed.low = -drum.width_m;
         allowed.high = drum.width_m;
-        allowed.open = false;
         drum.offset_m = keys.read_within(offset, allowed);
         drum.bed = read_bed(keys);
         return drum;

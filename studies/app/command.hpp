@@ -60,6 +60,11 @@ struct DiagnoseOptions {
     bool windows = false; ///< whether free windows of the simulation judge causes too
 };
 
+/// What `new` is asked for, in the words of a study file; empty: the usual one.
+struct NewStudyOptions {
+    std::string kind, structure, excitation;
+};
+
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
@@ -79,6 +84,10 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
                      std::string output, const DiagnoseOptions& wanted);
 /// @param file measured data, outcomes or results; empty: about the program
 int info_command(const CommonOptions& options, const std::string& file);
+/// @param output the study file; empty: KIND.toml
+int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
+/// Prints the JSON Schema of the study file, or its reference page. @param markdown the page
+int schema_command(bool markdown);
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);
 
 } // namespace stylobate

@@ -7,7 +7,7 @@
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
-#include "studies/app/fingerprint.hpp"
+#include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"

@@ -4,12 +4,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
+#include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_outcomes.hpp"
 #include "io/records/record.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "io/keys/words.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"

@@ -91,6 +91,8 @@ public:
         add_diagnose();
         add_export();
         add_report();
+        add_new();
+        add_schema();
         add_info();
     }
 
@@ -178,9 +180,7 @@ private:
             ->type_name("KEY")
             ->take_all()
             ->allow_extra_args(false);
-        std::vector<std::string> forms;
-        for (const auto& name : contact_form_names)
-            forms.emplace_back(name.word);
+        const std::vector<std::string> forms = words_of(contact_form_names);
         std::vector<std::string> with_all = forms;
         with_all.emplace_back("all");
         calibrate
@@ -276,6 +276,43 @@ private:
         report->callback([this] { status_ = report_command(options_, file_, output_, title_); });
     }
 
+    template <class List>
+    static std::vector<std::string> words_of(const List& names)
+    {
+        std::vector<std::string> words;
+        for (const auto& name : names)
+            words.emplace_back(name.word);
+        return words;
+    }
+
+    void add_new()
+    {
+        auto* begin = app_.add_subcommand("new", "write a commented study file to begin with");
+        begin
+            ->add_option("KIND", new_.kind,
+                         fmt::format("kind of the study: {}", fmt::join(words_of(study_kind_names), ", ")))
+            ->required()
+            ->check(CLI::IsMember(words_of(study_kind_names)));
+        begin->add_option("--structure", new_.structure, "column or colonnade (default: column)")
+            ->check(CLI::IsMember(words_of(structure_kind_names)));
+        begin
+            ->add_option("--excitation", new_.excitation,
+                         fmt::format("{} (default: harmonic; for a fragility study noise)",
+                                     fmt::join(words_of(excitation_kind_names), ", ")))
+            ->check(CLI::IsMember(words_of(excitation_kind_names)));
+        begin->add_option("-o,--output", output_, "the study file (default: KIND.toml)");
+        begin->add_flag("--quiet", options_.quiet, "print nothing but errors");
+        add_force(*begin, options_);
+        begin->callback([this] { status_ = new_command(options_, new_, output_); });
+    }
+
+    void add_schema()
+    {
+        auto* schema = app_.add_subcommand("schema", "print a JSON Schema of the study file, for editors");
+        schema->add_flag("--markdown", markdown_, "print the reference page instead: every key with its meaning");
+        schema->callback([this] { status_ = schema_command(markdown_); });
+    }
+
     void add_info()
     {
         auto* info =
@@ -301,6 +338,8 @@ private:
     bool keep_all_ = false;
     DiagnoseOptions diagnosis_;
     ExportOptions export_;
+    NewStudyOptions new_;
+    bool markdown_ = false;
     std::string title_;
 };
 

@@ -28,6 +28,8 @@ public:
     {
         return raw(key, std::isfinite(value) ? fmt::format("{}", value) : "null");
     }
+    /// A value that is JSON already.
+    Json& member_as_is(std::string_view key, std::string_view json) { return raw(key, json); }
     Json& item(const Json& value) { return add(value.text()); }
     Json& item(std::string_view value) { return add(quote(value)); }
 

@@ -1,4 +1,4 @@
-#include "studies/app/fingerprint.hpp"
+#include "studies/diagnosis/findings/fingerprint.hpp"
 
 #include "io/store/result_seal.hpp"
 

@@ -1,0 +1,155 @@
+#include "studies/reference/study_reference.hpp"
+
+#include "io/keys/spread_key.hpp"
+#include "io/keys/study_tables.hpp"
+#include "io/tables/markdown.hpp"
+#include "studies/reference/key_words.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <vector>
+
+namespace stylobate {
+
+namespace {
+
+/// A vertical bar would end the cell of a table.
+std::string cell(std::string text)
+{
+    for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+        text.insert(at, "\\");
+    return text;
+}
+
+std::string default_words(const TomlKey& key)
+{
+    if (key.needed())
+        return "**needed**";
+    return key.absent_is_value ? "`" + key.absent + "`" : cell(key.absent);
+}
+
+class Page {
+public:
+    std::string text() const { return out_; }
+
+    void paragraph(const std::string& text) { out_ += text + "\n\n"; }
+
+    /// A heading, what the table is, and its keys; then the tables in it.
+    void table(const TomlKey& table, const std::string& path, int depth)
+    {
+        printed_[&table] = path;
+        out_ += fmt::format("{} `[{}]`\n\n", std::string(static_cast<std::size_t>(depth), '#'), path);
+        std::string about = table.meaning;
+        about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
+        about += ".";
+        if (!table.used.empty())
+            about += fmt::format(" Used where {}.", use_words(table));
+        if (!table.needed() && table.type != KeyType::tables)
+            about += fmt::format(" If the table is absent: {}.", table.absent);
+        paragraph(about);
+        keys(table, path);
+        for (const TomlKey* key : table.keys)
+            if (!key->keys.empty() && !printed_.contains(key))
+                this->table(*key, path + "." + key->name, depth + 1);
+    }
+
+    void keys(const TomlKey& table, const std::string& path)
+    {
+        out_ += markdown_head("key | type and range | default | meaning");
+        for (const TomlKey* key : table.keys) {
+            std::string meaning = key->meaning;
+            if (!key->used.empty())
+                meaning += fmt::format("; used where {}", use_words(*key));
+            if (const auto seen = printed_.find(key); seen != printed_.end())
+                meaning += fmt::format(" (keys: see `[{}]`)", seen->second);
+            else if (!key->keys.empty())
+                meaning += fmt::format(" (keys: see `[{}.{}]` below)", path, key->name);
+            out_ += markdown_row("`{}` | {} | {} | {}", key->name, cell(type_words(*key)), default_words(*key),
+                                 cell(meaning));
+        }
+        out_ += "\n";
+    }
+
+    /// The keys of a distribution once, for all quantities.
+    void perturbation()
+    {
+        const TableKey& table = perturbation_table();
+        out_ += fmt::format("## `[{}]`\n\n", table.name);
+        paragraph("What differs from one realization to the next: `QUANTITY = { distribution = ..., ... }`. A quantity "
+                  "that is not named keeps its nominal value. Each quantity has these keys:");
+        out_ += markdown_head("key | type and range | default | meaning");
+        const SpreadKey& any = spread_key(Quantity::friction);
+        for (const TomlKey* key : any.keys) {
+            const bool of_value = key == &any.from || key == &any.to || key == &any.min || key == &any.max;
+            const bool varies = of_value || key == &any.sd;
+            const std::string type = of_value ? "number in the range of the quantity"
+                                     : key == &any.sd
+                                         ? "number above 0, no larger than the smallest nominal value; its "
+                                           "unit is part of the key"
+                                     : key == &any.per ? "\"joint\", \"block\" or \"structure\"; see the quantity"
+                                                       : type_words(*key);
+            out_ += markdown_row("`{}` | {} | {} | {}", key->name, type,
+                                 key == &any.per ? "the first one of the quantity" : default_words(*key),
+                                 key->meaning + (varies && key != &any.sd ? ", in the unit of the quantity" : ""));
+        }
+        out_ += "\n";
+        paragraph("The quantities. Those without `cov` can have either sign: their distributions are normal and "
+                  "uniform.");
+        out_ += markdown_head("quantity | keys of the deviation | range | per | meaning");
+        for (int i = 0; i < quantity_count; ++i)
+            quantity(spread_key(static_cast<Quantity>(i)), "");
+        out_ += "\n";
+        paragraph("### `[perturbation.mechanisms]`\n\nA parameter of a mechanism that `[mechanisms]` names: "
+                  "`MECHANISM.PARAMETER = { distribution = ..., ... }`, with the same keys.");
+        out_ += markdown_head("parameter | keys of the deviation | range | per | meaning");
+        for (const MechanismRule& rule : mechanism_rules())
+            for (std::size_t i = 0; i < rule.parameters.size(); ++i)
+                quantity(spread_key(rule.mechanism, i), std::string(rule.name) + ".");
+        out_ += "\n";
+    }
+
+private:
+    void quantity(const SpreadKey& key, const std::string& above)
+    {
+        std::string per;
+        for (const std::string& word : key.per.words)
+            per += (per.empty() ? "" : ", ") + word;
+        out_ += markdown_row("`{}{}` | `{}`{} | {} | {} | {}", above, key.name, key.sd.name,
+                             key.relative ? ", `cov`, `sigma_ln`" : "", key.value.text(), per,
+                             key.used.empty() ? key.meaning : key.meaning + "; used where " + use_words(key));
+    }
+
+    std::string out_;
+    std::map<const TomlKey*, std::string> printed_; ///< the tables that have been described, and where
+};
+
+} // namespace
+
+std::string study_reference()
+{
+    Page page;
+    page.paragraph(
+        "# Study file: every key\n\n"
+        "This page is written by `stylobate schema --markdown`, from the same descriptions that the reader "
+        "of study files uses; a test compares it with the program. [Studies ready to run]"
+        "(../studies/inputs/README.md) explain the tables with examples. `stylobate new KIND` writes a study "
+        "with all of these keys, and `stylobate schema` a JSON Schema for editors.");
+    page.paragraph(
+        "A study file is TOML. All units are SI, and the unit is part of the key. A key that is absent has its "
+        "default; one that is **needed** must be given where it is used. A key that is unknown, or that the "
+        "study does not use, is refused with a hint. Some ranges are narrower in a study than here: a block "
+        "number cannot exceed the number of blocks. Ranges are given as (low, high] without the lower end, "
+        "or [low, high] with it.");
+    for (const TomlKey* table : study_file_keys().keys)
+        if (table == &perturbation_table())
+            page.perturbation();
+        else
+            page.table(*table, table->name, 2);
+    std::string text = page.text();
+    while (text.ends_with("\n\n"))
+        text.pop_back();
+    return text;
+}
+
+} // namespace stylobate

@@ -1,0 +1,272 @@
+#include "studies/reference/study_schema.hpp"
+
+#include "io/keys/study_tables.hpp"
+#include "studies/reference/key_words.hpp"
+#include "studies/report/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace stylobate {
+
+namespace {
+
+Json words(const std::vector<std::string>& values)
+{
+    Json list = Json::list();
+    for (const std::string& value : values)
+        list.item(value);
+    return list;
+}
+
+Json number(const TomlKey& key, const char* type)
+{
+    Json schema = Json::object();
+    schema.member("type", type);
+    schema.member(key.range.open ? "exclusiveMinimum" : "minimum", key.range.low);
+    schema.member("maximum", key.range.high);
+    return schema;
+}
+
+Json array_of(const Json& items)
+{
+    Json schema = Json::object();
+    schema.member("type", "array").member("items", items);
+    return schema;
+}
+
+Json any_of(const Json& one, const Json& other)
+{
+    Json schema = Json::object();
+    schema.member("anyOf", Json::list().item(one).item(other));
+    return schema;
+}
+
+Json one_of_words(const TomlKey& key)
+{
+    Json schema = Json::object();
+    schema.member("type", "string").member("enum", words(key.words));
+    return schema;
+}
+
+/// The keys of `table` that a value of the key at `path` excludes, and those that it makes necessary.
+struct Consequence {
+    std::vector<std::string> unused, needed;
+};
+
+/// By key on which others depend, and by its value. @param paths of all keys on which some key depends
+std::map<std::string, std::map<std::string, Consequence>>
+consequences(const TomlKey& table, const std::map<std::string, std::vector<std::string>>& paths)
+{
+    std::map<std::string, std::map<std::string, Consequence>> all;
+    for (const auto& deciding : paths)
+        for (const std::string& value : deciding.second)
+            for (const TomlKey* key : table.keys) {
+                const std::string& path = deciding.first;
+                const bool depends = std::any_of(key->used.begin(), key->used.end(),
+                                                 [&](const Condition& condition) { return condition.key == path; });
+                if (!depends)
+                    continue;
+                if (!key->used_where(path, value))
+                    all[path][value].unused.push_back(key->name);
+                else if (key->needed() && key->used.size() == 1)
+                    all[path][value].needed.push_back(key->name);
+            }
+    return all;
+}
+
+/// Keys on which some key depends, with their values.
+std::map<std::string, std::vector<std::string>> deciding_keys()
+{
+    std::set<std::string> paths;
+    for_each_key([&](const std::string&, const TomlKey& key) {
+        for (const Condition& condition : key.used)
+            paths.insert(condition.key);
+    });
+    std::map<std::string, std::vector<std::string>> all;
+    for_each_key([&](const std::string& path, const TomlKey& key) {
+        if (paths.contains(path))
+            all[path] = key.words;
+    });
+    return all;
+}
+
+Json never(const std::vector<std::string>& names)
+{
+    Json properties = Json::object();
+    for (const std::string& name : names)
+        properties.member(name, false);
+    return properties;
+}
+
+/// { "properties": { NAME: INNER }, "required": [ NAME ] }
+Json has_property(const std::string& name, const Json& inner)
+{
+    Json schema = Json::object();
+    schema.member("properties", Json::object().member(name, inner));
+    schema.member("required", Json::list().item(std::string_view(name)));
+    return schema;
+}
+
+Json consequence_of(const Consequence& consequence)
+{
+    Json then = Json::object();
+    if (!consequence.unused.empty())
+        then.member("properties", never(consequence.unused));
+    if (!consequence.needed.empty())
+        then.member("required", words(consequence.needed));
+    return then;
+}
+
+class Schema {
+public:
+    Json file() const
+    {
+        Json schema = Json::object();
+        schema.member("$schema", "http://json-schema.org/draft-07/schema#");
+        schema.member("title", "Study of Stylobate");
+        schema.member("description", study_file_keys().meaning);
+        return table(study_file_keys(), "", std::move(schema));
+    }
+
+private:
+    Json of(const TomlKey& key, const std::string& path) const
+    {
+        switch (key.type) {
+        case KeyType::number:
+        case KeyType::whole: {
+            const Json schema = number(key, key.type == KeyType::number ? "number" : "integer");
+            return key.words.empty() ? schema : any_of(schema, one_of_words(key));
+        }
+        case KeyType::boolean:
+            return Json::object().member("type", "boolean");
+        case KeyType::word:
+            return one_of_words(key);
+        case KeyType::text:
+            return Json::object().member("type", "string").member("minLength", 1);
+        case KeyType::numbers:
+            return array_of(number(key, "number")).member("minItems", 1);
+        case KeyType::interval:
+            return array_of(number(key, "number")).member("minItems", 2).member("maxItems", 2);
+        case KeyType::wholes:
+            return array_of(number(key, "integer")).member("minItems", 1);
+        case KeyType::texts:
+            return array_of(Json::object().member("type", "string"));
+        case KeyType::table:
+            return table(key, path, Json::object());
+        case KeyType::tables:
+            return array_of(table(key, path, Json::object()));
+        case KeyType::table_or_list: {
+            const Json one = table(key, path, Json::object());
+            return any_of(one, array_of(one).member("minItems", 1));
+        }
+        }
+        return Json::object();
+    }
+
+    /// @param schema to which the members of a table are added
+    Json table(const TomlKey& table, const std::string& path, Json schema) const
+    {
+        schema.member("type", "object");
+        Json properties = Json::object();
+        std::vector<std::string> required;
+        for (const TomlKey* key : table.keys) {
+            const std::string inner = path.empty() ? key->name : path + "." + key->name;
+            Json described = of(*key, inner);
+            describe(*key, described);
+            properties.member(key->name, described);
+            if (key->needed() && key->used.empty())
+                required.push_back(key->name);
+        }
+        if (path.empty())
+            properties.member("claim", Json::object().member("description", "read by stylobate_claims"));
+        schema.member("properties", properties).member("additionalProperties", false);
+        if (!required.empty())
+            schema.member("required", words(required));
+        const Json conditions = path.empty() ? of_studies() : of_own_keys(table, path);
+        if (conditions.text() != Json::list().text())
+            schema.member("allOf", conditions);
+        return schema;
+    }
+
+    static void describe(const TomlKey& key, Json& schema)
+    {
+        std::string text = key.meaning;
+        if (!key.keys.empty() || key.type == KeyType::boolean || key.type == KeyType::text)
+            text += ".";
+        else
+            text += " (" + type_words(key) + ").";
+        if (!key.used.empty())
+            text += " Used where " + use_words(key) + ".";
+        if (!key.needed() && !key.absent_is_value)
+            text += " Default: " + key.absent + ".";
+        schema.member("description", text);
+        if (key.absent_is_value) // numbers, words, booleans and lists of numbers are the same in JSON
+            schema.member_as_is("default", key.absent);
+    }
+
+    /// What a table's own kind or method excludes: `excitation.kind` in [excitation].
+    Json of_own_keys(const TomlKey& table, const std::string& path) const
+    {
+        Json list = Json::list();
+        for (const auto& [deciding, values] : consequences(table, deciding_)) {
+            if (!deciding.starts_with(path + ".") || deciding.find('.', path.size() + 1) != std::string::npos)
+                continue;
+            const std::string name = deciding.substr(path.size() + 1);
+            for (const auto& [value, consequence] : values) {
+                Json condition = has_property(name, Json::object().member("const", value));
+                const auto key = std::find_if(table.keys.begin(), table.keys.end(),
+                                              [&name = name](const TomlKey* k) { return k->name == name; });
+                if ((*key)->absent == toml_quoted(value)) // it holds without the key, too
+                    condition = Json::object().member(
+                        "properties", Json::object().member(name, Json::object().member("const", value)));
+                list.item(Json::object().member("if", condition).member("then", consequence_of(consequence)));
+            }
+        }
+        return list;
+    }
+
+    /// What the kind of the study, or the kind of another table, excludes.
+    Json of_studies() const
+    {
+        Json list = Json::list();
+        for (const TomlKey* table : study_file_keys().keys)
+            for (const auto& [deciding, values] : consequences(*table, deciding_)) {
+                const std::size_t dot = deciding.find('.');
+                if (deciding.substr(0, dot) == table->name && table->name != "study")
+                    continue; // its own
+                for (const auto& [value, consequence] : values) {
+                    const Json kind = has_property(deciding.substr(dot + 1), Json::object().member("const", value));
+                    const Json then = Json::object().member(
+                        "properties", Json::object().member(table->name, consequence_of(consequence)));
+                    list.item(
+                        Json::object().member("if", has_property(deciding.substr(0, dot), kind)).member("then", then));
+                }
+            }
+        // whole tables
+        for (const auto& [deciding, values] : consequences(study_file_keys(), deciding_))
+            for (const auto& [value, consequence] : values) {
+                const std::size_t dot = deciding.find('.');
+                const Json kind = has_property(deciding.substr(dot + 1), Json::object().member("const", value));
+                list.item(Json::object()
+                              .member("if", has_property(deciding.substr(0, dot), kind))
+                              .member("then", consequence_of(consequence)));
+            }
+        return list;
+    }
+
+    const std::map<std::string, std::vector<std::string>> deciding_ = deciding_keys();
+};
+
+} // namespace
+
+std::string study_schema()
+{
+    return Schema().file().text() + "\n";
+}
+
+} // namespace stylobate

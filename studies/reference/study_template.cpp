@@ -1,0 +1,152 @@
+#include "studies/reference/study_template.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/keys/study_tables.hpp"
+#include "io/keys/words.hpp"
+#include "studies/reference/key_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t comment_column = 44;
+constexpr const char* to_be_given = "..."; ///< of a key that has no value to begin with
+
+/// "key = value" and behind it what it means.
+std::string line(const std::string& text, const std::string& comment)
+{
+    return fmt::format("{:<{}} # {}\n", text, comment_column, comment);
+}
+
+class Template {
+public:
+    explicit Template(const TemplateChoice& choice)
+        : kinds_{{"study.kind", word_for(study_kind_names, choice.study)},
+                 {"structure.kind", word_for(structure_kind_names, choice.structure)},
+                 {"excitation.kind", word_for(excitation_kind_names, *choice.excitation)},
+                 {"fragility.method", word_for(fragility_method_names, FragilitySpec{}.method)}}
+    {
+    }
+
+    std::string text() const
+    {
+        std::string out;
+        for (const TomlKey* table : study_file_keys().keys)
+            if (used(*table))
+                out += "\n" + section(*table);
+        return out;
+    }
+
+private:
+    bool used(const TomlKey& key) const
+    {
+        return std::all_of(kinds_.begin(), kinds_.end(),
+                           [&](const auto& kind) { return key.used_where(kind.first, kind.second); });
+    }
+
+    /// A table with all its keys; as a comment if none of them is given.
+    std::string section(const TomlKey& table) const
+    {
+        std::string keys;
+        bool given = table.needed();
+        for (const TomlKey* key : table.keys)
+            if (used(*key)) {
+                const std::string value = value_of(*key, table.name + "." + key->name);
+                given = given || !value.empty();
+                keys += line_of(*key, value);
+            }
+        std::string about = table.meaning;
+        if (!table.needed())
+            about += "; without this table: " + table.absent;
+        return line((given ? "[" : "# [") + table.name + "]", about) + keys;
+    }
+
+    /// What the study gives; empty: it leaves the key to its default.
+    std::string value_of(const TomlKey& key, const std::string& path) const
+    {
+        if (const auto kind = kinds_.find(path); kind != kinds_.end() && path != "fragility.method")
+            return toml_quoted(kind->second);
+        if (!key.example.empty())
+            return key.example;
+        return key.needed() && !key.keys.empty() ? inline_table(key) : std::string();
+    }
+
+    std::string line_of(const TomlKey& key, const std::string& value) const
+    {
+        std::string about = key.meaning;
+        if (key.type == KeyType::word)
+            about += ": " + type_words(key);
+        else if (!key.unit().empty() && key.keys.empty())
+            about += " [" + key.unit() + "]";
+        if (!key.needed() && !key.absent_is_value && key.keys.empty())
+            about += "; default: " + key.absent;
+        if (!value.empty())
+            return line(key.name + " = " + value, about);
+        if (key.absent_is_value)
+            return line("# " + key.name + " = " + key.absent, about);
+        const bool of_tables = !key.keys.empty() && !key.keys.front()->keys.empty(); // [perturbation.mechanisms]
+        if (of_tables)
+            return line("# " + key.name + ".NAME.KEY = { distribution = \"normal\", sd = ... }", about);
+        return line("# " + key.name + " = " + (key.keys.empty() ? to_be_given : inline_table(key)), about);
+    }
+
+    /// { KEY = VALUE, ... } of those keys that are needed, have a value to begin with, or a default.
+    std::string inline_table(const TomlKey& table) const
+    {
+        std::string entries;
+        for (const TomlKey* key : table.keys) {
+            if (!key->needed() && !key->absent_is_value && key->example.empty())
+                continue;
+            const std::string value = !key->example.empty() ? key->example : key->needed() ? to_be_given : key->absent;
+            entries += (entries.empty() ? "" : ", ") + key->name + " = " + value;
+        }
+        return table.type == KeyType::tables ? "[ { " + entries + " }, ... ]" : "{ " + entries + " }";
+    }
+
+    std::map<std::string, std::string> kinds_;
+};
+
+} // namespace
+
+ExcitationKind usual_excitation(StudyKind study)
+{
+    return study == StudyKind::fragility ? ExcitationKind::noise : ExcitationKind::harmonic;
+}
+
+std::string study_template(const TemplateChoice& choice)
+{
+    TemplateChoice complete = choice;
+    if (!choice.excitation)
+        complete.excitation = usual_excitation(choice.study);
+    const std::string study = word_for(study_kind_names, choice.study);
+    const std::string motion = word_for(excitation_kind_names, *complete.excitation);
+    const auto refuse = [&](const char* instead) {
+        throw InputError(fmt::format("a study of kind \"{}\" cannot have excitation.kind = \"{}\".\n  Give {}.", study,
+                                     motion, instead));
+    };
+    using Motion = ExcitationKind;
+    const Motion kind = *complete.excitation;
+    if (kind == Motion::none && choice.study != StudyKind::single)
+        refuse("another --excitation, or the kind \"single\"");
+    const bool many =
+        kind == Motion::record || kind == Motion::noise || kind == Motion::pulse || kind == Motion::tapered;
+    if (choice.study == StudyKind::fragility && !many) // the others have no random parameter, or are no ground motions
+        refuse("--excitation record, noise, pulse or tapered");
+    if (choice.study == StudyKind::rare && kind == Motion::noise)
+        refuse("another --excitation: each synthetic earthquake draws thousands of numbers");
+    return fmt::format(
+               "# A study of kind \"{}\", to begin with: change the values, and remove the # of a key to give it.\n"
+               "# All units are SI. Every key: stylobate schema --markdown\n"
+               "#\n"
+               "#   stylobate info THIS_FILE.toml       warnings, without a run\n"
+               "#   stylobate run THIS_FILE.toml        the results go to THIS_FILE.h5\n",
+               study) +
+           Template(complete).text();
+}
+
+} // namespace stylobate

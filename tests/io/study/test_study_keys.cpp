@@ -1,0 +1,360 @@
+/// The description of every key of the study file is that of the reader: its type, range, words and default are tried
+/// on the reader itself.
+
+#include "ensemble/model/input_error.hpp"
+#include "io/keys/spread_key.hpp"
+#include "io/keys/study_tables.hpp"
+#include "io/keys/words.hpp"
+#include "io/study/study_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+const std::string drums = "[structure]\nblocks = 3\ndrum_width_m = 1\ndrum_height_m = 1\ndepth_m = 1\n"
+                          "density_kg_m3 = 2700\n";
+const std::string colonnade =
+    "[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndensity_kg_m3 = 2700\ncolumns = 2\ncolumn_spacing_m = 3\n"
+    "blocks = 2\ndrum_width_m = 1\ndrum_height_m = 2\nepistyle_height_m = 0.5\n";
+const std::string listed = "[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndensity_kg_m3 = 2700\n"
+                           "column_list = [ { x_m = 0, drums = [ { width_m = 1, height_m = 2 } ], capital = { width_m "
+                           "= 1.2, height_m = 0.3 } }, { x_m = 3, drums = [ { width_m = 1, height_m = 2 } ], capital = "
+                           "{ width_m = 1.2, height_m = 0.3 } } ]\n"
+                           "epistyles = [ { first_column = 0, last_column = 1, length_m = 4, height_m = 0.5 } ]\n";
+const std::string contact = "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.7\n";
+
+std::string single(const std::string& excitation, const std::string& structure = drums)
+{
+    return "[study]\nkind = \"single\"\n" + structure + contact + "[excitation]\n" + excitation;
+}
+
+std::string every_mechanism()
+{
+    std::string text = "[mechanisms]\n";
+    for (const MechanismRule& rule : mechanism_rules()) {
+        text += std::string(rule.name) + " = {";
+        for (const MechanismParameter& parameter : rule.parameters)
+            text += (text.ends_with('{') ? " " : ", ") + parameter.key() + " = 0.1";
+        // hertz has no exponent that small, and a ratio of friction may be any
+        const std::size_t exponent = text.find("exponent = 0.1");
+        if (exponent != std::string::npos)
+            text.replace(exponent, 14, "exponent = 1.1");
+        text += " }\n";
+    }
+    return text;
+}
+
+/// A uniform distribution inside the range, and inside a block of 1 m.
+std::string uniform_in(const Range& range)
+{
+    const double high = std::min(range.high, range.low < 0 ? 1 : range.low + 1);
+    return "{ distribution = \"uniform\", from = " + toml_number(0.7 * high) + ", to = " + toml_number(0.8 * high) +
+           " }";
+}
+
+const std::string harmonic = "kind = \"harmonic\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3\n";
+
+/// Studies of which each key is used by one at least.
+std::vector<std::string> samples()
+{
+    const std::string motion = "\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3\n";
+    const std::string axes =
+        "[surface]\nfrequency_hz = { from = 1, to = 2, count = 2 }\npga_m_s2 = { from = 1, to = 2, "
+        "count = 2 }\n";
+    const std::string surface = "[study]\nkind = \"surface\"\nrealizations = 40\n" + drums + contact;
+    const std::string fragility = "[study]\nkind = \"fragility\"\nrealizations = 4\n" + drums + contact;
+    std::string records = "records = [";
+    for (int i = 0; i < fewest_motions; ++i)
+        records += "{ file = \"a" + std::to_string(i) + "\" }, ";
+    records += "]\n";
+    std::vector<std::string> all = {
+        single("kind = \"none\"\nduration_s = 1\n"),
+        single(harmonic),
+        single(harmonic, colonnade),
+        single(harmonic, listed),
+        single(harmonic,
+               "[structure]\nblocks = 3\ndrum_width_m = 1\ndrum_height_m = 1\ndepth_m = 1\ndrum_mass_kg = 2700\n"),
+        single(harmonic, "[structure]\ndepth_m = 1\ndensity_kg_m3 = 2700\ndrums = [ { width_m = 1, height_m = 1 } ]\n"
+                         "capital = { width_m = 1.2, height_m = 0.3 }\n"),
+        single("kind = \"pulse" + motion),
+        single("kind = \"tapered" + motion),
+        single("kind = \"noise" + motion),
+        single("kind = \"record\"\nfile = \"a\"\n"),
+        single("kind = \"table\"\nfile = \"a\"\n"),
+        single("kind = \"sweep\"\nfrom_hz = 0.3\nto_hz = 7.7\nduration_s = 41.3\npga_m_s2 = 3.3\n"),
+        single(harmonic) + every_mechanism(),
+        surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "adaptive = { budget = 100 }\n",
+        surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "[twins]\n",
+        fragility +
+            "[excitation]\nkind = \"pulse\"\nfrequency_hz = 1\n[fragility]\nmotions = 9\nintensity = { measure = "
+            "\"sa\", period_s = 1, from = 1, to = 2, count = 2 }\n",
+        fragility +
+            "[excitation]\nkind = \"pulse\"\nfrequency_hz = 1\n[fragility]\nmotions = 9\nintensity = { from = 1, "
+            "to = 2, count = 2 }\n",
+        fragility + "[excitation]\nkind = \"record\"\n[fragility]\nmethod = \"cloud\"\n" + records,
+        fragility + "[excitation]\nkind = \"record\"\n[fragility]\nfolder = \"" STYLOBATE_SOURCE_DIR
+                    "/studies/inputs\"\n"
+                    "intensity = { from = 1, to = 2, count = 2 }\n",
+        "[study]\nkind = \"sensitivity\"\n" + drums + contact + "[excitation]\n" + harmonic +
+            "[sensitivity]\nsamples = 10\n[perturbation]\nfriction = { distribution = \"normal\", cov = 0.01 }\n",
+        "[study]\nkind = \"rare\"\n" + drums + contact + "[excitation]\n" + harmonic +
+            "[rare]\n[perturbation]\nfriction = { distribution = \"normal\", cov = 0.01 }\n"};
+    all.push_back(single(harmonic) + "[mechanisms]\nvertical_motion = { file = \"v\" }\n");
+    // each mechanism with as little as it takes
+    for (const MechanismRule& rule : mechanism_rules()) {
+        std::string values;
+        for (const MechanismParameter& parameter : rule.parameters)
+            if (parameter.role == ParameterRole::needed || &parameter == &rule.parameters.front())
+                values += (values.empty() ? "" : ", ") + parameter.key() + " = " +
+                          toml_number(std::max(1.2 * parameter.low, 0.4));
+        all.push_back(single(harmonic) + "[mechanisms]\n" + rule.name + " = { " + values + " }\n");
+    }
+    // of each distribution one
+    const auto spreads = [](const SpreadKey& key) {
+        std::vector<std::string> texts = {"{ distribution = \"normal\", " + key.sd.name + " = 0.001 }",
+                                          uniform_in(key.value)};
+        if (key.relative)
+            texts.insert(texts.end(), {"{ distribution = \"normal\", cov = 0.001 }",
+                                       "{ distribution = \"lognormal\", sigma_ln = 0.01 }"});
+        return texts;
+    };
+    for (int i = 0; i < quantity_count; ++i) {
+        const SpreadKey& key = spread_key(static_cast<Quantity>(i));
+        const std::string kind = key.name.starts_with("pulse") ? "pulse" : "harmonic";
+        for (const std::string& spread : spreads(key))
+            all.push_back(single("kind = \"" + kind + motion) + "[perturbation]\n" + key.name + " = " + spread + "\n");
+    }
+    for (const MechanismRule& rule : mechanism_rules())
+        for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
+            const SpreadKey& key = spread_key(rule.mechanism, i);
+            for (const std::string& spread : spreads(key))
+                all.push_back(single(harmonic) + every_mechanism() + "[perturbation.mechanisms]\n" + rule.name + "." +
+                              key.name + " = " + spread + "\n");
+        }
+    return all;
+}
+
+/// What the reader says of a study with one setting more; empty: it takes it.
+std::string refusal(const std::string& text, const std::string& path, const std::string& value)
+{
+    try {
+        parse_study(text, "study.toml", {path + "=" + value});
+        return {};
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+/// In a list of tables a setting goes to its first entry.
+std::string in_list(std::string path)
+{
+    for (const char* list : {"structure.column_list.drums", "structure.column_list", "structure.drums",
+                             "structure.epistyles", "fragility.records"})
+        if (path.starts_with(std::string(list) + "."))
+            return {};
+    return path;
+}
+
+/// A value that no key of this type takes, and the words of the refusal.
+std::pair<std::string, std::string> of_another_type(const TomlKey& key)
+{
+    switch (key.type) {
+    case KeyType::number:
+        return {"true", "not a number"};
+    case KeyType::whole:
+        return {"true", "not a whole number"};
+    case KeyType::boolean:
+        return {"3", "not true or false"};
+    case KeyType::word:
+        return {"true", "not a string"};
+    case KeyType::text: // anything that is typed on the command line is text
+        return {"\"\"", "is empty"};
+    case KeyType::numbers:
+    case KeyType::wholes:
+        return {"true", "not a list"};
+    case KeyType::interval:
+        return {"true", "is not two numbers in brackets"};
+    case KeyType::texts:
+        return {"true", "not a list"};
+    case KeyType::table:
+    case KeyType::table_or_list:
+        return {"true", "not a table"};
+    case KeyType::tables:
+        return {"true", "not an array"};
+    }
+    return {};
+}
+
+class StudyKeys : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        for (const std::string& text : samples())
+            if (text.find("folder") == std::string::npos) {
+                EXPECT_NO_THROW(parse_study(text, "sample.toml")) << text;
+            }
+    }
+    /// Calls for each key that can be set by its path.
+    static void for_each_settable(const std::function<void(const std::string&, const TomlKey&)>& call)
+    {
+        for_each_key([&](const std::string& path, const TomlKey& key) {
+            if (!in_list(path).empty())
+                call(path, key);
+        });
+    }
+    const std::vector<std::string> texts_ = samples();
+};
+
+TEST_F(StudyKeys, TheReaderKnowsEachByItsType)
+{
+    int keys = 0;
+    for_each_settable([&](const std::string& path, const TomlKey& key) {
+        ++keys;
+        const auto [value, words] = of_another_type(key);
+        const bool known = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
+            const std::string said = refusal(text, path, value);
+            const bool list_of_words =
+                key.type == KeyType::texts && said.find("not a list of names") != std::string::npos;
+            return said.find(path + " = " + value) != std::string::npos &&
+                   (said.find(words) != std::string::npos || list_of_words);
+        });
+        EXPECT_TRUE(known) << path << " = " << value << " is refused in no study by \"" << words
+                           << "\"; in the first: " << refusal(texts_[1], path, value);
+    });
+    EXPECT_GT(keys, 300);
+}
+
+TEST_F(StudyKeys, TheReaderKnowsEachRange)
+{
+    for_each_settable([&](const std::string& path, const TomlKey& key) {
+        if (key.type != KeyType::number && key.type != KeyType::whole)
+            return;
+        for (const std::string value : {"-1e31", "1e31"}) {
+            const bool told = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
+                return refusal(text, path, value).find("is outside ") != std::string::npos;
+            });
+            EXPECT_TRUE(told) << path << " = " << value;
+        }
+        if (key.used.empty() && key.type == KeyType::number && key.absent_is_value) {
+            const bool stated = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
+                return refusal(text, path, "-1e31").find("is outside " + key.range.text()) != std::string::npos;
+            });
+            const bool by_study = path == "structure.capital.offset_m"; // no more than its width
+            EXPECT_TRUE(stated || by_study) << path << " has another range than " << key.range.text();
+        }
+    });
+}
+
+TEST_F(StudyKeys, TheReaderTakesEachWordAndNoOther)
+{
+    for_each_settable([&](const std::string& path, const TomlKey& key) {
+        if (key.type != KeyType::word)
+            return;
+        bool asked = false;
+        for (const std::string& text : texts_) {
+            const std::string said = refusal(text, path, "\"zzzz\"");
+            const std::size_t at = said.find("Allowed: ");
+            if (said.find(path + " = ") == std::string::npos || at == std::string::npos)
+                continue;
+            asked = true;
+            std::string words;
+            for (const std::string& word : key.words)
+                words += (words.empty() ? "" : ", ") + toml_quoted(word);
+            EXPECT_EQ(said.substr(at + 9, words.size() + 1), words + ".") << path;
+        }
+        EXPECT_TRUE(asked) << path;
+    });
+}
+
+TEST_F(StudyKeys, TheReaderHasEachDefault)
+{
+    for_each_settable([&](const std::string& path, const TomlKey& key) {
+        if (!key.absent_is_value || !key.keys.empty())
+            return;
+        bool tried = false;
+        for (const std::string& text : texts_) {
+            Study plain, given;
+            try {
+                plain = parse_study(text, "study.toml");
+                given = parse_study(text, "study.toml", {path + "=" + key.absent});
+            } catch (const InputError&) {
+                continue; // it does not use the key
+            }
+            // a mechanism that is not named is not there, whatever its neutral value
+            const std::string table = path.substr(0, path.rfind('.'));
+            const std::string name = table.substr(table.rfind('.') + 1);
+            const std::size_t mechanisms = std::min(text.find("[mechanisms]\n"), text.size());
+            if (path.starts_with("mechanisms.") && text.find("\n" + name + " = ", mechanisms) == std::string::npos)
+                continue;
+            tried = true;
+            if (text.find(key.name + " = ") == std::string::npos) {
+                EXPECT_EQ(plain.text, given.text) << path << " = " << key.absent;
+            }
+        }
+        EXPECT_TRUE(tried) << path << " = " << key.absent << " is taken by no study";
+    });
+}
+
+TEST_F(StudyKeys, EachIsNeededWhereItsDescriptionSaysSo)
+{
+    for_each_settable([&](const std::string& path, const TomlKey& key) {
+        if (!key.needed() || !key.used.empty() || std::count(path.begin(), path.end(), '.') != 1)
+            return;
+        const std::string table = path.substr(0, path.find('.'));
+        int asked = 0;
+        for (const std::string& text : texts_) {
+            const std::size_t section = text.find("[" + table + "]\n");
+            const std::size_t begin =
+                section == std::string::npos ? section : text.find("\n" + key.name + " = ", section);
+            if (begin == std::string::npos)
+                continue;
+            std::string without = text;
+            without.erase(begin, text.find('\n', begin + 1) - begin);
+            try {
+                parse_study(without, "study.toml");
+                ADD_FAILURE() << path << " is said to be needed, and is not:\n" << without;
+            } catch (const InputError& error) {
+                EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+            }
+            ++asked;
+        }
+        EXPECT_GT(asked, 0) << path;
+    });
+}
+
+TEST(TomlKeys, TheUnitIsPartOfTheName)
+{
+    const std::map<std::string, std::string> units = {{"structure.depth_m", "m"},
+                                                      {"contact.normal_stiffness_n_m2", "N/m2"},
+                                                      {"contact.friction", ""},
+                                                      {"structure.density_kg_m3", "kg/m3"},
+                                                      {"excitation.frequency_hz", "Hz"},
+                                                      {"excitation.pga_m_s2", "m/s2"},
+                                                      {"run.step_s", "s"},
+                                                      {"output.most_mb", "1e6 bytes"},
+                                                      {"initial.tilt_rad", "rad"},
+                                                      {"mechanisms.drag.coefficient_n_s2_m2", "N s2/m2"},
+                                                      {"surface.frequency_hz", "Hz"},
+                                                      {"mechanisms.rate_damping.rate_s_m", "s/m"},
+                                                      {"structure.columns", ""},
+                                                      {"mechanisms.dowel.yield_n", "N"},
+                                                      {"contact.normal_damping_n_s_m", "N s/m"}};
+    std::set<std::string> seen;
+    for_each_key([&](const std::string& path, const TomlKey& key) {
+        if (const auto unit = units.find(path); unit != units.end()) {
+            EXPECT_EQ(key.unit(), unit->second) << path;
+            seen.insert(path);
+        }
+    });
+    EXPECT_EQ(seen.size(), units.size());
+}
+
+} // namespace
+} // namespace stylobate

@@ -1,0 +1,163 @@
+/// What is written from the descriptions of the keys: the reference page, the JSON Schema and the templates.
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/sampling/plausible.hpp"
+#include "io/keys/study_tables.hpp"
+#include "io/keys/words.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/reference/study_reference.hpp"
+#include "studies/reference/study_schema.hpp"
+#include "studies/reference/study_template.hpp"
+#include "tests/program/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file)
+{
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+TEST(StudyReference, ThePageIsThatOfTheProgram)
+{
+    EXPECT_EQ(content(fs::path(STYLOBATE_SOURCE_DIR) / "docs/study_reference.md"), study_reference())
+        << "write it anew: stylobate schema --markdown > docs/study_reference.md";
+}
+
+TEST(StudyReference, HasEveryKey)
+{
+    const std::string page = study_reference();
+    for_each_key([&](const std::string& path, const TomlKey& key) {
+        // the parameters of mechanisms have one table: [perturbation.mechanisms]
+        const std::string perturbed = "perturbation.mechanisms.";
+        const bool group = path.starts_with(perturbed) && !key.keys.empty() && !key.keys.front()->keys.empty();
+        bool shown = group;
+        for (const std::string& words :
+             {key.name, "[" + path + "]", path.substr(std::min(path.size(), perturbed.size()))})
+            shown = shown || page.find("`" + words + "`") != std::string::npos;
+        EXPECT_TRUE(shown) << path;
+        EXPECT_FALSE(key.meaning.empty()) << path;
+        EXPECT_FALSE(key.meaning.ends_with('.')) << path << ": a phrase";
+    });
+}
+
+TEST(StudySchema, IsJsonAndHasEveryTable)
+{
+    const JsonValue schema = JsonParser::parse(study_schema());
+    for (const TomlKey* table : study_file_keys().keys)
+        EXPECT_TRUE(schema["properties"].has(table->name)) << table->name;
+    EXPECT_EQ(schema["properties"]["contact"]["properties"]["friction"]["maximum"].number, 10);
+}
+
+/// Every pair of kinds that goes together.
+std::vector<TemplateChoice> choices()
+{
+    std::vector<TemplateChoice> all;
+    for (const auto& study : study_kind_names)
+        for (const auto& structure : structure_kind_names)
+            for (const auto& excitation : excitation_kind_names) {
+                const TemplateChoice choice{study.value, structure.value, excitation.value};
+                try {
+                    study_template(choice);
+                    all.push_back(choice);
+                } catch (const InputError&) {
+                }
+            }
+    return all;
+}
+
+std::string name_of(const TemplateChoice& choice)
+{
+    return std::string(word_for(study_kind_names, choice.study)) + ", " +
+           word_for(structure_kind_names, choice.structure) + ", " +
+           word_for(excitation_kind_names, *choice.excitation);
+}
+
+/// With a folder of records that is there.
+bool names_a_folder(const TemplateChoice& choice)
+{
+    return choice.study == StudyKind::fragility && choice.excitation == ExcitationKind::record;
+}
+
+TEST(StudyTemplate, OfEveryKindIsAStudyOfThatKind)
+{
+    const std::vector<TemplateChoice> all = choices();
+    EXPECT_GE(all.size(), 5U * 2U * 4U);
+    for (const TemplateChoice& choice : all) {
+        const std::string text = study_template(choice);
+        if (names_a_folder(choice))
+            continue;
+        Study study;
+        ASSERT_NO_THROW(study = parse_study(text, "new.toml")) << name_of(choice) << "\n" << text;
+        EXPECT_EQ(study.kind, choice.study) << name_of(choice);
+        EXPECT_EQ(study.structure.kind, choice.structure) << name_of(choice);
+        EXPECT_EQ(study.excitation.kind, choice.excitation) << name_of(choice);
+        const std::vector<Doubt> found = doubts(study);
+        EXPECT_TRUE(found.empty()) << name_of(choice) << ": " << found.front().text;
+    }
+}
+
+TEST(StudyTemplate, ADefaultThatIsUncommentedChangesNothing)
+{
+    int tried = 0;
+    for (const TemplateChoice& choice : choices()) {
+        if (names_a_folder(choice))
+            continue;
+        const std::string text = study_template(choice);
+        const std::string plain = parse_study(text, "new.toml").text;
+        std::string given;
+        std::istringstream lines(text);
+        bool table_given = false;
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with('['))
+                table_given = true;
+            if (line.starts_with("# ["))
+                table_given = false;
+            const bool is_key = line.starts_with("# ") && line.find(" = ") != std::string::npos;
+            const bool is_default = is_key && line.find("...") == std::string::npos &&
+                                    line.find("default: ") == std::string::npos &&
+                                    line.find("= {") == std::string::npos && line.find("= [ {") == std::string::npos;
+            // one of two ways to give the same: the step or its fraction, the damping
+            if (table_given && is_default && line.find("#", 2) != std::string::npos) {
+                line.erase(0, 2);
+                ++tried;
+            }
+            given += line + "\n";
+        }
+        try {
+            EXPECT_EQ(parse_study(given, "given.toml").text, plain) << name_of(choice);
+        } catch (const InputError& error) {
+            ADD_FAILURE() << name_of(choice) << ": " << error.what() << "\n" << given;
+        }
+    }
+    EXPECT_GT(tried, 500);
+}
+
+TEST(StudyTemplate, RefusesKindsThatDoNotGoTogether)
+{
+    try {
+        study_template({StudyKind::surface, StructureKind::column, ExcitationKind::none});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("\"surface\" cannot have excitation.kind = \"none\""),
+                  std::string::npos)
+            << error.what();
+    }
+    EXPECT_THROW(study_template({StudyKind::rare, StructureKind::column, ExcitationKind::noise}), InputError);
+    EXPECT_THROW(study_template({StudyKind::fragility, StructureKind::column, ExcitationKind::table}), InputError);
+    EXPECT_THROW(study_template({StudyKind::fragility, StructureKind::column, ExcitationKind::ricker}), InputError);
+}
+
+} // namespace
+} // namespace stylobate
