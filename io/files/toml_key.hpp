@@ -96,10 +96,11 @@ struct TomlKey {
 
 protected:
     TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts facts);
+    ~TomlKey() = default;
     TomlKey(const TomlKey&) = default;
     TomlKey(TomlKey&&) = default;
-    TomlKey& operator=(const TomlKey&) = delete;
-    ~TomlKey() = default;
+    TomlKey& operator=(const TomlKey&) = default;
+    TomlKey& operator=(TomlKey&&) = default;
     void set_default(std::string toml);
 };
 
