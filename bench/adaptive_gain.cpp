@@ -37,8 +37,9 @@ struct Known {
 Known known(const std::string& name, const std::function<double(double, double)>& logit)
 {
     Known surface{name, 16, 16, {}};
-    for (int cell = 0; cell < 256; ++cell)
-        surface.p.push_back(1 / (1 + std::exp(-logit(cell / 16, cell % 16))));
+    for (int row = 0; row < 16; ++row)
+        for (int column = 0; column < 16; ++column)
+            surface.p.push_back(1 / (1 + std::exp(-logit(row, column))));
     return surface;
 }
 

@@ -22,8 +22,9 @@ std::vector<double> row_means(std::span<const double> rows, std::size_t width)
     std::vector<double> means(width, 0);
     for (std::size_t i = 0; i < rows.size(); ++i)
         means[i % width] += rows[i];
+    const std::size_t count = rows.size() / width;
     for (double& mean : means)
-        mean /= static_cast<double>(rows.size() / width);
+        mean /= static_cast<double>(count);
     return means;
 }
 

@@ -48,7 +48,7 @@ inline std::vector<Vector> rectangle(const Vector& centre, Number angle, Number 
 inline Area overlap(const std::vector<Vector>& clip, const std::vector<Vector>& subject)
 {
     // coordinates near the contact: products of absolute ones would lose what is looked for
-    const Vector origin = subject.front();
+    const Vector& origin = subject.front();
     std::vector<Corner> polygon;
     for (const Vector& p : subject)
         polygon.push_back({p - origin, false});

@@ -217,7 +217,8 @@ TEST_F(StudyKeys, TheReaderKnowsEachByItsType)
     int keys = 0;
     for_each_settable([&](const std::string& path, const TomlKey& key) {
         ++keys;
-        const auto [value, words] = of_another_type(key);
+        const std::pair<std::string, std::string> wrong = of_another_type(key);
+        const std::string &value = wrong.first, &words = wrong.second;
         const bool known = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
             const std::string said = refusal(text, path, value);
             const bool list_of_words =

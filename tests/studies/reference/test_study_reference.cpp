@@ -128,8 +128,7 @@ TEST(StudyTemplate, ADefaultThatIsUncommentedChangesNothing)
             const bool is_default = is_key && line.find("...") == std::string::npos &&
                                     line.find("default: ") == std::string::npos &&
                                     line.find("= {") == std::string::npos && line.find("= [ {") == std::string::npos;
-            // one of two ways to give the same: the step or its fraction, the damping
-            if (table_given && is_default && line.find("#", 2) != std::string::npos) {
+            if (table_given && is_default && line.find('#', 2) != std::string::npos) {
                 line.erase(0, 2);
                 ++tried;
             }

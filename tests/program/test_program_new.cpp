@@ -1,0 +1,63 @@
+/// `stylobate new` and `stylobate schema`: a study for who has none, and what is known of its keys.
+
+#include "tests/program/program.hpp"
+
+namespace stylobate {
+namespace {
+
+class NewStudy : public Program {};
+
+TEST_F(NewStudy, RunsAsItStands)
+{
+    // as few realizations as each kind allows, and a short motion
+    const std::map<std::string, Words> kinds = {
+        {"single", {}},
+        {"surface",
+         {"study.realizations=1", "surface.frequency_hz.count=1", "surface.frequency_hz.from=5",
+          "surface.pga_m_s2.count=1", "surface.pga_m_s2.from=8"}},
+        {"fragility", {"study.realizations=1", "fragility.motions=8", "fragility.intensity.count=2"}},
+        {"sensitivity", {"sensitivity.samples=2"}},
+        {"rare", {"rare.samples=100", "rare.repeats=5", "excitation.pga_m_s2=8"}}};
+    for (const auto& [kind, settings] : kinds) {
+        const Ended made = run({"new", kind});
+        ASSERT_EQ(made.status, 0) << testing::PrintToString(made);
+        EXPECT_EQ(made.err, "");
+        EXPECT_NE(made.out.find("stylobate run " + kind + ".toml"), std::string::npos) << made.out;
+        const Ended ended = run(run_words(kind + ".toml", settings, {"-o", kind + ".h5", "--quiet"}));
+        EXPECT_EQ(ended.status, 0) << kind << testing::PrintToString(ended);
+        EXPECT_EQ(ended.err, "") << "no warnings";
+        EXPECT_TRUE(fs::exists(folder / (kind + ".h5"))) << kind;
+    }
+}
+
+TEST_F(NewStudy, ReplacesNothing)
+{
+    ASSERT_EQ(run({"new", "single", "--quiet", "-o", "mine.toml"}).out, "");
+    const std::string before = read_bytes(folder / "mine.toml");
+    expect_refused({"new", "surface", "-o", "mine.toml"}, {"mine.toml", "exists already", "--force"});
+    EXPECT_EQ(read_bytes(folder / "mine.toml"), before);
+    EXPECT_EQ(run({"new", "surface", "-o", "mine.toml", "--force"}).status, 0);
+    EXPECT_NE(read_bytes(folder / "mine.toml"), before);
+}
+
+TEST_F(NewStudy, RefusesWhatIsNoKind)
+{
+    expect_refused({"new"}, {"KIND is required"});
+    expect_refused({"new", "surfac"}, {"surfac", "surface"});
+    expect_refused({"new", "single", "--structure", "temple"}, {"temple", "colonnade"});
+    expect_refused({"new", "rare", "--excitation", "noise"}, {"\"rare\" cannot have excitation.kind = \"noise\""});
+    expect_refused({"new", "single", "-o", "no_such_folder/a.toml"}, {"no_such_folder"});
+}
+
+TEST_F(NewStudy, TheSchemaIsOneJsonObject)
+{
+    const Ended schema = run({"schema"});
+    EXPECT_EQ(schema.status, 0);
+    EXPECT_EQ(schema.err, "");
+    EXPECT_TRUE(json_of(schema)["properties"].has("structure"));
+    const Ended page = run({"schema", "--markdown"});
+    EXPECT_EQ(page.out, read_bytes(fs::path(STYLOBATE_SOURCE_DIR) / "docs/study_reference.md"));
+}
+
+} // namespace
+} // namespace stylobate
