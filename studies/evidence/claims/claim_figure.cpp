@@ -138,7 +138,8 @@ std::string layout_of(const Figure& figure, const std::vector<Curve>& curves, bo
         longest = std::max(longest, curve.label.size());
     const std::size_t columns = std::clamp<std::size_t>(105 / (longest + 7), 1, 3);
     const std::size_t labels = curves.size() + (figure.line ? 1 : 0);
-    const auto rows = static_cast<double>((labels + columns - 1) / columns);
+    const std::size_t lines = (labels + columns - 1) / columns;
+    const auto rows = static_cast<double>(lines);
     return fmt::format(
         "set lmargin at screen {3}\nset rmargin at screen 0.97\nset bmargin at screen 0.115\n"
         "set tmargin at screen {0}\nset key horizontal center bottom at screen 0.535, screen {1} maxcols {2} "
