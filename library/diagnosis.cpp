@@ -3,12 +3,12 @@
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
-#include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_json.hpp"
 #include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 
 namespace stylobate::api {

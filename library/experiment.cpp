@@ -1,7 +1,7 @@
 #include "ensemble/experiment.hpp"
+#include "io/keys/words.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/study/study_file.hpp"
-#include "io/keys/words.hpp"
 #include "library/inside.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-#include "io/study/study_file.hpp"
 #include "io/keys/words.hpp"
+#include "io/study/study_file.hpp"
 #include "library/inside.hpp"
 
 namespace stylobate::api {

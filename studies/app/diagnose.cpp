@@ -7,13 +7,13 @@
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
-#include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_json.hpp"
 #include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 
 #include <fmt/format.h>

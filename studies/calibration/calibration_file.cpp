@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/hdf5.hpp"
-#include "io/study/study_file.hpp"
 #include "io/keys/words.hpp"
+#include "io/study/study_file.hpp"
 
 #include <fmt/format.h>
 

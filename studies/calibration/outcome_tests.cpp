@@ -2,12 +2,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
+#include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
 #include "io/measured/base_table.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
-#include "io/keys/words.hpp"
-#include "io/keys/ranges.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 #include "studies/experiment/loaded_study.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/keys/words.hpp"
 #include "io/measured/base_table.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
-#include "io/keys/words.hpp"
 #include "studies/experiment/block_names.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/motions.hpp"

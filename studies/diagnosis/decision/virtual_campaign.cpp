@@ -4,8 +4,8 @@
 #include "ensemble/sampling/distribution.hpp"
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "io/measured/measured_motion.hpp"
 #include "io/keys/words.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "studies/calibration/calibration_windows.hpp"
 
 #include <fmt/format.h>

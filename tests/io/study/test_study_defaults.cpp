@@ -4,8 +4,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/toml_document.hpp"
-#include "io/study/study_file.hpp"
 #include "io/keys/words.hpp"
+#include "io/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 
