@@ -73,6 +73,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"studies/diagnosis/findings", {"studies/report"}},
     {"studies/diagnosis/laws", {}},
     {"studies/diagnosis/tests", {"studies/diagnosis/findings", "studies/diagnosis/laws"}},
+    {"studies/diagnosis/likelihood", {}},
     {"studies/calibration", {"studies", "studies/diagnosis/findings", "studies/diagnosis/tests", "studies/report"}},
     {"studies/diagnosis/decision",
      {"studies", "studies/calibration", "studies/diagnosis/findings", "studies/diagnosis/laws",

@@ -1,0 +1,46 @@
+#include "studies/diagnosis/likelihood/conformal.hpp"
+
+#include <algorithm>
+
+namespace stylobate {
+
+double conformal_p_value(const std::vector<double>& nulls, double score)
+{
+    const auto as_large = std::count_if(nulls.begin(), nulls.end(), [score](double null) { return null >= score; });
+    return static_cast<double>(1 + as_large) / static_cast<double>(1 + nulls.size());
+}
+
+CalibratedProbability::CalibratedProbability(std::vector<Case> cases)
+{
+    std::stable_sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.score < b.score; });
+    for (const Case& each : cases) {
+        blocks_.push_back({each.score, each.right ? 1.0 : 0.0, each.weight});
+        while (blocks_.size() > 1 && blocks_[blocks_.size() - 2].right >= blocks_.back().right) {
+            const Block last = blocks_.back();
+            blocks_.pop_back();
+            Block& merged = blocks_.back();
+            const double weight = merged.weight + last.weight;
+            merged.score = (merged.score * merged.weight + last.score * last.weight) / weight;
+            merged.right = (merged.right * merged.weight + last.right * last.weight) / weight;
+            merged.weight = weight;
+        }
+    }
+    for (Block& block : blocks_) // never 0 or 1: half a case of either kind (Jeffreys)
+        block.right = (block.right * block.weight + 0.5) / (block.weight + 1);
+}
+
+double CalibratedProbability::operator()(double score) const
+{
+    if (blocks_.empty())
+        return 0.5;
+    if (score <= blocks_.front().score)
+        return blocks_.front().right;
+    for (std::size_t i = 1; i < blocks_.size(); ++i)
+        if (score <= blocks_[i].score) {
+            const Block &a = blocks_[i - 1], &b = blocks_[i];
+            return a.right + (b.right - a.right) * (score - a.score) / (b.score - a.score);
+        }
+    return blocks_.back().right;
+}
+
+} // namespace stylobate

@@ -1,0 +1,206 @@
+#include "studies/diagnosis/likelihood/law_adjustment.hpp"
+
+#include "ensemble/numerics/sample_quantiles.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+// A statistic that fewer of the nulls have does not show what nulls give.
+constexpr double least_share = 0.8;
+// The neighbourhood holds at least this part of the nulls.
+constexpr double neighbours = 0.6;
+// Ridge on standardized descriptors: two of them may show the same.
+constexpr double ridge = 1e-3;
+constexpr int parts = 5;
+constexpr std::array freedoms = {4.0, 6.0, 9.0, 14.0, 22.0, 35.0, 60.0, 120.0, 1000.0};
+
+double median(std::vector<double> values)
+{
+    return upper_median(std::move(values));
+}
+
+/// Tricube weights: 1 in the middle, 0 beyond the `neighbours` nearest.
+Eigen::VectorXd local_weights(const Eigen::MatrixXd& standardized, const Eigen::VectorXd& at)
+{
+    const Eigen::Index n = standardized.rows();
+    Eigen::VectorXd distance(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        distance(i) = (standardized.row(i).transpose() - at).norm();
+    std::vector<double> sorted(distance.data(), distance.data() + n);
+    std::sort(sorted.begin(), sorted.end());
+    const auto last = static_cast<std::size_t>(neighbours * static_cast<double>(n));
+    // twice: the farthest neighbour keeps a weight of two thirds
+    const double reach = std::max(2 * sorted[std::min(last, sorted.size() - 1)], 1e-12);
+    return distance.unaryExpr([reach](double d) {
+        const double part = std::min(d / reach, 1.0);
+        return std::pow(1 - part * part * part, 3);
+    });
+}
+
+} // namespace
+
+double student_kernel(double distance2, double p, double freedom)
+{
+    return -0.5 * (freedom + p) * std::log1p(distance2 / freedom);
+}
+
+Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights)
+{
+    const Eigen::Index p = residuals.cols();
+    const Eigen::VectorXd w = weights / weights.sum();
+    const double effective = 1 / w.squaredNorm();
+    const Eigen::MatrixXd weighted = w.asDiagonal() * residuals;
+    Eigen::MatrixXd sample = residuals.transpose() * weighted;
+    const Eigen::VectorXd sd = sample.diagonal().cwiseMax(1e-12).cwiseSqrt();
+    sample = sd.cwiseInverse().asDiagonal() * sample * sd.cwiseInverse().asDiagonal();
+    // variance of each correlation: that of the products of two residuals, over the number of campaigns
+    const Eigen::MatrixXd unit = residuals * sd.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd square = unit.cwiseProduct(unit);
+    const Eigen::MatrixXd fourth = square.transpose() * w.asDiagonal() * square;
+    double noise = 0, signal = 0;
+    for (Eigen::Index j = 0; j < p; ++j)
+        for (Eigen::Index k = 0; k < j; ++k) {
+            noise += (fourth(j, k) - sample(j, k) * sample(j, k)) / std::max(effective - 1, 1.0);
+            signal += sample(j, k) * sample(j, k);
+        }
+    const double shrink = signal > 0 ? std::clamp(noise / signal, 0.02, 1.0) : 1.0;
+    Eigen::MatrixXd out = (1 - shrink) * sample;
+    out.diagonal().setOnes();
+    return out;
+}
+
+LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& at, const std::vector<bool>& wanted)
+{
+    const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
+    for (Eigen::Index j = 0; j < nulls.statistics.cols(); ++j) {
+        const auto finite = nulls.statistics.col(j).array().isFinite().count();
+        if (wanted[static_cast<std::size_t>(j)] && static_cast<double>(finite) >= least_share * static_cast<double>(n))
+            used_.push_back(j);
+    }
+    middle_.resize(q);
+    spread_.resize(q);
+    for (Eigen::Index k = 0; k < q; ++k) {
+        std::vector<double> values(nulls.descriptors.col(k).begin(), nulls.descriptors.col(k).end());
+        middle_(k) = median(values);
+        for (double& value : values)
+            value = std::fabs(value - middle_(k));
+        spread_(k) = std::max(1.4826 * median(std::move(values)), 1e-12);
+    }
+    Eigen::MatrixXd all(n, q);
+    for (Eigen::Index i = 0; i < n; ++i)
+        all.row(i) = standardized(nulls.descriptors.row(i)).transpose();
+    const Eigen::VectorXd weights = local_weights(all, standardized(at));
+    regress(nulls, weights);
+    Eigen::MatrixXd residuals(n, static_cast<Eigen::Index>(used_.size()));
+    for (Eigen::Index i = 0; i < n; ++i)
+        residuals.row(i) = residual(nulls.descriptors.row(i), nulls.statistics.row(i)).transpose();
+    correlation_ = shrunk_correlation(residuals, weights);
+    find_tails(residuals, weights);
+}
+
+Eigen::VectorXd LawAdjustment::standardized(const Eigen::VectorXd& descriptors) const
+{
+    // beyond five spreads a straight line is no guide
+    return ((descriptors - middle_).cwiseQuotient(spread_)).cwiseMax(-5).cwiseMin(5);
+}
+
+void LawAdjustment::regress(const CampaignTable& nulls, const Eigen::VectorXd& weights)
+{
+    const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
+    const auto p = static_cast<Eigen::Index>(used_.size());
+    coefficients_.resize(1 + q, p);
+    scatter_.resize(p);
+    Eigen::MatrixXd design(n, 1 + q);
+    for (Eigen::Index i = 0; i < n; ++i)
+        design.row(i) << 1, standardized(nulls.descriptors.row(i)).transpose();
+    for (Eigen::Index j = 0; j < p; ++j) {
+        const Eigen::VectorXd y = nulls.statistics.col(used_[static_cast<std::size_t>(j)]);
+        const Eigen::VectorXd w = y.array().isFinite().select(weights.array(), Eigen::ArrayXd::Zero(n)).matrix();
+        Eigen::VectorXd known = y.array().isFinite().select(y.array(), Eigen::ArrayXd::Zero(n)).matrix();
+        // one extreme campaign does not bend the line: two rounds, the second with what is left cut off
+        for (int round = 0; round < 2; ++round) {
+            Eigen::MatrixXd normal = design.transpose() * w.asDiagonal() * design;
+            normal.diagonal().tail(q).array() += ridge * w.sum();
+            coefficients_.col(j) = normal.ldlt().solve(design.transpose() * (w.asDiagonal() * known));
+            const Eigen::VectorXd expected = design * coefficients_.col(j);
+            const double freedom = std::max(w.sum() - 1 - static_cast<double>(q), 1.0);
+            scatter_(j) = std::sqrt(std::max((w.array() * (known - expected).array().square()).sum() / freedom, 1e-24));
+            const double most = 4 * scatter_(j);
+            known = expected + (known - expected).cwiseMax(-most).cwiseMin(most);
+        }
+    }
+}
+
+Eigen::VectorXd LawAdjustment::residual(const Eigen::VectorXd& descriptors, const Eigen::VectorXd& statistics) const
+{
+    const auto p = static_cast<Eigen::Index>(used_.size());
+    Eigen::VectorXd row(1 + descriptors.size());
+    row << 1, standardized(descriptors);
+    const Eigen::VectorXd expected = coefficients_.transpose() * row;
+    Eigen::VectorXd out(p);
+    for (Eigen::Index j = 0; j < p; ++j) {
+        const double value = statistics(used_[static_cast<std::size_t>(j)]);
+        out(j) = std::isfinite(value) ? std::clamp((value - expected(j)) / scatter_(j), -farthest, farthest) : 0;
+    }
+    return out;
+}
+
+void LawAdjustment::find_tails(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights)
+{
+    const Eigen::Index n = residuals.rows(), p = residuals.cols();
+    std::vector<double> distances;
+    for (int part = 0; part < parts; ++part) {
+        Eigen::VectorXd others = weights;
+        for (Eigen::Index i = part; i < n; i += parts)
+            others(i) = 0;
+        const Eigen::LLT<Eigen::MatrixXd> factor(shrunk_correlation(residuals, others));
+        for (Eigen::Index i = part; i < n; i += parts)
+            distances.push_back(factor.matrixL().solve(residuals.row(i).transpose()).squaredNorm());
+    }
+    double best = -HUGE_VAL;
+    const auto dimensions = static_cast<double>(p);
+    for (const double freedom : freedoms) {
+        // the scale at which the density is greatest: a fixed point (expectation maximization)
+        double scale = 1;
+        for (int round = 0; round < 50; ++round) {
+            double sum = 0;
+            for (const double d : distances)
+                sum += (freedom + dimensions) * d / (freedom + d / scale);
+            scale = std::max(sum / (dimensions * static_cast<double>(distances.size())), 1e-6);
+        }
+        double density = static_cast<double>(distances.size()) *
+                         (std::lgamma((freedom + dimensions) / 2) - std::lgamma(freedom / 2) -
+                          0.5 * dimensions * std::log(freedom * scale));
+        for (const double d : distances)
+            density += student_kernel(d / scale, dimensions, freedom);
+        if (density > best) {
+            best = density;
+            freedom_ = freedom;
+            scale_ = scale;
+        }
+    }
+}
+
+double LawAdjustment::descriptor_p_value(const Eigen::MatrixXd& nulls, const Eigen::VectorXd& descriptors)
+{
+    const Eigen::RowVectorXd mean = nulls.colwise().mean();
+    const Eigen::MatrixXd centred = nulls.rowwise() - mean;
+    Eigen::MatrixXd covariance = centred.transpose() * centred / static_cast<double>(nulls.rows() - 1);
+    covariance.diagonal().array() += 1e-9 * covariance.diagonal().array() + 1e-300;
+    const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
+    const auto distance = [&](const Eigen::VectorXd& d) { return d.dot(factor.solve(d)); };
+    const double own = distance(descriptors - mean.transpose());
+    Eigen::Index farther = 0;
+    for (Eigen::Index i = 0; i < nulls.rows(); ++i)
+        farther += distance(centred.row(i).transpose()) >= own ? 1 : 0;
+    return static_cast<double>(1 + farther) / static_cast<double>(1 + nulls.rows());
+}
+
+} // namespace stylobate

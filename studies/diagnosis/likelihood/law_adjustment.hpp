@@ -1,0 +1,71 @@
+#pragma once
+/// What healthy campaigns give at the law descriptors of one campaign: the expected statistics, and their joint
+/// scatter.
+///
+/// Statistics depend on the healthy contact law, which is not known; the law descriptors of a campaign show it. In a
+/// neighbourhood of the campaign's descriptors the expected statistics are a linear function of the descriptors (local
+/// linear regression: Cleveland, "Robust locally weighted regression and smoothing scatterplots", Journal of the
+/// American Statistical Association 74 (1979); regression adjustment: Beaumont, Zhang and Balding, "Approximate
+/// Bayesian computation in population genetics", Genetics 162 (2002)). The correlation of the residuals is shrunk
+/// towards none (Schaefer and Strimmer, "A shrinkage approach to large-scale covariance matrix estimation", Statistical
+/// Applications in Genetics and Molecular Biology 4 (2005)), and their tails are Student's.
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace stylobate {
+
+/// Campaigns as numbers, a row each.
+struct CampaignTable {
+    Eigen::MatrixXd descriptors; ///< (n x q) finite
+    Eigen::MatrixXd statistics;  ///< (n x p) NaN where a campaign does not have it
+};
+
+class LawAdjustment {
+public:
+    /// @param nulls  healthy campaigns, at least 20 and more than twice the descriptors
+    /// @param at     (q) descriptors about which the regression is local
+    /// @param wanted (p) whether a statistic is to be used: those that the measured campaign has
+    LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& at, const std::vector<bool>& wanted);
+
+    /// Columns of the statistics that are used: wanted, and finite in most of the nulls.
+    const std::vector<Eigen::Index>& used() const { return used_; }
+
+    /// (used) each statistic less what is expected at the descriptors, over its scatter; 0 where it is missing. Farther
+    /// than `farthest` it is cut off.
+    Eigen::VectorXd residual(const Eigen::VectorXd& descriptors, const Eigen::VectorXd& statistics) const;
+    static constexpr double farthest = 8;
+
+    /// (used x used) correlation of the residuals of nulls.
+    const Eigen::MatrixXd& correlation() const { return correlation_; }
+    /// Degrees of freedom of Student's tails, and the factor on the correlation, both found by leaving parts out.
+    double freedom() const { return freedom_; }
+    double scale() const { return scale_; }
+
+    /// Probability that descriptors of the family lie as far from its middle as these: the rank of their Mahalanobis
+    /// distance among those of the nulls, (1 + as far or farther) / (1 + n).
+    static double descriptor_p_value(const Eigen::MatrixXd& nulls, const Eigen::VectorXd& descriptors);
+
+private:
+    void regress(const CampaignTable& nulls, const Eigen::VectorXd& weights);
+    void find_tails(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights);
+    Eigen::VectorXd standardized(const Eigen::VectorXd& descriptors) const;
+
+    std::vector<Eigen::Index> used_;
+    Eigen::VectorXd middle_, spread_; ///< (q) of the descriptors
+    Eigen::MatrixXd coefficients_;    ///< (1 + q x used)
+    Eigen::VectorXd scatter_;         ///< (used)
+    Eigen::MatrixXd correlation_;
+    double freedom_ = 0, scale_ = 1;
+};
+
+/// The sample correlation of rows with weights, shrunk towards the identity by as much as its own noise asks for.
+/// @param residuals (n x p) of mean near 0 and scatter near 1   @param weights (n)
+Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights);
+
+/// log of the multivariate Student density, but for what does not depend on the distance.
+/// @param distance2 Mahalanobis   @param p dimensions
+double student_kernel(double distance2, double p, double freedom);
+
+} // namespace stylobate

@@ -1,0 +1,124 @@
+#include "studies/diagnosis/likelihood/synthetic_likelihood.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+constexpr int sizes = 9; // of a cause, over the range that was simulated
+// Variance along a common pattern, in units of a statistic's own: as good as unknown.
+constexpr double unknown = 1e4;
+
+double half_log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor)
+{
+    return factor.matrixLLT().diagonal().array().log().sum();
+}
+
+/// Sizes of equal prior weight, both ends included, without the neutral one.
+std::vector<double> grid(const ShiftModel& cause)
+{
+    std::vector<double> out;
+    const double from = cause.least() > 0 ? 0 : cause.least(), to = cause.most() < 0 ? 0 : cause.most();
+    for (int i = 0; i <= sizes; ++i) {
+        const double z = from + (to - from) * i / sizes;
+        if (std::fabs(z) > 1e-9 * (to - from))
+            out.push_back(z);
+    }
+    return out;
+}
+
+/// A quantile of the sizes by the weights of the grid's points, linear between the middles of the cells.
+double weighted_quantile(const std::vector<double>& size, const std::vector<double>& weight, double part)
+{
+    double below = 0;
+    for (std::size_t i = 0; i < size.size(); ++i) {
+        if (below + weight[i] >= part) {
+            const double left =
+                i == 0 ? size[0] - (size.size() > 1 ? (size[1] - size[0]) / 2 : 0) : (size[i - 1] + size[i]) / 2;
+            const double right = i + 1 == size.size() ? size[i] + (i > 0 ? (size[i] - size[i - 1]) / 2 : 0)
+                                                      : (size[i] + size[i + 1]) / 2;
+            return left + (right - left) * (weight[i] > 0 ? (part - below) / weight[i] : 0.5);
+        }
+        below += weight[i];
+    }
+    return size.back();
+}
+
+} // namespace
+
+SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes,
+                                         const Eigen::MatrixXd& common)
+    : freedom_(law.freedom())
+{
+    Eigen::MatrixXd covariance = law.scale() * law.correlation();
+    if (common.rows() > 0)
+        covariance += unknown * common.transpose() * common;
+    factor_.compute(covariance);
+    log_determinant_ = half_log_determinant(factor_);
+    for (const ShiftModel& cause : causes) {
+        std::vector<Point> points;
+        for (const double size : grid(cause)) {
+            Point point;
+            point.size = size;
+            point.mean = cause.mean(size);
+            Eigen::MatrixXd wider = covariance;
+            wider.diagonal().array() += cause.variance(size);
+            point.factor.compute(wider);
+            point.log_determinant = half_log_determinant(point.factor);
+            points.push_back(std::move(point));
+        }
+        points_.push_back(std::move(points));
+    }
+}
+
+double SyntheticLikelihood::log_density(const Eigen::LLT<Eigen::MatrixXd>& factor, double log_determinant,
+                                        const Eigen::VectorXd& residual) const
+{
+    const double distance = factor.matrixL().solve(residual).squaredNorm();
+    return student_kernel(distance, static_cast<double>(residual.size()), freedom_) - log_determinant;
+}
+
+std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual,
+                                                     const Eigen::VectorXd& given) const
+{
+    const Eigen::VectorXd left = given.size() > 0 ? Eigen::VectorXd(residual - given) : residual;
+    const double nothing = log_density(factor_, log_determinant_, left);
+    std::vector<CauseLikelihood> out;
+    for (const std::vector<Point>& points : points_) {
+        std::vector<double> gain, size, weight;
+        for (const Point& point : points) {
+            gain.push_back(log_density(point.factor, point.log_determinant, left - point.mean) - nothing);
+            size.push_back(point.size);
+        }
+        const double best = *std::max_element(gain.begin(), gain.end());
+        double sum = 0;
+        for (const double g : gain) {
+            weight.push_back(std::exp(g - best));
+            sum += weight.back();
+        }
+        CauseLikelihood cause;
+        cause.gain = best + std::log(sum / static_cast<double>(gain.size()));
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            weight[i] /= sum;
+            cause.size += weight[i] * size[i];
+        }
+        cause.low = weighted_quantile(size, weight, 0.05);
+        cause.high = weighted_quantile(size, weight, 0.95);
+        out.push_back(cause);
+    }
+    return out;
+}
+
+double SyntheticLikelihood::distance2(const Eigen::VectorXd& residual) const
+{
+    return factor_.matrixL().solve(residual).squaredNorm();
+}
+
+Eigen::VectorXd SyntheticLikelihood::whitened(const Eigen::VectorXd& residual) const
+{
+    return factor_.matrixL().solve(residual);
+}
+
+} // namespace stylobate

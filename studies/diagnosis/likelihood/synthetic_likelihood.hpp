@@ -1,0 +1,58 @@
+#pragma once
+/// The likelihood of a campaign's statistics under each cause, by their simulated mean and covariance: synthetic
+/// likelihood (Wood, "Statistical inference for noisy nonlinear ecological dynamic systems", Nature 466 (2010)), with
+/// Student's tails.
+
+#include "studies/diagnosis/likelihood/law_adjustment.hpp"
+#include "studies/diagnosis/likelihood/shift_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace stylobate {
+
+/// What one campaign says of one cause.
+struct CauseLikelihood {
+    double gain = 0;          ///< log of the likelihood over that of no cause, averaged over the sizes [nats]
+    double size = 0;          ///< z: mean of the posterior
+    double low = 0, high = 0; ///< 90 % interval
+};
+
+class SyntheticLikelihood {
+public:
+    /// @param law    what healthy campaigns give at this campaign's descriptors
+    /// @param causes what each cause does, in the same residuals
+    /// @param common (directions x used) patterns along which the residuals may lie with any size: shifts that are
+    ///        common to all joints, of a campaign whose healthy law the family of laws does not have; usually none
+    SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes,
+                        const Eigen::MatrixXd& common = {});
+
+    /// @param residual (used) of the campaign   @param given a shift that is known to be there; empty: none
+    /// @returns one for each cause
+    std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual, const Eigen::VectorXd& given = {}) const;
+
+    /// Squared Mahalanobis distance of the residual, over the scale of the tails.
+    double distance2(const Eigen::VectorXd& residual) const;
+    /// (used) the residual in directions that are independent and of scatter 1.
+    Eigen::VectorXd whitened(const Eigen::VectorXd& residual) const;
+
+private:
+    /// One size of one cause: the log likelihood needs its mean and the factor of its covariance.
+    struct Point {
+        double size = 0;
+        Eigen::VectorXd mean;
+        Eigen::LLT<Eigen::MatrixXd> factor;
+        double log_determinant = 0;
+    };
+    double log_density(const Eigen::LLT<Eigen::MatrixXd>& factor, double log_determinant,
+                       const Eigen::VectorXd& residual) const;
+
+    double freedom_;
+    Eigen::LLT<Eigen::MatrixXd> factor_;
+    double log_determinant_ = 0;
+    std::vector<std::vector<Point>> points_; ///< [cause][size]
+};
+
+} // namespace stylobate
