@@ -1,0 +1,241 @@
+#include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace stylobate {
+
+namespace {
+
+/// Fewer labelled campaigns than these do not show a shift.
+constexpr Eigen::Index least_labelled = 3;
+
+Eigen::Index largest(const std::vector<CauseLikelihood>& causes)
+{
+    const auto at =
+        std::max_element(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
+    return at - causes.begin();
+}
+
+CampaignTable rows_of(const CampaignTable& table, const std::vector<Eigen::Index>& rows)
+{
+    return {table.descriptors(rows, Eigen::all), table.statistics(rows, Eigen::all)};
+}
+
+/// A fit without one fold of the healthy and of the labelled campaigns; fold -1: with all.
+class Fit {
+public:
+    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, bool contrasts, int folds, int left_out)
+        : mechanism_(evidence.mechanism)
+    {
+        const auto kept = [&](Eigen::Index i) { return left_out < 0 || i % folds != left_out; };
+        std::vector<Eigen::Index> nulls;
+        for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i)
+            if (kept(i))
+                nulls.push_back(i);
+        law_ = std::make_unique<LawAdjustment>(rows_of(evidence.nulls, nulls), evidence.descriptors, wanted);
+
+        std::map<int, std::vector<Eigen::Index>> of_cause;
+        for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
+            if (kept(static_cast<Eigen::Index>(i)))
+                of_cause[evidence.labelled.cause[i]].push_back(static_cast<Eigen::Index>(i));
+        for (const auto& [cause, rows] : of_cause) {
+            if (static_cast<Eigen::Index>(rows.size()) < least_labelled)
+                continue;
+            Eigen::MatrixXd residuals(static_cast<Eigen::Index>(rows.size()),
+                                      static_cast<Eigen::Index>(law_->used().size()));
+            Eigen::VectorXd sizes(residuals.rows());
+            for (Eigen::Index k = 0; k < residuals.rows(); ++k) {
+                const Eigen::Index row = rows[static_cast<std::size_t>(k)];
+                residuals.row(k) = residual(evidence.labelled.table, row).transpose();
+                sizes(k) = evidence.labelled.size[static_cast<std::size_t>(row)];
+            }
+            models_.emplace_back(residuals, sizes);
+            causes_.push_back(cause);
+        }
+        likelihood_ = std::make_unique<SyntheticLikelihood>(
+            *law_, models_, contrasts ? common_patterns(evidence.common) : Eigen::MatrixXd());
+    }
+
+    Eigen::VectorXd residual(const CampaignTable& table, Eigen::Index row) const
+    {
+        return law_->residual(table.descriptors.row(row), table.statistics.row(row));
+    }
+    const LawAdjustment& law() const { return *law_; }
+    const SyntheticLikelihood& likelihood() const { return *likelihood_; }
+    const std::vector<ShiftModel>& models() const { return models_; }
+    const std::vector<int>& causes() const { return causes_; } ///< candidate of each model
+    int mechanism(Eigen::Index model) const
+    {
+        return mechanism_[static_cast<std::size_t>(causes_[static_cast<std::size_t>(model)])];
+    }
+
+    /// How far the best mechanism is before all others together [nats].
+    double lead(const std::vector<CauseLikelihood>& found, Eigen::Index best) const
+    {
+        double sum = 1; // none of them
+        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m)
+            if (mechanism(m) != mechanism(best))
+                sum += std::exp(std::min(found[static_cast<std::size_t>(m)].gain, 300.0));
+        return found[static_cast<std::size_t>(best)].gain - std::log(sum);
+    }
+    /// Squared distance of what is left beside the best cause.
+    double left(const Eigen::VectorXd& residual, const CauseLikelihood& cause, Eigen::Index model) const
+    {
+        return likelihood_->distance2(residual - models_[static_cast<std::size_t>(model)].mean(cause.size));
+    }
+
+private:
+    /// Of each group of statistics that a law shifts alike, the direction in which all of them move together.
+    Eigen::MatrixXd common_patterns(const std::vector<int>& group) const
+    {
+        std::map<int, std::vector<Eigen::Index>> members;
+        for (std::size_t k = 0; k < law_->used().size(); ++k)
+            if (const int g = group[static_cast<std::size_t>(law_->used()[k])]; g >= 0)
+                members[g].push_back(static_cast<Eigen::Index>(k));
+        Eigen::MatrixXd patterns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(members.size()),
+                                                         static_cast<Eigen::Index>(law_->used().size()));
+        Eigen::Index row = 0;
+        for (const auto& [g, columns] : members) {
+            for (const Eigen::Index column : columns)
+                patterns(row, column) = 1 / std::sqrt(static_cast<double>(columns.size()));
+            ++row;
+        }
+        return patterns;
+    }
+
+    std::vector<int> mechanism_;
+    std::unique_ptr<LawAdjustment> law_;
+    std::vector<ShiftModel> models_;
+    std::vector<int> causes_;
+    std::unique_ptr<SyntheticLikelihood> likelihood_;
+};
+
+/// What the campaigns that were left out of a fit were taken for.
+struct LeftOut {
+    std::vector<double> null_gains, null_left;
+    std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
+    std::map<int, std::pair<double, double>> right; ///< candidate: named rightly, in all
+    std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
+    std::map<int, double> labelled_of;              ///< mechanism: in all
+    std::vector<double> labelled_left;              ///< distance beside the best cause
+};
+
+/// @param gain_needed a labelled campaign of less gain is not named
+void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int folds, int fold, LeftOut& out,
+                      const std::function<bool(double)>& is_named)
+{
+    for (Eigen::Index i = fold; i < evidence.nulls.statistics.rows(); i += folds) {
+        const Eigen::VectorXd residual = fit.residual(evidence.nulls, i);
+        const auto found = fit.likelihood().of(residual);
+        const Eigen::Index best = largest(found);
+        if (!is_named) {
+            out.null_gains.push_back(found[static_cast<std::size_t>(best)].gain);
+            out.null_left.push_back(fit.left(residual, found[static_cast<std::size_t>(best)], best));
+        }
+    }
+    if (!is_named)
+        return;
+    const LabelledCampaigns& labelled = evidence.labelled;
+    for (std::size_t i = static_cast<std::size_t>(fold); i < labelled.cause.size();
+         i += static_cast<std::size_t>(folds)) {
+        const Eigen::VectorXd residual = fit.residual(labelled.table, static_cast<Eigen::Index>(i));
+        const auto found = fit.likelihood().of(residual);
+        const Eigen::Index best = largest(found);
+        const CauseLikelihood& cause = found[static_cast<std::size_t>(best)];
+        const int truth = evidence.mechanism[static_cast<std::size_t>(labelled.cause[i])];
+        const bool named = is_named(cause.gain);
+        const bool right = fit.mechanism(best) == truth;
+        auto& [rightly, all] = out.right[labelled.cause[i]];
+        all += 1;
+        rightly += named && right ? 1 : 0;
+        if (!named)
+            continue;
+        out.named.push_back({fit.lead(found, best), right});
+        out.taken[{truth, fit.mechanism(best)}] += 1;
+        out.labelled_of[truth] += 1;
+        out.labelled_left.push_back(fit.left(residual, cause, best));
+    }
+}
+
+std::vector<bool> finite(const Eigen::VectorXd& values)
+{
+    std::vector<bool> out;
+    for (const double value : values)
+        out.push_back(std::isfinite(value));
+    return out;
+}
+
+} // namespace
+
+EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const EnsembleRule& rule)
+{
+    EnsembleVerdict out;
+    out.causes.resize(evidence.mechanism.size());
+    out.power.assign(evidence.mechanism.size(), 0);
+    out.law_p_value = LawAdjustment::descriptor_p_value(evidence.nulls.descriptors, evidence.descriptors);
+    out.contrasts = out.law_p_value < rule.outside;
+    const std::vector<bool> wanted = finite(evidence.statistics);
+    const Fit fit(evidence, wanted, out.contrasts, rule.folds, -1);
+    out.used = fit.law().used();
+    out.residual = fit.law().residual(evidence.descriptors, evidence.statistics);
+    if (fit.models().empty())
+        return out;
+    const auto found = fit.likelihood().of(out.residual);
+    for (std::size_t m = 0; m < found.size(); ++m)
+        out.causes[static_cast<std::size_t>(fit.causes()[m])] = found[m];
+    const Eigen::Index best = largest(found);
+    const CauseLikelihood& cause = found[static_cast<std::size_t>(best)];
+    out.best = fit.causes()[static_cast<std::size_t>(best)];
+    out.shift = fit.models()[static_cast<std::size_t>(best)].mean(cause.size);
+
+    std::vector<std::unique_ptr<Fit>> folds;
+    LeftOut left_out;
+    for (int fold = 0; fold < rule.folds; ++fold) {
+        folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, rule.folds, fold));
+        look_at_left_out(evidence, *folds.back(), rule.folds, fold, left_out, {});
+    }
+    const auto is_named = [&](double gain) { return conformal_p_value(left_out.null_gains, gain) <= rule.named; };
+    for (int fold = 0; fold < rule.folds; ++fold)
+        look_at_left_out(evidence, *folds[static_cast<std::size_t>(fold)], rule.folds, fold, left_out, is_named);
+
+    out.null_gains = left_out.null_gains;
+    out.p_value = conformal_p_value(left_out.null_gains, cause.gain);
+    out.named = is_named(cause.gain);
+    out.probability = CalibratedProbability(left_out.named)(fit.lead(found, best));
+    for (const auto& [candidate, counts] : left_out.right)
+        out.power[static_cast<std::size_t>(candidate)] = counts.first / counts.second;
+
+    std::set<int> rivals;
+    const int mechanism = fit.mechanism(best);
+    for (std::size_t m = 0; m < found.size(); ++m) {
+        const int other = fit.mechanism(static_cast<Eigen::Index>(m));
+        if (other == mechanism)
+            continue;
+        const auto taken = left_out.taken.find({other, mechanism});
+        const bool confused = taken != left_out.taken.end() &&
+                              taken->second > rule.confused * left_out.labelled_of.at(other) &&
+                              found[m].gain > cause.gain - 3 * rule.apart;
+        if (found[m].gain > cause.gain - rule.apart || confused)
+            rivals.insert(other);
+    }
+    out.set.assign(rivals.begin(), rivals.end());
+
+    // what is left is compared with both: healthy campaigns beside the cause that suits them best, and labelled ones
+    const double left = fit.left(out.residual, cause, best);
+    const auto exceeds = [&](const std::vector<double>& others) {
+        const double p = conformal_p_value(others, left);
+        out.left_p_value = std::max(out.left_p_value, p);
+        return p <= std::max(rule.unexplained, 1 / (1 + static_cast<double>(others.size())));
+    };
+    out.left_p_value = 0;
+    const bool beyond_nulls = exceeds(left_out.null_left), beyond_labelled = exceeds(left_out.labelled_left);
+    out.unexplained = beyond_nulls && beyond_labelled;
+    return out;
+}
+
+} // namespace stylobate

@@ -1,0 +1,63 @@
+#pragma once
+/// From simulated campaigns to what a measured one shows: which cause, with which probability, or none, or something
+/// that no cause describes.
+///
+/// Everything that is claimed is checked on campaigns that were left out of the fit: the null distribution of the
+/// largest gain over all candidates on healthy ones, the probability that the name is right and the confusions on
+/// labelled ones.
+
+#include "studies/diagnosis/likelihood/conformal.hpp"
+#include "studies/diagnosis/likelihood/synthetic_likelihood.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// The fixed numbers of the rule.
+struct EnsembleRule {
+    double named = 0.015;      ///< largest p-value of the largest gain at which a cause is named
+    double outside = 0.01;     ///< p-value of the descriptors below which the law is outside the family
+    double apart = 3;          ///< nats within which rivals are in the set with the best
+    double confused = 0.2;     ///< share of a rival's left-out campaigns that are called by the best's name
+    double unexplained = 0.01; ///< p-value of what is left beside the best cause
+    int folds = 5;
+};
+
+struct LabelledCampaigns {
+    CampaignTable table;      ///< (n)
+    std::vector<int> cause;   ///< (n) index of the candidate
+    std::vector<double> size; ///< (n) z
+};
+
+struct EnsembleEvidence {
+    CampaignTable nulls;
+    LabelledCampaigns labelled;
+    std::vector<int> mechanism; ///< (causes) candidates of one mechanism at several places have one number
+    /// (p) statistics that a common law shifts alike, as the same one of all joints, have one number; -1: by itself
+    std::vector<int> common;
+    Eigen::VectorXd descriptors, statistics; ///< of the measured campaign
+};
+
+struct EnsembleVerdict {
+    std::vector<CauseLikelihood> causes; ///< (candidates)
+    int best = -1;                       ///< the candidate of the largest gain; -1: none can be judged
+    double p_value = 1;                  ///< of that gain where nothing is hidden
+    bool named = false;
+    double probability = 0;  ///< that the mechanism named is right
+    std::vector<int> set;    ///< mechanisms that these data do not distinguish from the best
+    double law_p_value = 1;  ///< of the law descriptors in the family
+    bool contrasts = false;  ///< the law is outside the family: only contrasts between joints were used
+    double left_p_value = 1; ///< of what is left beside the best cause
+    bool unexplained = false;
+    Eigen::VectorXd residual;       ///< (used) of the measured campaign
+    Eigen::VectorXd shift;          ///< (used) what the best cause makes of it
+    std::vector<Eigen::Index> used; ///< columns of the statistics
+    std::vector<double> null_gains; ///< largest gains of healthy campaigns, each left out
+    /// Share of left-out labelled campaigns of each candidate that are named with the right mechanism: what these data
+    /// can show.
+    std::vector<double> power;
+};
+
+EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const EnsembleRule& rule = {});
+
+} // namespace stylobate
