@@ -30,7 +30,7 @@ void write_campaign(const fs::path& file, const Flaw& flaw)
     hdf5::write_real(made.id(), "gravity_m_s2", 9.81);
     const hdf5::Handle specimen = hdf5::create_group(made.id(), "specimen");
     hdf5::write_real(specimen.id(), "friction_nominal", 0.7);
-    const auto column = [&](const char* name, std::vector<double> values) {
+    const auto column = [&](const char* name, const std::vector<double>& values) {
         hdf5::write_array(specimen.id(), name, values, {drums}, "");
     };
     column("half_width_m", {flaw.half_width_m, 0.024});

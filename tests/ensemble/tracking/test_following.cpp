@@ -104,7 +104,7 @@ Bits bits_of(const FollowResult& result)
     return bits;
 }
 
-std::vector<FollowResult> run(const std::vector<FollowJob>& jobs, RunOptions options = {best_isa(), 1})
+std::vector<FollowResult> run(const std::vector<FollowJob>& jobs, const RunOptions& options = {best_isa(), 1})
 {
     Observer observer;
     const FollowReport report = follow(jobs, options, observer);

@@ -155,7 +155,7 @@ TEST_F(ResultStore, HasOneWriterAtATime)
     expect_part(text, "is being written by another run");
     const pid_t child = ::fork();
     if (child == 0) {
-        writer.release(); // as a process of its own, which only knows the name
+        (void)writer.release(); // as a process of its own, which only knows the name
         try {
             ResultWriter::resume(file, sample_header(10));
         } catch (const InputError&) {
