@@ -242,10 +242,11 @@ TEST(Twins, AStandingColumnKeepsThemAsTheyAre)
 TEST(Twins, ABlockOnAWideFloorIsTheSameWhereverItStands)
 {
     // whatever it does there, rocking and sliding included, the twin does it a little to the right: nothing grows
+    const std::string floor_and_block =
+        "structure={drums=[{width_m=1.0,height_m=0.05,mass_kg=10},{width_m=0.048,height_m=0.12,mass_kg=0.56}],"
+        "fixed_blocks=1,depth_m=0.048,kind=\"column\"}";
     const Study study = twins_study(
-        {"structure={drums=[{width_m=1.0,height_m=0.05,mass_kg=10},{width_m=0.048,height_m=0.12,mass_kg=0.56}],"
-         "fixed_blocks=1,depth_m=0.048,kind=\"column\"}",
-         "twins.moves_m=[1e-6]", "twins.step_ratio=1", "twins.precision=false", "twins.forms=false"},
+        {floor_and_block, "twins.moves_m=[1e-6]", "twins.step_ratio=1", "twins.precision=false", "twins.forms=false"},
         "{from=6.0,to=6.0,count=1}", "{from=7.0,to=7.0,count=1}", 4);
     const std::vector<FollowedTwin> pairs = follow(study);
     ASSERT_EQ(pairs.size(), 4U);
