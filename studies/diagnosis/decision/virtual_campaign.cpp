@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -56,6 +57,42 @@ struct DrawnSpecimen {
     std::string contacts;
 };
 
+/// Joints and blocks as they vary from specimen to specimen.
+/// @param friction of all joints, over the study's
+void scatter_specimen(const Specimen& specimen, const HealthyScatter& scatter, double friction, Draws& draw,
+                      Realization& r)
+{
+    for (Joint& joint : r.joints)
+        joint.friction *= friction * (1 + scatter.friction * draw.normal());
+    for (Block& block : r.blocks) {
+        const double wider = 1 + specimen.width_tolerance * draw.normal();
+        const double heavier = 1 + specimen.mass_tolerance * draw.normal();
+        if (block.fixed)
+            continue;
+        block.half_width_m *= wider;
+        block.mass_kg *= heavier;
+        block.inertia_kg_m2 *= heavier * wider * wider;
+    }
+}
+
+/// A specimen with a contact law that is given.
+DrawnSpecimen draw_specimen(const HealthyLaw& law, const Campaign& measured, const Study& about,
+                            const SpecimenStructure& built, std::uint64_t seed, std::uint64_t number,
+                            const HealthyScatter& scatter, const std::vector<SizedCause>& causes)
+{
+    Draws draw(seed, number, Stream::virtual_specimen);
+    Study study = about;
+    apply_law(law, study);
+    DrawnSpecimen out;
+    out.contacts = law.words();
+    out.realization = nominal_realization(study, built.structure);
+    scatter_specimen(measured.specimen, scatter, 1, draw, out.realization);
+    for (const SizedCause& cause : causes)
+        apply_cause(cause, built, out.realization);
+    apply_law(law, measured.specimen, built, study.run.step_fraction, out.realization);
+    return out;
+}
+
 DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const SpecimenStructure& built,
                             std::uint64_t seed, std::uint64_t number, const HealthyScatter& scatter,
                             const std::vector<SizedCause>& causes)
@@ -88,9 +125,8 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
     Realization& r = out.realization;
     r = nominal_realization(study, built.structure);
     for (Joint& joint : r.joints) {
-        joint.friction *= friction * (1 + scatter.friction * draw.normal());
         if (!scatter.contacts)
-            continue;
+            break;
         joint.extension.face_damping = share;
         joint.extension.rate_s_m = rate;
         if (exponent > 1) {
@@ -99,15 +135,7 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
             joint.extension.reference_overlap_m2 = upper.mass_kg * r.gravity_m_s2 / joint.normal_stiffness_n_m2;
         }
     }
-    for (Block& block : r.blocks) {
-        const double wider = 1 + measured.specimen.width_tolerance * draw.normal();
-        const double heavier = 1 + measured.specimen.mass_tolerance * draw.normal();
-        if (block.fixed)
-            continue;
-        block.half_width_m *= wider;
-        block.mass_kg *= heavier;
-        block.inertia_kg_m2 *= heavier * wider * wider;
-    }
+    scatter_specimen(measured.specimen, scatter, friction, draw, r);
     r.extended = true;
     for (const SizedCause& cause : causes)
         apply_cause(cause, built, r);
@@ -168,6 +196,7 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
                                    const std::vector<SizedCause>& causes, const RunOptions& options, Observer& observer)
 {
     VirtualCampaigns out;
+    assert((scatter.laws.empty() || scatter.laws.size() == count) && "one law for each campaign");
     const SpecimenStructure built = build_specimen(measured.specimen);
     std::vector<FollowJob> jobs;
     std::vector<std::pair<std::size_t, std::size_t>> job_of; // campaign, run
@@ -186,12 +215,17 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
         times[i] = seen;
     }
     for (std::uint64_t c = 0; c < count; ++c) {
-        const DrawnSpecimen specimen = draw_specimen(measured, study, built, seed, first + c, scatter, causes);
+        const DrawnSpecimen specimen =
+            scatter.laws.empty()
+                ? draw_specimen(measured, study, built, seed, first + c, scatter, causes)
+                : draw_specimen(scatter.laws[c], measured, study, built, seed, first + c, scatter, causes);
         Campaign campaign;
         campaign.source = fmt::format("virtual campaign {}", first + c);
         campaign.specimen = measured.specimen;
         campaign.runs = measured.runs;
         out.contacts.push_back(specimen.contacts);
+        if (!scatter.laws.empty())
+            out.laws.push_back(scatter.laws[c]);
         Draws put(seed, first + c, Stream::virtual_placement);
         for (std::size_t i = 0; i < measured.runs.size(); ++i) {
             campaign.runs[i].table = {};

@@ -11,6 +11,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "studies/diagnosis/tests/law_family.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <cstdint>
@@ -29,17 +30,22 @@ struct HealthyScatter {
     double most_damping = 0.5;
     double most_exponent = 1.4; ///< of the force, uniform from 1; contact form "area" alone
     double most_rate_s_m = 1.0; ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
+    /// Of each campaign, from a wide family (`law_family.hpp`): they take the place of the contacts and of the common
+    /// friction above. Empty: none.
+    std::vector<HealthyLaw> laws = {};
 };
 
 struct VirtualCampaigns {
     std::vector<Campaign> campaigns;   ///< run by run as the measured one, without what a collapse ends
     std::vector<std::string> contacts; ///< of each, in words
+    std::vector<HealthyLaw> laws;      ///< of each, where they were given
     std::uint64_t simulations = 0;
     std::uint64_t block_steps = 0;
     bool complete = false; ///< false: the observer stopped it
 };
 
 /// @param study contacts about which is drawn; its structure is the specimen's
+/// @param scatter with no laws, or one for each campaign
 /// @param causes that act in all of them, for campaigns that are to show something; of the base: none
 /// @param first number of the first campaign: each is a pure function of (seed, number)
 VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,

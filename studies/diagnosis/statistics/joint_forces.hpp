@@ -1,0 +1,51 @@
+#pragma once
+/// What Newton's law says of the joints at intervals of 0.08 sqrt(height / g): friction in slides that last, and the
+/// moment about the corner on which a joint rocks, with what drag and eccentricities would make of it.
+///
+/// A joint's force follows from the accelerations of the blocks that it carries, where each block stands on one other
+/// (a column). In a colonnade it does not.
+
+#include "studies/diagnosis/statistics/joint_sums.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// (n_joint) the blocks that each joint carries; empty where a block stands on several others.
+std::vector<std::vector<int>> carried_blocks(const Specimen& specimen);
+
+/// A joint that rocks, at one time.
+struct RockingSample {
+    double value = 0;  ///< sign x moment about the corner over weight x half width: 0 under the law
+    double normal = 0; ///< normal force over the weight: what a turning point inside its corner adds
+    std::vector<double> drag, eccentricity; ///< (carried blocks) what a unit of each adds
+};
+
+class JointForces {
+public:
+    /// @pre carried_blocks(specimen) is not empty
+    explicit JointForces(const Specimen& specimen);
+
+    /// Adds the slides of a joint in a run to its sums, and its rocking samples to those it has.
+    /// @param open_rad beyond which the joint is open
+    void add(std::size_t joint, const JointFaces& faces, const JointSeries& series, const CoarseRun& run,
+             double open_rad, JointSums& sums);
+
+    /// Scores of drag and of eccentricity of each block, one at a time beside the turning points of the joints: of a
+    /// cause with column c and robust residuals r of scale s, sum c r / (s sqrt(sum c^2)). Without an effect it has the
+    /// mean 0, and its scale does not depend on the number of samples. NaN: fewer than 10 samples.
+    /// @return (2 n_block) drag of all blocks, then eccentricity
+    std::vector<double> scores() const;
+
+private:
+    Specimen specimen_;
+    std::vector<std::vector<int>> above_;
+    std::vector<double> weight_n_;                    ///< (n_joint)
+    double slip_m_s_;                                 ///< least speed of the lowest class
+    std::vector<std::vector<RockingSample>> samples_; ///< (n_joint)
+};
+
+/// Least slip speeds of the classes [m/s]: 0.01, 0.03 and 0.1 of sqrt(g x height).
+std::array<double, slip_classes> slip_class_speeds(const Specimen& specimen);
+
+} // namespace stylobate

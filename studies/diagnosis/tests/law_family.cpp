@@ -1,0 +1,238 @@
+#include "studies/diagnosis/tests/law_family.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/random.hpp"
+#include "ensemble/sampling/distribution.hpp"
+#include "ensemble/statics/step_bound.hpp"
+#include "io/keys/words.hpp"
+#include "studies/diagnosis/laws/law_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// Places in the stream of a specimen's draws: far behind those of its scatter. Numbers are permanent.
+enum class LawDraw : std::uint64_t {
+    stiffness = 1u << 16,
+    shear,
+    exponent,
+    damping,
+    tangential_damping,
+    where,
+    face_share,
+    rate,
+    inset,
+    friction
+};
+
+constexpr double impact_part = 0.1; // of sqrt(g x height)
+constexpr double least_tangential = 0.01, most_tangential = 0.2;
+
+struct Range {
+    double least, most;
+};
+
+/// Ratios of the dashpots.
+Range damping_of(DampingKind kind)
+{
+    switch (kind) {
+    case DampingKind::light:
+    case DampingKind::rate:
+        return {0.003, 0.03};
+    case DampingKind::dashpot:
+        return {0.03, 0.5};
+    case DampingKind::plastic:
+        return {0.5, 1};
+    }
+    return {};
+}
+
+double log_uniform(Range range, double u)
+{
+    return range.least * std::pow(range.most / range.least, u);
+}
+
+double rate_of(DampingKind kind, double u)
+{
+    switch (kind) {
+    case DampingKind::light:
+        return 0;
+    case DampingKind::rate:
+        return log_uniform({0.5, 5}, u);
+    case DampingKind::dashpot:
+    case DampingKind::plastic:
+        return u;
+    }
+    return 0;
+}
+
+template <class Part>
+std::vector<Part> left_of(std::vector<Part> parts, Part part)
+{
+    std::erase(parts, part);
+    if (parts.empty())
+        throw InputError("A family of contact laws needs at least one form and one kind of damping.");
+    return parts;
+}
+
+/// Of a softening bed (q < 1) `step_bound` looks at small loads alone; the form `points` is stiffest at large ones, and
+/// so is damping by rate. These are the linear bed's, or less.
+double safe_step(const Realization& realization)
+{
+    Realization linear = realization;
+    bool softens = false;
+    for (Joint& joint : linear.joints) {
+        softens = softens || joint.extension.force_exponent < 1;
+        joint.extension.force_exponent = 1;
+    }
+    const double step = step_bound(realization).dt_s;
+    return softens ? std::min(step, step_bound(linear).dt_s) : step;
+}
+
+double standard_normal(double u)
+{
+    Spread spread;
+    spread.sd = 1;
+    static const Distribution standard(spread, "normal", 0);
+    return standard.value(u);
+}
+
+} // namespace
+
+const char* to_string(DampingKind kind)
+{
+    switch (kind) {
+    case DampingKind::light:
+        return "light";
+    case DampingKind::dashpot:
+        return "dashpot";
+    case DampingKind::rate:
+        return "rate";
+    case DampingKind::plastic:
+        return "plastic";
+    }
+    return "";
+}
+
+std::vector<double> HealthyLaw::numbers() const
+{
+    return {form == ContactForm::two_corner ? 1.0 : 0.0,
+            form == ContactForm::points ? 1.0 : 0.0,
+            std::log(stiffness),
+            std::log(shear),
+            std::log(exponent),
+            std::log(damping),
+            std::log(tangential_damping),
+            form == ContactForm::area ? face_share : 1,
+            std::log1p(rate),
+            inset,
+            std::log(friction)};
+}
+
+std::vector<std::string> HealthyLaw::number_names()
+{
+    return {
+        "two_corner", "points",    "ln_stiffness", "ln_shear",   "ln_exponent", "ln_damping", "ln_tangential_damping",
+        "face_share", "ln_1_rate", "inset",        "ln_friction"};
+}
+
+std::string HealthyLaw::words() const
+{
+    return fmt::format("{}, {} damping, K_N x {:.2f}, K_T/K_N x {:.2f}, exponent {:.2f}, damping {:.3f} ({:.0f} % at "
+                       "the ends), rate {:.2f}, inset {:.3f}, friction x {:.2f}",
+                       word_for(contact_form_names, form), to_string(kind), stiffness, shear, exponent, damping,
+                       100 * (form == ContactForm::area ? face_share : 1), rate, inset, friction);
+}
+
+LawFamily LawFamily::without(ContactForm form) const
+{
+    LawFamily family = *this;
+    family.forms = left_of(forms, form);
+    return family;
+}
+
+LawFamily LawFamily::without(DampingKind kind) const
+{
+    LawFamily family = *this;
+    family.kinds = left_of(kinds, kind);
+    return family;
+}
+
+HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t number)
+{
+    const auto draw = [&](LawDraw which) {
+        return uniform01(seed, number, Stream::virtual_specimen, static_cast<std::uint64_t>(which));
+    };
+    HealthyLaw law;
+    law.form = family.forms[number % family.forms.size()];
+    law.kind = family.kinds[number / family.forms.size() % family.kinds.size()];
+    law.stiffness = log_uniform({family.least_stiffness, family.most_stiffness}, draw(LawDraw::stiffness));
+    law.shear = log_uniform({family.least_shear, family.most_shear}, draw(LawDraw::shear));
+    law.exponent =
+        law.form == ContactForm::points
+            ? log_uniform({family.least_points_exponent, family.most_points_exponent}, draw(LawDraw::exponent))
+            : log_uniform({family.least_exponent, family.most_exponent}, draw(LawDraw::exponent));
+    law.damping = log_uniform(damping_of(law.kind), draw(LawDraw::damping));
+    law.tangential_damping = log_uniform({least_tangential, most_tangential}, draw(LawDraw::tangential_damping));
+    law.face_share = draw(LawDraw::where) < 0.5 ? draw(LawDraw::face_share) : 1;
+    law.rate = rate_of(law.kind, draw(LawDraw::rate));
+    law.inset = family.most_inset * std::pow(draw(LawDraw::inset), 2);
+    law.friction = std::exp(family.common_friction * standard_normal(draw(LawDraw::friction)));
+    return law;
+}
+
+std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first, std::uint64_t count)
+{
+    std::vector<HealthyLaw> laws;
+    for (std::uint64_t n = 0; n < count; ++n)
+        laws.push_back(draw_law(family, seed, first + n));
+    return laws;
+}
+
+void apply_law(const HealthyLaw& law, Study& study)
+{
+    study.contact.form = law.form;
+    study.contact.normal_stiffness_n_m2 *= law.stiffness;
+    study.contact.tangential_stiffness_n_m *= law.stiffness * law.shear;
+    study.contact.normal_damping_ratio = law.damping;
+    study.contact.tangential_damping_ratio = law.tangential_damping;
+    study.contact.normal_damping_n_s_m.reset();
+    study.contact.tangential_damping_n_s_m.reset();
+    study.contact.friction *= law.friction;
+}
+
+void apply_law(const HealthyLaw& law, const Specimen& specimen, const SpecimenStructure& built, double step_fraction,
+               Realization& r)
+{
+    double height = 0;
+    for (const double y : specimen.rest_y_m)
+        height = std::max(height, y);
+    const double impact = impact_part * std::sqrt(specimen.gravity_m_s2 * height);
+    r.extended = true;
+    for (Joint& joint : r.joints) {
+        joint.extension.face_damping = law.face_share;
+        joint.extension.rate_s_m = law.rate / impact;
+    }
+    const std::vector<double> weights = rest_weights(specimen);
+    for (std::size_t j = 0; j < built.bed.size(); ++j) {
+        Joint& joint = r.joints[static_cast<std::size_t>(built.bed[j])];
+        const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+        const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+        const double inset = law.inset * std::min(lower.half_width_m, upper.half_width_m);
+        joint.extension.chip_left_m += inset;
+        joint.extension.chip_right_m += inset;
+        if (law.exponent != 1) {
+            joint.extension.force_exponent = law.exponent;
+            // the beds rest alike, whatever the exponent
+            joint.extension.reference_overlap_m2 = weights[j] / joint.normal_stiffness_n_m2;
+        }
+    }
+    r.step_s = step_fraction * safe_step(r);
+}
+
+} // namespace stylobate

@@ -1,0 +1,204 @@
+/// Healthy laws: their draws, and what they make of a specimen.
+
+#include "tests/ensemble/tracking/synthetic_campaign.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/statics/step_bound.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/calibration/calibration_windows.hpp"
+#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/tests/law_family.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace stylobate {
+namespace {
+
+TEST(LawFamily, DrawsFillItsRanges)
+{
+    const LawFamily family;
+    const std::vector<HealthyLaw> laws = draw_laws(family, 1, 0, 2400);
+    std::set<std::pair<ContactForm, DampingKind>> seen;
+    double stiff = 0, shear = 0, strongest = 0;
+    for (const HealthyLaw& law : laws) {
+        seen.emplace(law.form, law.kind);
+        EXPECT_TRUE(law.stiffness > 0.1 && law.stiffness < 10);
+        EXPECT_TRUE(law.shear > 0.1 && law.shear < 1);
+        EXPECT_TRUE(law.exponent > 0.7 && law.exponent < 1.6);
+        EXPECT_TRUE(law.inset > 0 && law.inset < 0.03);
+        EXPECT_TRUE(law.face_share > 0 && law.face_share <= 1);
+        EXPECT_EQ(law.rate == 0, law.kind == DampingKind::light);
+        stiff += std::log10(law.stiffness) / 2400;
+        shear += std::log10(law.shear) / 2400;
+        strongest = std::max(strongest, law.damping);
+        EXPECT_EQ(law.numbers().size(), HealthyLaw::number_names().size());
+        for (const double number : law.numbers())
+            EXPECT_TRUE(std::isfinite(number));
+    }
+    EXPECT_EQ(seen.size(), 12u);
+    // uniform over two decades, and over one: 5 standard errors
+    EXPECT_NEAR(stiff, 0, 5 * 2 / std::sqrt(12 * 2400.0));
+    EXPECT_NEAR(shear, -0.5, 5 * 1 / std::sqrt(12 * 2400.0));
+    EXPECT_GT(strongest, 0.95);
+}
+
+TEST(LawFamily, ADrawIsAFunctionOfItsNumber)
+{
+    const LawFamily family;
+    const std::vector<HealthyLaw> laws = draw_laws(family, 3, 10, 4);
+    for (std::uint64_t k = 0; k < 4; ++k)
+        EXPECT_EQ(laws[k], draw_law(family, 3, 10 + k));
+    EXPECT_NE(laws[0], draw_law(family, 4, 10));
+    // what is left out changes nothing else
+    const HealthyLaw other = draw_law(family.without(ContactForm::area), 3, 10);
+    EXPECT_EQ(other.stiffness, laws[0].stiffness);
+    EXPECT_EQ(other.shear, laws[0].shear);
+    EXPECT_EQ(other.friction, laws[0].friction);
+}
+
+TEST(LawFamily, LeavesOutAPart)
+{
+    const LawFamily family;
+    for (const HealthyLaw& law :
+         draw_laws(family.without(ContactForm::points).without(DampingKind::plastic), 1, 0, 60)) {
+        EXPECT_NE(law.form, ContactForm::points);
+        EXPECT_NE(law.kind, DampingKind::plastic);
+    }
+    LawFamily one = family;
+    one.forms = {ContactForm::area};
+    EXPECT_THROW(one.without(ContactForm::area), InputError);
+}
+
+/// What is measured while nothing shakes.
+Campaign still_campaign(int drums)
+{
+    SyntheticCampaign how{.runs = 1, .drums = drums, .strong_s = 0.4};
+    Campaign campaign = measure(how);
+    for (MeasuredRun& run : campaign.runs) {
+        for (Series* series : {&run.base_displacement_m, &run.base_acceleration_m_s2})
+            for (double& value : series->values)
+                value = 0;
+        for (Series* series : {&run.blocks.x_m, &run.blocks.y_m, &run.blocks.theta_rad})
+            series->noise_sd = 0;
+    }
+    campaign.specimen.placement_tolerance_m = 0;
+    return campaign;
+}
+
+TEST(LawFamily, EveryLawStands)
+{
+    const Campaign campaign = still_campaign(3);
+    const Study study = default_study(campaign);
+    HealthyScatter scatter;
+    scatter.laws = draw_laws({}, 5, 0, 24);
+    Observer observer;
+    const VirtualCampaigns made = virtual_campaigns(campaign, study, 5, 0, 24, scatter, {}, {best_isa(), 1}, observer);
+    ASSERT_TRUE(made.complete);
+    EXPECT_EQ(made.laws, scatter.laws);
+    const auto moved = [](const Series& series, std::size_t blocks) {
+        double most = 0;
+        for (std::size_t i = 0; i < series.values.size(); ++i)
+            most = std::max(most, std::fabs(series.values[i] - series.values[i % blocks]));
+        return most;
+    };
+    for (std::size_t c = 0; c < made.campaigns.size(); ++c) {
+        const SeenMotion& seen = made.campaigns[c].runs[0].blocks;
+        const std::size_t blocks = campaign.specimen.half_width_m.size();
+        EXPECT_FALSE(made.campaigns[c].runs[0].collapsed.value_or(true)) << made.contacts[c];
+        EXPECT_LT(moved(seen.x_m, blocks), 1e-6) << made.contacts[c];
+        EXPECT_LT(moved(seen.y_m, blocks), 1e-6) << made.contacts[c];
+        EXPECT_LT(moved(seen.theta_rad, blocks), 1e-5) << made.contacts[c];
+    }
+}
+
+TEST(LawFamily, ASofteningLawOfPointsIsSteppedSafely)
+{
+    // it fell in the first tenth of a second with a step for small loads alone
+    Campaign campaign = still_campaign(4);
+    HealthyScatter scatter;
+    HealthyLaw law;
+    law.form = ContactForm::points;
+    law.shear = 0.2;
+    law.stiffness = 0.2;
+    law.exponent = 0.8;
+    law.damping = 0.005;
+    scatter.laws = {law};
+    Observer observer;
+    MeasuredRun& run = campaign.runs.front();
+    for (std::size_t i = 0; i < run.time_s.size(); ++i) // a jolt
+        run.base_displacement_m.values[i] = 0.002 * std::sin(std::min(30 * run.time_s[i], std::numbers::pi));
+    run.base_acceleration_m_s2.values.clear();
+    const VirtualCampaigns made =
+        virtual_campaigns(campaign, default_study(campaign), 1, 0, 1, scatter, {}, {best_isa(), 1}, observer);
+    EXPECT_FALSE(made.campaigns[0].runs[0].collapsed.value_or(true));
+}
+
+TEST(LawFamily, PutsItsNumbersIntoTheJoints)
+{
+    const Campaign campaign = still_campaign(2);
+    const Study study = default_study(campaign);
+    const SpecimenStructure built = build_specimen(campaign.specimen);
+    HealthyLaw law;
+    law.form = ContactForm::two_corner;
+    law.stiffness = 3;
+    law.shear = 0.2;
+    law.exponent = 1.5;
+    law.inset = 0.02;
+    law.friction = 0.9;
+    law.rate = 2;
+    Study contacts = study;
+    apply_law(law, contacts);
+    Realization r = nominal_realization(contacts, built.structure);
+    const Joint& joint = r.joints[static_cast<std::size_t>(built.bed[0])];
+    EXPECT_DOUBLE_EQ(joint.normal_stiffness_n_m2, 3 * study.contact.normal_stiffness_n_m2);
+    EXPECT_DOUBLE_EQ(joint.tangential_stiffness_n_m, 0.6 * study.contact.tangential_stiffness_n_m);
+    EXPECT_DOUBLE_EQ(joint.friction, 0.9 * study.contact.friction);
+    EXPECT_EQ(r.form, ContactForm::two_corner);
+    // a corner that a cause took stays lost
+    r.joints[static_cast<std::size_t>(built.bed[0])].extension.chip_left_m = 0.001;
+    apply_law(law, campaign.specimen, built, 0.9, r);
+    const double inset = 0.02 * campaign.specimen.half_width_m[0];
+    EXPECT_NEAR(joint.extension.chip_left_m, 0.001 + inset, 1e-12);
+    EXPECT_NEAR(joint.extension.chip_right_m, inset, 1e-12);
+    EXPECT_EQ(joint.extension.force_exponent, 1.5);
+    EXPECT_DOUBLE_EQ(r.step_s, 0.9 * step_bound(r).dt_s);
+    // a softening law is no stiffer than the linear one under large loads, and stiffer under small ones
+    Realization soft = nominal_realization(contacts, built.structure);
+    law.exponent = 0.8;
+    apply_law(law, campaign.specimen, built, 0.9, soft);
+    Realization linear = soft;
+    for (Joint& j : linear.joints)
+        j.extension.force_exponent = 1;
+    EXPECT_LE(soft.step_s, 0.9 * step_bound(soft).dt_s);
+    EXPECT_LE(soft.step_s, 0.9 * step_bound(linear).dt_s);
+}
+
+TEST(LawFamily, CampaignsAreTheSameForEveryNumberOfThreads)
+{
+    const Campaign campaign = measure({.runs = 2, .drums = 2, .strong_s = 0.6});
+    const Study study = default_study(campaign);
+    HealthyScatter scatter;
+    scatter.laws = draw_laws({}, 1, 0, 4);
+    Observer observer;
+    const auto seen = [&](std::uint64_t first, std::uint64_t count, const HealthyScatter& how, RunOptions run) {
+        std::vector<double> all;
+        for (const Campaign& c : virtual_campaigns(campaign, study, 1, first, count, how, {}, run, observer).campaigns)
+            for (const MeasuredRun& r : c.runs)
+                for (const double x : r.blocks.x_m.values)
+                    all.push_back(std::isfinite(x) ? x : 1e9); // after a collapse
+
+        return all;
+    };
+    const std::vector<double> together = seen(0, 4, scatter, {best_isa(), 1});
+    EXPECT_EQ(together, seen(0, 4, scatter, {Isa::scalar, 3}));
+    HealthyScatter last = scatter;
+    last.laws = {scatter.laws[3]};
+    const std::vector<double> alone = seen(3, 1, last, {best_isa(), 1});
+    EXPECT_TRUE(std::equal(alone.begin(), alone.end(), together.end() - static_cast<std::ptrdiff_t>(alone.size())));
+}
+
+} // namespace
+} // namespace stylobate
