@@ -9,7 +9,7 @@
 #include "io/tables/markdown.hpp"
 #include "kernels/isa.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 

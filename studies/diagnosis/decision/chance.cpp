@@ -2,10 +2,8 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/toml_document.hpp"
-#include "io/store/result_seal.hpp"
-#include "studies/diagnosis/decision/virtual_campaign.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
-#include "studies/version.hpp"
+#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 
 #include <fmt/format.h>
 
@@ -20,11 +18,6 @@ namespace {
 
 /// Campaigns that are simulated together: a bundle's lanes are full with their runs.
 constexpr std::uint64_t together = 8;
-
-std::uint32_t crc(const std::vector<double>& values, std::uint32_t before)
-{
-    return crc32_of(std::as_bytes(std::span(values)), before);
-}
 
 /// Gains of one campaign, by channel and mechanism.
 struct OneCampaign {
@@ -86,28 +79,7 @@ bool take_line(const std::string& line, Chance& chance)
 
 std::string chance_key(const Campaign& campaign, const Study& study, const ChanceOptions& options)
 {
-    const Specimen& s = campaign.specimen;
-    std::uint32_t sum = 0;
-    for (const auto* values : {&s.half_width_m, &s.half_height_m, &s.depth_m, &s.mass_kg, &s.rest_x_m, &s.rest_y_m})
-        sum = crc(*values, sum);
-    sum = crc({s.gravity_m_s2, s.friction_nominal.value_or(-1), s.mass_tolerance, s.width_tolerance,
-               s.placement_tolerance_m, s.base_block_half_width_m.value_or(-1), s.base_block_top_m},
-              sum);
-    for (const auto& [lower, upper] : s.joints)
-        sum = crc({static_cast<double>(lower), static_cast<double>(upper)}, sum);
-    for (const MeasuredRun& run : campaign.runs) {
-        sum = crc(run.time_s, sum);
-        sum = crc(run.base_displacement_m.values, sum);
-        sum = crc(run.base_acceleration_m_s2.values, sum);
-        sum = crc({run.blocks.x_m.noise_sd.value_or(-1), run.blocks.y_m.noise_sd.value_or(-1),
-                   run.blocks.theta_rad.noise_sd.value_or(-1)},
-                  sum);
-    }
-    const ContactSpec& c = study.contact;
-    sum = crc({c.normal_stiffness_n_m2, c.tangential_stiffness_n_m, c.friction, static_cast<double>(options.seed),
-               options.windows ? 1.0 : 0.0},
-              sum);
-    return fmt::format("{} {:08x}", code_version(), sum);
+    return campaign_key(campaign, study, options.seed) + (options.windows ? " windows" : "");
 }
 
 Chance chance_of(const Campaign& campaign, const Study& study, const ChanceOptions& options,

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/decision/next_test.hpp"
 
-#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
@@ -156,7 +156,7 @@ std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& s
     std::vector<std::vector<OutcomeSpread>> spread(2); // [rival][motion]
     for (std::size_t rival = 0; rival < 2; ++rival) {
         const VirtualCampaigns made =
-            virtual_campaigns(proposed, baseline, seed, 0, simulated, scatter, {rivals[rival]}, options, observer);
+            virtual_campaigns(proposed, baseline, seed, 0, simulated, scatter, {{rivals[rival]}}, options, observer);
         count.simulations += made.simulations;
         count.block_steps += made.block_steps;
         if (!made.complete)

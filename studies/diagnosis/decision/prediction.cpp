@@ -3,7 +3,7 @@
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/calibration/calibration_windows.hpp"
-#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 
 #include <fmt/format.h>
 
@@ -255,7 +255,7 @@ std::vector<double> collapse_shares(const Campaign& of, const std::vector<SizedC
     scatter.contacts = false;
     std::vector<double> share(of.runs.size(), 0);
     const VirtualCampaigns made =
-        virtual_campaigns(of, s.baseline, s.seed, 0, collapse_ensemble, scatter, causes, s.options, s.observer);
+        virtual_campaigns(of, s.baseline, s.seed, 0, collapse_ensemble, scatter, {causes}, s.options, s.observer);
     s.count.simulations += made.simulations;
     s.count.block_steps += made.block_steps;
     for (const Campaign& c : made.campaigns)

@@ -24,7 +24,8 @@ struct Cause {
     double neutral = 0;
     int joint = -1;        ///< -1: all
     int block = -1;        ///< -1: all
-    double fixed = 0;      ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel,
+    double fixed = 0;      ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel (of one
+                           ///< that yields the slip at which it does),
                            ///< path after which friction wears no more (0: never)
     std::string side = {}; ///< of a corner: "left" or "right"
     std::string label() const { return mechanism + " at " + place + (side.empty() ? "" : " " + side); }

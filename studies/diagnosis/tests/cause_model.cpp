@@ -26,6 +26,12 @@ void set(MechanismSpec& spec, const char* name, double value)
             spec.values[p] = value;
 }
 
+/// A dowel whose size is the force at which it yields; its second parameter is then the slip at which it does.
+bool yields(const Cause& cause)
+{
+    return cause.parameter == "yield_n";
+}
+
 /// [mechanisms] are in the order of their list.
 void add(const MechanismSpec& spec, Study& study)
 {
@@ -60,7 +66,11 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             e.wear_per_m = size;
         else if (m == "adhesion")
             e.adhesion_n_m = size;
-        else if (m == "dowel") {
+        else if (m == "dowel" && yields(cause)) {
+            e.dowel_stiffness_n_m = size / cause.fixed;
+            e.dowel_gap_m = 0;
+            e.dowel_yield_n = size;
+        } else if (m == "dowel") {
             e.dowel_stiffness_n_m = size;
             e.dowel_gap_m = cause.fixed;
             e.dowel_yield_n = 1e9;
@@ -108,9 +118,9 @@ void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Stud
         set(spec, "right", cause.side == "left" ? 0 : size);
         break;
     case Mechanism::dowel:
-        set(spec, "stiffness", size);
-        set(spec, "yield", 1e9);
-        set(spec, "gap", cause.fixed);
+        set(spec, "stiffness", yields(cause) ? size / cause.fixed : size);
+        set(spec, "yield", yields(cause) ? size : 1e9);
+        set(spec, "gap", yields(cause) ? 0 : cause.fixed);
         break;
     default:
         // one acting parameter: the first

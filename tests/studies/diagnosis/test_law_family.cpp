@@ -6,7 +6,7 @@
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/calibration/calibration_windows.hpp"
-#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 #include "studies/diagnosis/tests/law_family.hpp"
 
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/tests/law_family.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
+#include "studies/diagnosis/tests/law_family.hpp"
 
 #include <cstdint>
 #include <string>
@@ -36,21 +36,27 @@ struct HealthyScatter {
 };
 
 struct VirtualCampaigns {
-    std::vector<Campaign> campaigns;   ///< run by run as the measured one, without what a collapse ends
-    std::vector<std::string> contacts; ///< of each, in words
-    std::vector<HealthyLaw> laws;      ///< of each, where they were given
+    std::vector<Campaign> campaigns;         ///< run by run as the measured one, without what a collapse ends
+    std::vector<std::string> contacts;       ///< of each, in words
+    std::vector<HealthyLaw> laws;            ///< of each, where they were given
+    std::vector<std::vector<double>> base_m; ///< (runs)(nt) displacement of the base, at the cameras' samples
     std::uint64_t simulations = 0;
     std::uint64_t block_steps = 0;
     bool complete = false; ///< false: the observer stopped it
 };
 
+/// What simulated campaigns depend on, as text: the program's version, and a checksum of specimen, motions, cameras,
+/// contacts and seed.
+std::string campaign_key(const Campaign& measured, const Study& study, std::uint64_t seed);
+
 /// @param study contacts about which is drawn; its structure is the specimen's
 /// @param scatter with no laws, or one for each campaign
-/// @param causes that act in all of them, for campaigns that are to show something; of the base: none
+/// @param causes that act, for campaigns that are to show something; of the base: none. One list for each campaign, or
+///        one for all of them, or none
 /// @param first number of the first campaign: each is a pure function of (seed, number)
 VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
                                    std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
-                                   const std::vector<SizedCause>& causes, const RunOptions& options,
+                                   const std::vector<std::vector<SizedCause>>& causes, const RunOptions& options,
                                    Observer& observer);
 
 } // namespace stylobate

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/decision/virtual_campaign.hpp"
+#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/distribution.hpp"
@@ -6,7 +6,9 @@
 #include "ensemble/tracking/specimen.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
+#include "io/store/result_seal.hpp"
 #include "studies/calibration/calibration_windows.hpp"
+#include "studies/version.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 
 namespace stylobate {
 
@@ -26,6 +29,11 @@ constexpr std::array null_forms = {ContactForm::area, ContactForm::two_corner, C
 // A block has fallen whose centre is below this part of its height at rest, or that leans by more.
 constexpr double fallen = 0.6;
 constexpr double most_lean = 0.8; // rad
+
+std::uint32_t crc(const std::vector<double>& values, std::uint32_t before)
+{
+    return crc32_of(std::as_bytes(std::span(values)), before);
+}
 
 /// Numbers of one campaign, one after the other.
 class Draws {
@@ -145,9 +153,24 @@ DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const 
     return out;
 }
 
+/// Displacement of the base at the cameras' samples.
+std::vector<double> displacement_at_samples(const MeasuredRun& run, const Motion& base)
+{
+    std::vector<double> out;
+    for (const double time_s : run.time_s) {
+        const double at = std::clamp((time_s - run.time_s.front()) / base.dt_s, 0.0,
+                                     static_cast<double>(base.displacement_m.size() - 1));
+        const auto k0 = std::min(static_cast<std::size_t>(at), base.displacement_m.size() - 2);
+        const double part = at - static_cast<double>(k0);
+        out.push_back((1 - part) * base.displacement_m[k0] + part * base.displacement_m[k0 + 1]);
+    }
+    return out;
+}
+
 /// Where the blocks of the specimen are at the cameras' samples, with their noise.
+/// @param base_m displacement of the base at these samples
 void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStructure& built, const Realization& r,
-         const Motion& base, const Readings& readings, Draws& noise, MeasuredRun& run)
+         const std::vector<double>& base_m, const Readings& readings, Draws& noise, MeasuredRun& run)
 {
     const Specimen& s = measured.specimen;
     const std::size_t columns = s.half_width_m.size(), blocks = r.blocks.size(), n = source.time_s.size();
@@ -171,11 +194,7 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
     for (Series* series : {&run.blocks.x_m, &run.blocks.y_m, &run.blocks.theta_rad})
         series->values.assign(n * columns, missing);
     for (std::size_t i = 0; i < fell; ++i) {
-        const double t = source.time_s[i] - source.time_s.front();
-        const double at = std::clamp(t / base.dt_s, 0.0, static_cast<double>(base.displacement_m.size() - 1));
-        const auto k0 = std::min(static_cast<std::size_t>(at), base.displacement_m.size() - 2);
-        const double part = at - static_cast<double>(k0);
-        const double moved = (1 - part) * base.displacement_m[k0] + part * base.displacement_m[k0 + 1];
+        const double moved = base_m[i];
         for (std::size_t b = 0; b < columns; ++b) {
             const auto k = static_cast<std::size_t>(built.block[b]);
             const std::size_t row = i * blocks + k, out = i * columns + b;
@@ -191,9 +210,34 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
 
 } // namespace
 
+std::string campaign_key(const Campaign& campaign, const Study& study, std::uint64_t seed)
+{
+    const Specimen& s = campaign.specimen;
+    std::uint32_t sum = 0;
+    for (const auto* values : {&s.half_width_m, &s.half_height_m, &s.depth_m, &s.mass_kg, &s.rest_x_m, &s.rest_y_m})
+        sum = crc(*values, sum);
+    sum = crc({s.gravity_m_s2, s.friction_nominal.value_or(-1), s.mass_tolerance, s.width_tolerance,
+               s.placement_tolerance_m, s.base_block_half_width_m.value_or(-1), s.base_block_top_m},
+              sum);
+    for (const auto& [lower, upper] : s.joints)
+        sum = crc({static_cast<double>(lower), static_cast<double>(upper)}, sum);
+    for (const MeasuredRun& run : campaign.runs) {
+        sum = crc(run.time_s, sum);
+        sum = crc(run.base_displacement_m.values, sum);
+        sum = crc(run.base_acceleration_m_s2.values, sum);
+        sum = crc({run.blocks.x_m.noise_sd.value_or(-1), run.blocks.y_m.noise_sd.value_or(-1),
+                   run.blocks.theta_rad.noise_sd.value_or(-1)},
+                  sum);
+    }
+    const ContactSpec& c = study.contact;
+    sum = crc({c.normal_stiffness_n_m2, c.tangential_stiffness_n_m, c.friction, static_cast<double>(seed)}, sum);
+    return fmt::format("{} {:08x}", code_version(), sum);
+}
+
 VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
                                    std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
-                                   const std::vector<SizedCause>& causes, const RunOptions& options, Observer& observer)
+                                   const std::vector<std::vector<SizedCause>>& causes, const RunOptions& options,
+                                   Observer& observer)
 {
     VirtualCampaigns out;
     assert((scatter.laws.empty() || scatter.laws.size() == count) && "one law for each campaign");
@@ -209,16 +253,19 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
             run.blocks.theta_rad.empty())
             continue;
         base[i] = std::make_shared<const Motion>(base_motion_of(run));
+        out.base_m[i] = displacement_at_samples(run, *base[i]);
         auto seen = std::make_shared<std::vector<double>>();
         for (const double t : run.time_s)
             seen->push_back(t - run.time_s.front());
         times[i] = seen;
     }
     for (std::uint64_t c = 0; c < count; ++c) {
+        const std::vector<SizedCause> acting =
+            causes.empty() ? std::vector<SizedCause>() : causes[causes.size() > 1 ? c : 0];
         const DrawnSpecimen specimen =
             scatter.laws.empty()
-                ? draw_specimen(measured, study, built, seed, first + c, scatter, causes)
-                : draw_specimen(scatter.laws[c], measured, study, built, seed, first + c, scatter, causes);
+                ? draw_specimen(measured, study, built, seed, first + c, scatter, acting)
+                : draw_specimen(scatter.laws[c], measured, study, built, seed, first + c, scatter, acting);
         Campaign campaign;
         campaign.source = fmt::format("virtual campaign {}", first + c);
         campaign.specimen = measured.specimen;
@@ -252,7 +299,7 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
     for (std::size_t j = 0; j < jobs.size(); ++j) {
         const auto [c, i] = job_of[j];
         Draws noise(seed, (first + c) * measured.runs.size() + i, Stream::camera_noise);
-        see(measured, measured.runs[i], built, jobs[j].realization, *base[i], report.results[j].watched, noise,
+        see(measured, measured.runs[i], built, jobs[j].realization, out.base_m[i], report.results[j].watched, noise,
             out.campaigns[c].runs[i]);
     }
     return out;

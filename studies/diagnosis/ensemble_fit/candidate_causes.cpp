@@ -1,0 +1,102 @@
+#include "studies/diagnosis/ensemble_fit/candidate_causes.hpp"
+
+#include "studies/diagnosis/laws/law_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+// What is strong: z = 1.
+constexpr double friction_at_one = 0.5; // of a joint, over that of the others
+constexpr double dynamic_at_one = 0.5;  // dynamic over static friction
+constexpr double stribeck_speed = 0.02; // over sqrt(g H): slow slip is of this order
+constexpr double worn_at_one = 0.6;     // of the friction, after the path of a whole run
+constexpr double chip_at_one = 0.15;    // over the width of the face
+constexpr double drag_at_one = 0.5;     // of the weight, at sqrt(g H)
+constexpr double centre_at_one = 0.08;  // over the width
+constexpr double hold_at_one = 1.0;     // of a dowel or of adhesion, over the friction of the joint at rest
+constexpr double dowel_slip = 0.005;    // at which a dowel yields, over the width
+// Paths shorter than these would make wear of any size possible.
+constexpr double least_slip = 0.02;     // over the width
+constexpr double least_rotation = 0.02; // rad
+
+Cause at_joint(const char* mechanism, int joint, const char* parameter, const char* unit, double neutral = 0)
+{
+    Cause cause{mechanism, fmt::format("joint {}", joint), parameter, unit, neutral};
+    cause.joint = joint;
+    return cause;
+}
+
+Cause at_block(const char* mechanism, int block, const char* parameter, const char* unit)
+{
+    Cause cause{mechanism, fmt::format("block {}", block), parameter, unit};
+    cause.block = block;
+    return cause;
+}
+
+} // namespace
+
+double CandidateCause::size_of(double z) const
+{
+    return ratio ? std::pow(at_one, z) : at_one * z;
+}
+
+double CandidateCause::z_of(double size) const
+{
+    return ratio ? std::log(size) / std::log(at_one) : size / at_one;
+}
+
+std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const TrackScales& scales,
+                                             const JointPaths& paths, double friction)
+{
+    const double speed = scales.time_s * specimen.gravity_m_s2; // sqrt(g H)
+    const std::vector<double> weight = rest_weights(specimen);
+    std::vector<CandidateCause> all;
+    Cause stribeck{"stribeck", "all", "dynamic_ratio", "", 1};
+    stribeck.fixed = stribeck_speed * speed;
+    all.push_back({stribeck, dynamic_at_one, true, 0, 1.25});
+    for (int j = 0; j < static_cast<int>(specimen.joints.size()); ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        const auto [lower, upper] = specimen.joints[k];
+        double width = 2 * specimen.half_width_m[static_cast<std::size_t>(upper)];
+        if (lower >= 0)
+            width = std::min(width, 2 * specimen.half_width_m[static_cast<std::size_t>(lower)]);
+        const double held = hold_at_one * friction * weight[k];
+        all.push_back({at_joint("joint_friction", j, "ratio", "", 1), friction_at_one, true, -0.75, 1.25});
+        all.push_back({at_joint("friction_wear", j, "wear_per_m", "1/m"),
+                       worn_at_one / std::max(paths.slip_m[k], least_slip * width)});
+        for (const char* side : {"left", "right"}) {
+            CandidateCause chip{at_joint("corner_loss", j, "loss_m", "m"), chip_at_one * width};
+            chip.cause.side = side;
+            all.push_back(chip);
+        }
+        all.push_back({at_joint("corner_wear", j, "wear_m_rad", "m/rad"),
+                       chip_at_one * width / std::max(paths.rotation_rad[k], least_rotation)});
+        CandidateCause dowel{at_joint("dowel", j, "yield_n", "N"), held};
+        dowel.cause.fixed = dowel_slip * width;
+        all.push_back(dowel);
+        all.push_back({at_joint("adhesion", j, "adhesion_n_m", "N/m"), held / width});
+    }
+    const double mass = [&] {
+        double sum = 0;
+        for (const double m : specimen.mass_kg)
+            sum += m;
+        return sum / static_cast<double>(specimen.mass_kg.size());
+    }();
+    all.push_back({{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"},
+                   drag_at_one * mass * specimen.gravity_m_s2 / (speed * speed)});
+    for (int b = 0; b < specimen.blocks(); ++b) {
+        CandidateCause centre{at_block("eccentricity", b, "offset_m", "m"),
+                              centre_at_one * 2 * specimen.half_width_m[static_cast<std::size_t>(b)]};
+        centre.least = -1;
+        all.push_back(centre);
+    }
+    return all;
+}
+
+} // namespace stylobate

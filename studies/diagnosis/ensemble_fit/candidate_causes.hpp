@@ -1,0 +1,35 @@
+#pragma once
+/// The causes that labelled campaigns are simulated with: each mechanism at each place, with a range of sizes that are
+/// of the same order for every specimen.
+
+#include "ensemble/model/campaign.hpp"
+#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/tests/cause_model.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// What a joint goes through in a run, the mean over the runs of a campaign: wear is in proportion to it.
+struct JointPaths {
+    std::vector<double> slip_m;       ///< (joints)
+    std::vector<double> rotation_rad; ///< (joints)
+};
+
+/// A mechanism at a place. Its size is counted by z: 0 is neutral, 1 is strong.
+struct CandidateCause {
+    Cause cause;
+    double at_one = 0;  ///< size at z = 1; of a ratio, the ratio there
+    bool ratio = false; ///< the size is at_one^z, else at_one z
+    double least = 0;   ///< z; below 0 only where the size has two signs
+    double most = 1;    ///< z
+    double size_of(double z) const;
+    /// @pre the size is one that `size_of` can give
+    double z_of(double size) const;
+};
+
+/// @param friction of the joints
+std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const TrackScales& scales,
+                                             const JointPaths& paths, double friction);
+
+} // namespace stylobate
