@@ -66,6 +66,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     how.seed = static_cast<std::uint64_t>(wanted.seed);
     how.nulls = static_cast<std::uint64_t>(wanted.nulls);
     how.windows = wanted.windows;
+    how.statistics = wanted.statistics;
     how.cache = beside / (stem + "_chance.txt");
     how.run = {options.isa(), options.thread_count()};
     Console console(options.quiet);
@@ -93,7 +94,9 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     for (const std::string& setting : options.set)
         diagnosis->command += " --set " + shell_word(setting);
     diagnosis->command += fmt::format(" -o {} --nulls {} --seed {}{}", shell_word(output), wanted.nulls, wanted.seed,
-                                      wanted.windows ? " --windows" : "");
+                                      wanted.windows      ? " --windows"
+                                      : wanted.statistics ? " --statistics"
+                                                          : "");
     if (!diagnosis->extended_study.empty()) {
         AtomicFile file(how.extension);
         file.write(diagnosis->extended_study);

@@ -219,6 +219,12 @@ private:
         diagnosing->add_flag(
             "--windows", diagnosis_.windows,
             "also test causes by free windows of the simulation: slow, and less reliable than the balance of forces");
+        diagnosing
+            ->add_flag("--statistics", diagnosis_.statistics,
+                       "test the causes of joints and blocks by the statistics of the campaign, against simulated "
+                       "campaigns with and without each cause (not assessed yet)")
+            ->excludes("--windows")
+            ->excludes("--nulls");
         add_force(*diagnosing, options_);
         add_set(*diagnosing, options_);
         add_common(*diagnosing, options_);

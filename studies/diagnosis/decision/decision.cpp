@@ -66,23 +66,6 @@ void set_probabilities(std::vector<JudgedCause>& judged, const DecisionRule& rul
         j.probability = j.considered ? 0.97 * std::exp(std::min(j.surprise, most_surprise) - first) / sum : 0;
 }
 
-/// What the direct tests of base and sensors found is named (rule 1).
-std::vector<JudgedCause> named_directly(const DirectResult& direct)
-{
-    std::vector<JudgedCause> named;
-    for (const CauseFit& fit : direct.found) {
-        JudgedCause j;
-        j.fit = fit;
-        j.channel = Channel::direct;
-        j.considered = true;
-        j.surprise = fit.gain;
-        j.chance = 0;
-        j.probability = direct_probability;
-        named.push_back(std::move(j));
-    }
-    return named;
-}
-
 /// A wedge or an offset seen at rest explains what it makes of the motion.
 bool known_at_rest(const DirectResult& direct, const JudgedCause& j)
 {
@@ -156,6 +139,22 @@ void find_unexplained(const BalanceEvidence& balance, const ChanceGains& chance,
 }
 
 } // namespace
+
+std::vector<JudgedCause> named_directly(const DirectResult& direct)
+{
+    std::vector<JudgedCause> named;
+    for (const CauseFit& fit : direct.found) {
+        JudgedCause j;
+        j.fit = fit;
+        j.channel = Channel::direct;
+        j.considered = true;
+        j.surprise = fit.gain;
+        j.chance = 0;
+        j.probability = direct_probability;
+        named.push_back(std::move(j));
+    }
+    return named;
+}
 
 bool matters(const CauseFit& fit)
 {

@@ -57,6 +57,9 @@ struct Decided {
     double unexplained_chance = 1;
 };
 
+/// What the direct tests of base and sensors found is named (rule 1).
+std::vector<JudgedCause> named_directly(const DirectResult& direct);
+
 /// @param again judges what is left beside given causes (a second round)
 Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::vector<JudgedCause> judged,
                const ChanceGains& chance, const DecisionRule& rule,

@@ -31,6 +31,8 @@ const char* to_string(Channel channel)
         return "balance";
     case Channel::windows:
         return "windows";
+    case Channel::statistics:
+        return "statistics";
     }
     return "";
 }

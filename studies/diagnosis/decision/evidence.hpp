@@ -15,9 +15,10 @@ namespace stylobate {
 
 /// Ways of looking. Each has its own chance gains.
 enum class Channel {
-    direct,  ///< base and sensors, while the lowest block rides on the table; blocks at rest
-    balance, ///< the laws of the joints, from the balance of forces
-    windows  ///< free windows of the simulation
+    direct,    ///< base and sensors, while the lowest block rides on the table; blocks at rest
+    balance,   ///< the laws of the joints, from the balance of forces
+    windows,   ///< free windows of the simulation
+    statistics ///< statistics of the whole campaign, compared with simulated campaigns
 };
 const char* to_string(Channel channel);
 

@@ -5,6 +5,7 @@
 #include "studies/diagnosis/decision/next_test.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/decision/presentation.hpp"
+#include "studies/diagnosis/decision/statistics_verdict.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/diagnosis/decision/wrong_windows.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
@@ -54,7 +55,9 @@ private:
     void balance_forces();
     bool simulate_windows();
     bool learn_chance();
+    bool compare_statistics();
     bool reach_verdict();
+    void state_verdict();
     void list_candidates();
     void list_indistinguishable();
     void describe_unexplained();
@@ -81,6 +84,7 @@ private:
     std::optional<BalanceEvidence> balance_; ///< after its stage
     WindowEvidence windows_;
     Chance chance_;
+    std::optional<EnsembleDiagnosis> ensemble_; ///< where statistics judge
     Decided decided_;
     SimulationCount count_;
     Diagnosis d_;
@@ -91,7 +95,7 @@ std::optional<Diagnosis> Pipeline::run()
     say_what_is_read();
     test_base_and_sensors();
     balance_forces();
-    if (!simulate_windows() || !learn_chance() || !reach_verdict())
+    if (!simulate_windows() || !(options_.statistics ? compare_statistics() : learn_chance()) || !reach_verdict())
         return std::nullopt;
     find_wrong_windows();
     judge_extension();
@@ -228,8 +232,37 @@ bool Pipeline::learn_chance()
     return true;
 }
 
+bool Pipeline::compare_statistics()
+{
+    EnsemblePlan plan = options_.plan;
+    plan.seed = options_.seed;
+    std::filesystem::path cache = options_.cache;
+    if (!cache.empty())
+        cache.replace_filename(cache.stem().string() + "_campaigns.txt");
+    ensemble_.emplace(ensemble_diagnosis(
+        campaign_, start_, scales_, direct_.base_m, plan, cache, options_.run,
+        [&](std::uint64_t done, std::uint64_t total) {
+            tell_(fmt::format("  simulated campaigns: {} of {}", done, total));
+        },
+        observer_));
+    count_.simulations += ensemble_->ensemble.simulations;
+    count_.block_steps += ensemble_->ensemble.block_steps;
+    if (!ensemble_->ensemble.complete)
+        return false;
+    d_.nulls.push_back(
+        {"area, two_corner and points", plan.nulls,
+         "healthy contact laws of a wide family, friction of the joints, widths, masses and places of the "
+         "blocks, noise of the cameras"});
+    return true;
+}
+
 bool Pipeline::reach_verdict()
 {
+    if (ensemble_) {
+        decided_ = decide(direct_, *ensemble_);
+        state_verdict();
+        return true;
+    }
     const auto again = [&](const JudgedCause& given) {
         const BalanceEvidence left = balance_evidence(measured_, scales_, direct_.base_m, {given.fit.cause});
         return judge(left, {}, {}, chance_.gains, options_.rule);
@@ -239,6 +272,12 @@ bool Pipeline::reach_verdict()
                       chance_.gains, options_.rule, again);
     if (observer_.stop_requested())
         return false;
+    state_verdict();
+    return true;
+}
+
+void Pipeline::state_verdict()
+{
     d_.verdict = decided_.verdict;
     list_candidates();
     list_indistinguishable();
@@ -248,7 +287,6 @@ bool Pipeline::reach_verdict()
     tell_("  " + d_.verdict_text);
     if (!d_.candidates.empty())
         d_.figures.push_back(candidates_figure(d_.candidates));
-    return true;
 }
 
 /// One for each mechanism and place: as it was named first, else as it is in the set, else as it was judged.
@@ -257,8 +295,8 @@ void Pipeline::list_candidates()
     std::set<std::pair<std::string, std::string>> told;
     const auto add = [&](const JudgedCause& j, Decision decision) {
         if (told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
-            d_.candidates.push_back(candidate_of(j, measured_, decision, windows_.baselines, chance_.campaigns > 0,
-                                                 decided_.unexplained.has_value()));
+            d_.candidates.push_back(candidate_of(j, measured_, decision, windows_.baselines,
+                                                 chance_.campaigns > 0 || ensemble_, decided_.unexplained.has_value()));
     };
     for (const JudgedCause& j : decided_.named)
         add(j, Decision::named);
@@ -379,6 +417,13 @@ void Pipeline::tell_method_and_cost()
                     "its states are compared with the measurement: they determine the contacts of the baseline") +
             (options_.windows ? ", and the gain of each cause."
                               : ". They are used to test causes only with --windows.")};
+    if (ensemble_)
+        d_.method.push_back(
+            "The statistics of the campaign (paths, openings, friction in slides of each joint under each motion) are "
+            "compared with those of simulated campaigns, healthy ones of many contact laws and ones with a known "
+            "cause. A "
+            "cause is named if its gain is among the largest 1.5 % of healthy campaigns that were left out of the fit, "
+            "and if such names are right in more than half of the labelled campaigns that were left out.");
     if (chance_.campaigns > 0)
         d_.method.push_back(
             fmt::format("Null campaigns (without a hidden effect), simulated with contacts of many kinds, pass through "

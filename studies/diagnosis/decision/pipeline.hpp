@@ -6,6 +6,7 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
+#include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 
 #include <cstdint>
@@ -17,9 +18,12 @@ namespace stylobate {
 
 struct DiagnosisOptions {
     std::uint64_t seed = 1;
-    std::uint64_t nulls = 32;    ///< campaigns with nothing hidden
-    bool windows = false;        ///< whether free windows judge causes too: slow, and they depend on the contact form
-    std::filesystem::path cache; ///< of the null distribution; empty: none is kept
+    std::uint64_t nulls = 32; ///< campaigns with nothing hidden
+    bool windows = false;     ///< whether free windows judge causes too: slow, and they depend on the contact form
+    bool statistics =
+        false;         ///< whether simulated campaigns with labels judge joints and blocks (statistics_verdict.hpp)
+    EnsemblePlan plan; ///< of these
+    std::filesystem::path cache;     ///< of the null distribution; empty: none is kept
     std::filesystem::path extension; ///< where the extended study goes; empty: nowhere
     DecisionRule rule;
     RunOptions run;

@@ -67,12 +67,13 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     }
     c.decision = decision;
     const std::string where = c.why.empty() ? "" : c.why + "; ";
-    const std::string found =
-        j.channel == Channel::direct
-            ? "found by a direct test"
-            : fmt::format("{}: {:.1f} nats; null distribution {:.1f} (95 %)",
-                          j.channel == Channel::balance ? "by the balance of forces" : "by free windows", j.fit.gain,
-                          j.chance95);
+    const std::string found = j.channel == Channel::direct
+                                  ? "found by a direct test"
+                                  : fmt::format("{}: {:.1f} nats; null distribution {:.1f} (95 %)",
+                                                j.channel == Channel::balance   ? "by the balance of forces"
+                                                : j.channel == Channel::windows ? "by free windows"
+                                                                                : "by the statistics of the campaign",
+                                                j.fit.gain, j.chance95);
     c.why = where + (j.why_not.empty() ? found : j.why_not);
     if (decision == Decision::rejected && j.why_not.empty())
         c.why += unexplained ? "; a force of unknown kind has a significantly larger gain"

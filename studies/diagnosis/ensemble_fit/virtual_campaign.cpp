@@ -240,6 +240,7 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
                                    Observer& observer)
 {
     VirtualCampaigns out;
+    out.base_m.resize(measured.runs.size());
     assert((scatter.laws.empty() || scatter.laws.size() == count) && "one law for each campaign");
     const SpecimenStructure built = build_specimen(measured.specimen);
     std::vector<FollowJob> jobs;

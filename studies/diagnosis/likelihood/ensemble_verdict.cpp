@@ -13,6 +13,8 @@ namespace {
 
 /// Fewer labelled campaigns than these do not show a shift.
 constexpr Eigen::Index least_labelled = 3;
+/// Of a second cause, where few labelled campaigns are named.
+constexpr double most_second_p = 0.05;
 
 Eigen::Index largest(const std::vector<CauseLikelihood>& causes)
 {
@@ -29,19 +31,18 @@ CampaignTable rows_of(const CampaignTable& table, const std::vector<Eigen::Index
 /// A fit without one fold of the healthy and of the labelled campaigns; fold -1: with all.
 class Fit {
 public:
-    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, bool contrasts, int folds, int left_out)
+    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, bool contrasts, int left_out)
         : mechanism_(evidence.mechanism)
     {
-        const auto kept = [&](Eigen::Index i) { return left_out < 0 || i % folds != left_out; };
         std::vector<Eigen::Index> nulls;
         for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i)
-            if (kept(i))
+            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out)
                 nulls.push_back(i);
         law_ = std::make_unique<LawAdjustment>(rows_of(evidence.nulls, nulls), evidence.descriptors, wanted);
 
         std::map<int, std::vector<Eigen::Index>> of_cause;
         for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
-            if (kept(static_cast<Eigen::Index>(i)))
+            if (evidence.labelled_fold[i] != left_out)
                 of_cause[evidence.labelled.cause[i]].push_back(static_cast<Eigen::Index>(i));
         for (const auto& [cause, rows] : of_cause) {
             if (static_cast<Eigen::Index>(rows.size()) < least_labelled)
@@ -83,6 +84,22 @@ public:
                 sum += std::exp(std::min(found[static_cast<std::size_t>(m)].gain, 300.0));
         return found[static_cast<std::size_t>(best)].gain - std::log(sum);
     }
+    struct Second {
+        Eigen::Index model = -1; ///< -1: there is no other mechanism
+        CauseLikelihood cause;
+    };
+    /// The best cause of another mechanism, with the best one given.
+    Second second(const Eigen::VectorXd& residual, const CauseLikelihood& best, Eigen::Index model) const
+    {
+        const auto found = likelihood_->of(residual, models_[static_cast<std::size_t>(model)].mean(best.size));
+        Second out;
+        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m) {
+            const CauseLikelihood& cause = found[static_cast<std::size_t>(m)];
+            if (mechanism(m) != mechanism(model) && (out.model < 0 || cause.gain > out.cause.gain))
+                out = {m, cause};
+        }
+        return out;
+    }
     /// Squared distance of what is left beside the best cause.
     double left(const Eigen::VectorXd& residual, const CauseLikelihood& cause, Eigen::Index model) const
     {
@@ -123,13 +140,16 @@ struct LeftOut {
     std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;              ///< mechanism: in all
     std::vector<double> labelled_left;              ///< distance beside the best cause
+    std::vector<double> second_gains;               ///< of the best other mechanism, with the best cause given
 };
 
 /// @param gain_needed a labelled campaign of less gain is not named
-void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int folds, int fold, LeftOut& out,
+void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold, LeftOut& out,
                       const std::function<bool(double)>& is_named)
 {
-    for (Eigen::Index i = fold; i < evidence.nulls.statistics.rows(); i += folds) {
+    for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i) {
+        if (evidence.null_fold[static_cast<std::size_t>(i)] != fold)
+            continue;
         const Eigen::VectorXd residual = fit.residual(evidence.nulls, i);
         const auto found = fit.likelihood().of(residual);
         const Eigen::Index best = largest(found);
@@ -141,8 +161,9 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
     if (!is_named)
         return;
     const LabelledCampaigns& labelled = evidence.labelled;
-    for (std::size_t i = static_cast<std::size_t>(fold); i < labelled.cause.size();
-         i += static_cast<std::size_t>(folds)) {
+    for (std::size_t i = 0; i < labelled.cause.size(); ++i) {
+        if (evidence.labelled_fold[i] != fold)
+            continue;
         const Eigen::VectorXd residual = fit.residual(labelled.table, static_cast<Eigen::Index>(i));
         const auto found = fit.likelihood().of(residual);
         const Eigen::Index best = largest(found);
@@ -159,6 +180,8 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
         out.taken[{truth, fit.mechanism(best)}] += 1;
         out.labelled_of[truth] += 1;
         out.labelled_left.push_back(fit.left(residual, cause, best));
+        if (const Fit::Second second = fit.second(residual, cause, best); second.model >= 0)
+            out.second_gains.push_back(second.cause.gain);
     }
 }
 
@@ -180,7 +203,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.law_p_value = LawAdjustment::descriptor_p_value(evidence.nulls.descriptors, evidence.descriptors);
     out.contrasts = out.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
-    const Fit fit(evidence, wanted, out.contrasts, rule.folds, -1);
+    const Fit fit(evidence, wanted, out.contrasts, -1);
     out.used = fit.law().used();
     out.residual = fit.law().residual(evidence.descriptors, evidence.statistics);
     if (fit.models().empty())
@@ -193,15 +216,16 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.best = fit.causes()[static_cast<std::size_t>(best)];
     out.shift = fit.models()[static_cast<std::size_t>(best)].mean(cause.size);
 
+    const int count = 1 + *std::max_element(evidence.null_fold.begin(), evidence.null_fold.end());
     std::vector<std::unique_ptr<Fit>> folds;
     LeftOut left_out;
-    for (int fold = 0; fold < rule.folds; ++fold) {
-        folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, rule.folds, fold));
-        look_at_left_out(evidence, *folds.back(), rule.folds, fold, left_out, {});
+    for (int fold = 0; fold < count; ++fold) {
+        folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, fold));
+        look_at_left_out(evidence, *folds.back(), fold, left_out, {});
     }
     const auto is_named = [&](double gain) { return conformal_p_value(left_out.null_gains, gain) <= rule.named; };
-    for (int fold = 0; fold < rule.folds; ++fold)
-        look_at_left_out(evidence, *folds[static_cast<std::size_t>(fold)], rule.folds, fold, left_out, is_named);
+    for (int fold = 0; fold < count; ++fold)
+        look_at_left_out(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
     out.p_value = conformal_p_value(left_out.null_gains, cause.gain);
@@ -209,6 +233,15 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, best));
     for (const auto& [candidate, counts] : left_out.right)
         out.power[static_cast<std::size_t>(candidate)] = counts.first / counts.second;
+
+    if (const Fit::Second second = fit.second(out.residual, cause, best); out.named && second.model >= 0) {
+        out.second_likelihood = second.cause;
+        out.second_p_value = conformal_p_value(left_out.second_gains, second.cause.gain);
+        // fewer labelled campaigns than it takes for the p-value: beyond all of them
+        const double least = 1 / (1 + static_cast<double>(left_out.second_gains.size()));
+        if (out.second_p_value <= std::max(rule.named, std::min(least, most_second_p)))
+            out.second = fit.causes()[static_cast<std::size_t>(second.model)];
+    }
 
     std::set<int> rivals;
     const int mechanism = fit.mechanism(best);

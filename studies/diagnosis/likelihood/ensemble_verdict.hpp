@@ -20,7 +20,6 @@ struct EnsembleRule {
     double apart = 3;          ///< nats within which rivals are in the set with the best
     double confused = 0.2;     ///< share of a rival's left-out campaigns that are called by the best's name
     double unexplained = 0.01; ///< p-value of what is left beside the best cause
-    int folds = 5;
 };
 
 struct LabelledCampaigns {
@@ -35,6 +34,9 @@ struct EnsembleEvidence {
     std::vector<int> mechanism; ///< (causes) candidates of one mechanism at several places have one number
     /// (p) statistics that a common law shifts alike, as the same one of all joints, have one number; -1: by itself
     std::vector<int> common;
+    /// (nulls), (labelled) part that is left out together, from 0. Parts of one kind of law each make every check one
+    /// on a law that the fit has not seen. Each part holds some nulls.
+    std::vector<int> null_fold, labelled_fold;
     Eigen::VectorXd descriptors, statistics; ///< of the measured campaign
 };
 
@@ -43,11 +45,15 @@ struct EnsembleVerdict {
     int best = -1;                       ///< the candidate of the largest gain; -1: none can be judged
     double p_value = 1;                  ///< of that gain where nothing is hidden
     bool named = false;
-    double probability = 0;  ///< that the mechanism named is right
-    std::vector<int> set;    ///< mechanisms that these data do not distinguish from the best
-    double law_p_value = 1;  ///< of the law descriptors in the family
-    bool contrasts = false;  ///< the law is outside the family: only contrasts between joints were used
-    double left_p_value = 1; ///< of what is left beside the best cause
+    double probability = 0; ///< that the mechanism named is right
+    /// A second cause of another mechanism, judged with the best one given; -1: none is named.
+    int second = -1;
+    CauseLikelihood second_likelihood;
+    double second_p_value = 1; ///< among labelled campaigns, in which there is one cause alone
+    std::vector<int> set;      ///< mechanisms that these data do not distinguish from the best
+    double law_p_value = 1;    ///< of the law descriptors in the family
+    bool contrasts = false;    ///< the law is outside the family: only contrasts between joints were used
+    double left_p_value = 1;   ///< of what is left beside the best cause
     bool unexplained = false;
     Eigen::VectorXd residual;       ///< (used) of the measured campaign
     Eigen::VectorXd shift;          ///< (used) what the best cause makes of it

@@ -32,6 +32,10 @@ protected:
             labelled.table.statistics.row(i) =
                 world_.campaign(law, labelled.cause.back(), labelled.size.back()).transpose();
         }
+        for (int i = 0; i < 300; ++i)
+            evidence_.null_fold.push_back(i % 5);
+        for (int i = 0; i < causes * of_each; ++i)
+            evidence_.labelled_fold.push_back(i % 5);
         for (int c = 0; c < causes; ++c)
             evidence_.mechanism.push_back(c);
         for (int j = 0; j < statistics; ++j)
@@ -137,6 +141,20 @@ TEST_F(EnsembleVerdictStatistics, PowerIsTheShareThatIsNamed)
         EXPECT_GT(verdict.power[static_cast<std::size_t>(c)], 0.2) << c;
     }
     EXPECT_EQ(verdict.null_gains.size(), 300U) << "each is left out once";
+}
+
+TEST_F(EnsembleVerdictStatistics, TwoCausesAreBothNamed)
+{
+    int both = 0, one_too_many = 0;
+    for (int i = 0; i < 20; ++i) {
+        const Eigen::VectorXd law = world_.law();
+        const Eigen::VectorXd one = world_.campaign(law, 1, 1);
+        const EnsembleVerdict two = judge(law, one + world_.shift(6));
+        both += two.named && two.second >= 0 && two.best + two.second == 7 && two.best * two.second == 6 ? 1 : 0;
+        one_too_many += judge(law, one).second >= 0 ? 1 : 0;
+    }
+    EXPECT_GE(both, 12);
+    EXPECT_LE(one_too_many, 3);
 }
 
 TEST_F(EnsembleVerdictStatistics, AShiftOfNoCauseIsUnexplained)
