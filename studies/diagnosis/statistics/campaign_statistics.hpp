@@ -22,7 +22,8 @@
 ///
 /// Where these are more than 200, sums over the runs of all motions take the place of those of single motions, from
 /// the last kind of the list above to the first, as far as necessary. If even that is too much, the scores and then the
-/// last kinds of the list above are left out. Paths and squares are corrected for the cameras' noise
+/// last kinds of the list above are left out. An epistyle that turns on one seat lifts off the others: its other seats
+/// are open, and count as hopping. Paths and squares are corrected for the cameras' noise
 /// (`joint_sums.hpp`).
 
 #include "ensemble/model/campaign.hpp"

@@ -41,7 +41,6 @@ private:
     Specimen specimen_;
     std::vector<std::vector<int>> above_;
     std::vector<double> weight_n_;                    ///< (n_joint)
-    double slip_m_s_;                                 ///< least speed of the lowest class
     std::vector<std::vector<RockingSample>> samples_; ///< (n_joint)
 };
 

@@ -29,7 +29,7 @@ class Summing {
 public:
     Summing(const JointFaces& faces, const JointSeries& series, const CoarseRun& run, const RigidRocking& rigid,
             double open_rad, double time_s)
-        : faces_(faces), series_(series), run_(run), rigid_(rigid), open_rad_(open_rad), time_s_(time_s),
+        : series_(series), run_(run), rigid_(rigid), open_rad_(open_rad), time_s_(time_s),
           half_width_(std::min(faces.narrower_m(), faces.upper_half_width_m)), near_closure_(run.bins, 0)
     {
     }
@@ -78,7 +78,7 @@ private:
     {
         const double h = run_.spacing_s, noise = 2 * sums_.rotation_variance / (4 * h * h);
         const auto wait = static_cast<std::size_t>(opens_again * time_s_ / h);
-        const auto around = static_cast<std::size_t>(near_impact * time_s_ / h + 0.5);
+        const auto around = static_cast<std::size_t>(std::lround(near_impact * time_s_ / h));
         const auto& r = series_.rotation_rad;
         for (std::size_t k = 0; k < open_.size(); ++k) {
             const Stretch& a = open_[k];
@@ -190,7 +190,6 @@ private:
         sums_.rotation_path_noise_rad = path_noise * turn_sd * std::sqrt(count);
     }
 
-    const JointFaces& faces_;
     const JointSeries& series_;
     const CoarseRun& run_;
     const RigidRocking& rigid_;
