@@ -1,5 +1,6 @@
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
@@ -8,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -57,7 +59,7 @@ std::string key_of(const Campaign& measured, const Study& study, const std::vect
                    const EnsemblePlan& plan)
 {
     std::string key = "# stylobate simulated campaigns " + campaign_key(measured, study, plan.seed) +
-                      fmt::format(" {} {}", plan.nulls, plan.of_each_cause);
+                      fmt::format(" {} {} {} {}", plan.scouts, plan.parents, plan.nulls, plan.of_each_cause);
     for (const CandidateCause& cause : causes)
         key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.at_one);
     return key;
@@ -74,13 +76,46 @@ Eigen::MatrixXd matrix_of(const std::vector<const SimulatedCampaign*>& rows,
     return out;
 }
 
+/// The laws of those scouts whose descriptors are nearest to the measured ones, each over its scatter among the scouts.
+std::vector<HealthyLaw> likest_laws(const CampaignEnsemble& ensemble, const EnsemblePlan& plan,
+                                    const std::vector<double>& shown)
+{
+    const Eigen::MatrixXd scouts = ensemble.scouts(plan).descriptors;
+    std::vector<std::pair<double, std::uint64_t>> distance;
+    for (Eigen::Index i = 0; i < scouts.rows(); ++i)
+        distance.emplace_back(0, static_cast<std::uint64_t>(i));
+    for (Eigen::Index k = 0; k < scouts.cols(); ++k) {
+        std::vector<double> known;
+        for (const double value : scouts.col(k))
+            if (std::isfinite(value))
+                known.push_back(value);
+        if (!std::isfinite(shown[static_cast<std::size_t>(k)]) || known.size() < 2)
+            continue;
+        const double middle = upper_median(known);
+        for (double& value : known)
+            value = std::fabs(value - middle);
+        const double spread = std::max(1.4826 * upper_median(std::move(known)), 1e-12);
+        constexpr double most = 5; // one strange descriptor does not decide; a missing one is as strange
+        for (Eigen::Index i = 0; i < scouts.rows(); ++i) {
+            const double off = (scouts(i, k) - shown[static_cast<std::size_t>(k)]) / spread;
+            const double part = std::isfinite(off) ? std::min(std::fabs(off), most) : most;
+            distance[static_cast<std::size_t>(i)].first += part * part;
+        }
+    }
+    std::sort(distance.begin(), distance.end());
+    std::vector<HealthyLaw> laws;
+    for (std::uint64_t i = 0; i < plan.parents; ++i)
+        laws.push_back(draw_law(plan.family, plan.seed, distance[i % distance.size()].second));
+    return laws;
+}
+
 } // namespace
 
 std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& causes, std::uint64_t number) const
 {
-    if (number < nulls)
+    if (number < scouts + nulls)
         return {-1, 0};
-    const std::uint64_t k = number - nulls;
+    const std::uint64_t k = number - scouts - nulls;
     const auto cause = static_cast<std::size_t>(k % causes.size());
     const std::uint64_t place = k / causes.size();
     const CandidateCause& c = causes[cause];
@@ -92,11 +127,21 @@ std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& ca
     return {static_cast<int>(cause), z};
 }
 
-CampaignTable CampaignEnsemble::nulls() const
+CampaignTable CampaignEnsemble::scouts(const EnsemblePlan& plan) const
+{
+    return table_of(0, plan.scouts);
+}
+
+CampaignTable CampaignEnsemble::nulls(const EnsemblePlan& plan) const
+{
+    return table_of(plan.scouts, plan.scouts + plan.nulls);
+}
+
+CampaignTable CampaignEnsemble::table_of(std::uint64_t first, std::uint64_t end) const
 {
     std::vector<const SimulatedCampaign*> rows;
     for (const SimulatedCampaign& campaign : campaigns)
-        if (campaign.cause < 0)
+        if (campaign.number >= first && campaign.number < end)
             rows.push_back(&campaign);
     return {matrix_of(rows, &SimulatedCampaign::descriptors), matrix_of(rows, &SimulatedCampaign::statistics)};
 }
@@ -117,7 +162,8 @@ LabelledCampaigns CampaignEnsemble::labelled() const
 
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const EnsemblePlan& plan,
-                                   const std::filesystem::path& cache, const RunOptions& options,
+                                   const std::vector<double>& shown, const std::filesystem::path& cache,
+                                   const RunOptions& options,
                                    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                    Observer& observer)
 {
@@ -139,11 +185,20 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
             }
         out.cached = out.campaigns.size();
     }
+    std::vector<HealthyLaw> parents;
     progress(out.campaigns.size(), total);
     while (out.campaigns.size() < total) {
-        const std::uint64_t first = out.campaigns.size(), count = std::min(together, total - first);
+        const std::uint64_t first = out.campaigns.size();
+        const std::uint64_t count = std::min(together, (first < plan.scouts ? plan.scouts : total) - first);
         HealthyScatter scatter;
-        scatter.laws = draw_laws(plan.family, plan.seed, first, count);
+        if (first < plan.scouts) {
+            scatter.laws = draw_laws(plan.family, plan.seed, first, count);
+        } else {
+            if (parents.empty())
+                parents = likest_laws(out, plan, shown);
+            for (std::uint64_t i = first; i < first + count; ++i)
+                scatter.laws.push_back(draw_near(plan.family, parents[plan.parent(i)], plan.seed, i));
+        }
         std::vector<std::vector<SizedCause>> acting(count);
         for (std::uint64_t i = 0; i < count; ++i)
             if (const auto [cause, z] = plan.label(causes, first + i); cause >= 0) {

@@ -19,14 +19,6 @@ Eigen::VectorXd vector_of(const std::vector<double>& values)
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// Which combination of form and kind of damping a law is, from 0.
-int law_part(const LawFamily& family, const HealthyLaw& law)
-{
-    const auto form = std::find(family.forms.begin(), family.forms.end(), law.form) - family.forms.begin();
-    const auto kind = std::find(family.kinds.begin(), family.kinds.end(), law.kind) - family.kinds.begin();
-    return static_cast<int>(form * static_cast<std::ptrdiff_t>(family.kinds.size()) + kind);
-}
-
 /// Statistics of one kind and motion, of all joints or blocks: what a common law shifts alike.
 std::vector<int> common_groups(const std::vector<StatisticLabel>& labels)
 {
@@ -64,6 +56,7 @@ void complete_descriptors(EnsembleEvidence& evidence)
     };
     complete(evidence.labelled.table.descriptors);
     complete(evidence.nulls.descriptors);
+    complete(evidence.law_descriptors);
     evidence.descriptors = evidence.descriptors(kept).eval();
 }
 
@@ -119,21 +112,24 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
     out.statistics = statistic_labels(campaign);
     out.descriptors = descriptor_labels(campaign);
     out.measured = statistics_of(campaign, scales, base_m);
-    out.ensemble = simulate_ensemble(campaign, study, out.causes, plan, cache, options, progress, observer);
+    out.ensemble = simulate_ensemble(campaign, study, out.causes, plan, out.measured.descriptors, cache, options,
+                                     progress, observer);
     if (!out.ensemble.complete)
         return out;
     EnsembleEvidence evidence;
-    evidence.nulls = out.ensemble.nulls();
+    evidence.nulls = out.ensemble.nulls(plan);
     evidence.labelled = out.ensemble.labelled();
     for (std::size_t c = 0; c < out.causes.size(); ++c)
         evidence.mechanism.push_back(out.mechanism_of(c));
-    // a part is one form of contact with one kind of damping: what is left out is a law that the fit has not seen
+    // a part is the neighbourhood of one law: what is left out is a law that the fit has not seen
     for (const SimulatedCampaign& row : out.ensemble.campaigns)
-        (row.cause < 0 ? evidence.null_fold : evidence.labelled_fold)
-            .push_back(law_part(plan.family, draw_law(plan.family, plan.seed, row.number)));
+        if (row.number >= plan.scouts)
+            (row.cause < 0 ? evidence.null_fold : evidence.labelled_fold)
+                .push_back(static_cast<int>(plan.parent(row.number)));
     evidence.common = common_groups(out.statistics);
     evidence.descriptors = vector_of(out.measured.descriptors);
     evidence.statistics = vector_of(out.measured.values);
+    evidence.law_descriptors = out.ensemble.scouts(plan).descriptors;
     complete_descriptors(evidence);
     out.verdict = ensemble_verdict(evidence);
     return out;

@@ -200,7 +200,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     EnsembleVerdict out;
     out.causes.resize(evidence.mechanism.size());
     out.power.assign(evidence.mechanism.size(), 0);
-    out.law_p_value = LawAdjustment::descriptor_p_value(evidence.nulls.descriptors, evidence.descriptors);
+    out.law_p_value = LawAdjustment::descriptor_p_value(evidence.law_descriptors, evidence.descriptors);
     out.contrasts = out.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
     const Fit fit(evidence, wanted, out.contrasts, -1);

@@ -31,6 +31,8 @@ struct LabelledCampaigns {
 struct EnsembleEvidence {
     CampaignTable nulls;
     LabelledCampaigns labelled;
+    Eigen::MatrixXd
+        law_descriptors;        ///< (n x q) of healthy campaigns of the whole family of laws; the nulls may be near
     std::vector<int> mechanism; ///< (causes) candidates of one mechanism at several places have one number
     /// (p) statistics that a common law shifts alike, as the same one of all joints, have one number; -1: by itself
     std::vector<int> common;

@@ -73,6 +73,10 @@ HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t n
 std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first,
                                   std::uint64_t count);
 
+/// A law near another one: of the same form and kind of damping, its scales moved by a third (1 sigma of the
+/// logarithm), within the family's bounds. A pure function of parent, seed and number.
+HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, std::uint64_t seed, std::uint64_t number);
+
 /// Puts a law into the contacts of a study, before a realization is made of it.
 void apply_law(const HealthyLaw& law, Study& study);
 /// The rest of it into the realization, with a step that is safe for it. Causes come before it: what the faces lose at

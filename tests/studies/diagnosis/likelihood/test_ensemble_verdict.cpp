@@ -20,6 +20,7 @@ protected:
     EnsembleVerdictStatistics() : world_(21)
     {
         evidence_.nulls = world_.nulls(300);
+        evidence_.law_descriptors = evidence_.nulls.descriptors;
         constexpr int of_each = 9;
         LabelledCampaigns& labelled = evidence_.labelled;
         labelled.table = {Eigen::MatrixXd(causes * of_each, descriptors),
