@@ -106,13 +106,13 @@ struct Plan {
     std::vector<Kind> kept;
     std::size_t apart = 0; ///< so many of the kinds kept, the first ones, are of single motions
     bool column = false;
-    bool scores = false; ///< of blocks
-    std::size_t joints = 0, blocks = 0;
+    bool scores = false; ///< of drag and eccentricity
+    std::size_t joints = 0;
 
     std::size_t size() const
     {
         const std::size_t per_joint = 1 + apart * motions.size() + kept.size() - apart; // with order_slope
-        return joints * per_joint + (scores ? 2 * blocks : 0);
+        return joints * per_joint + (scores ? 2 * joints : 0);
     }
 };
 
@@ -130,7 +130,6 @@ Plan plan_of(const Campaign& campaign)
     std::sort(plan.motions.begin(), plan.motions.end());
     plan.motions.erase(std::unique(plan.motions.begin(), plan.motions.end()), plan.motions.end());
     plan.joints = campaign.specimen.joints.size();
-    plan.blocks = campaign.specimen.half_width_m.size();
     plan.column = plan.scores = !carried_blocks(campaign.specimen).empty();
     for (const Kind& kind : kinds)
         if (plan.column || !kind.column)
@@ -351,8 +350,8 @@ std::vector<StatisticLabel> statistic_labels(const Campaign& campaign)
         labels.push_back({"order_slope", static_cast<int>(j), -1, -1, 0});
     if (plan.scores)
         for (const char* name : {"drag_score", "eccentricity_score"})
-            for (std::size_t b = 0; b < plan.blocks; ++b)
-                labels.push_back({name, -1, static_cast<int>(b), -1, 0});
+            for (std::size_t j = 0; j < plan.joints; ++j)
+                labels.push_back({name, static_cast<int>(j), campaign.specimen.joints[j].second, -1, 0});
     return labels;
 }
 

@@ -18,7 +18,8 @@
 ///   turning_offset     how far inside the corner the joint turns, over the half width, by side
 ///   friction_slow, _medium, _fast   T / N in slides that last, by slip speed (columns alone)
 /// of each joint        order_slope: change of ln slip path with the number of runs before, within motions
-/// of each block        drag_score, eccentricity_score of the balance of moments about the corners (columns alone)
+/// of each joint, and so of the block on it: drag_score, eccentricity_score of all that the joint carries, from the
+///                      balance of moments about its corners (columns alone)
 ///
 /// Where these are more than 200, sums over the runs of all motions take the place of those of single motions, from
 /// the last kind of the list above to the first, as far as necessary. If even that is too much, the scores and then the

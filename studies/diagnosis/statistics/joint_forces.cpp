@@ -160,11 +160,11 @@ void JointForces::add(std::size_t joint, const JointFaces& faces, const JointSer
             moment += mass * (arm_x * (m.ay + g) - arm_y * m.ax) + mass * (bk * bk + hk * hk) / 3 * m.turn;
             // the force of the air, and the moment of a centre of mass that lies half a width beside the middle
             const double per = sign / (weight * half_width), speed = std::hypot(m.vx, m.vy);
-            sample.drag.push_back(-per * speed * (arm_x * m.vy - arm_y * m.vx));
+            sample.drag += -per * speed * (arm_x * m.vy - arm_y * m.vx);
             const double shift_ax = -m.turn * m.sine - m.spin * m.spin * m.cosine;
             const double shift_ay = m.turn * m.cosine - m.spin * m.spin * m.sine;
-            sample.eccentricity.push_back(
-                -per * bk * mass * (m.cosine * (m.ay + g) - m.sine * m.ax + arm_x * shift_ay - arm_y * shift_ax));
+            sample.eccentricity +=
+                -per * bk * mass * (m.cosine * (m.ay + g) - m.sine * m.ax + arm_x * shift_ay - arm_y * shift_ax);
         }
         // the face that is touched: of the lower block, or the upper one's
         const int owner = a.on_upper ? faces.lower : faces.upper;
@@ -190,36 +190,31 @@ void JointForces::add(std::size_t joint, const JointFaces& faces, const JointSer
 
 std::vector<double> JointForces::scores() const
 {
-    const std::size_t blocks = specimen_.half_width_m.size();
-    std::vector<double> sums(2 * blocks, 0), squares(2 * blocks, 0), counts(2 * blocks, 0);
-    for (std::size_t j = 0; j < samples_.size(); ++j) {
+    const std::size_t joints = samples_.size();
+    std::vector<double> scores(2 * joints, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t j = 0; j < joints; ++j) {
         const std::vector<RockingSample>& samples = samples_[j];
         if (samples.size() < fewest)
             continue;
         const std::vector<double> r = limited_residuals(samples);
-        double normal = 0;
-        for (const RockingSample& s : samples)
-            normal += s.normal * s.normal;
-        for (std::size_t a = 0; a < above_[j].size(); ++a)
-            for (const bool drag : {true, false}) {
-                const auto column = [&](const RockingSample& s) { return drag ? s.drag[a] : s.eccentricity[a]; };
-                const std::size_t k = static_cast<std::size_t>(above_[j][a]) + (drag ? 0 : blocks);
-                double along = 0; // what the turning point takes of the column
-                for (const RockingSample& s : samples)
-                    along += column(s) * s.normal / normal;
-                for (std::size_t i = 0; i < samples.size(); ++i) {
-                    const double c = column(samples[i]) - along * samples[i].normal;
-                    sums[k] += c * r[i];
-                    squares[k] += c * c;
-                }
-                counts[k] += static_cast<double>(samples.size());
+        for (const auto& [column, k] :
+             {std::pair{&RockingSample::drag, j}, {&RockingSample::eccentricity, joints + j}}) {
+            double normal = 0, along = 0; // what the turning point takes of the column
+            for (const RockingSample& s : samples) {
+                normal += s.normal * s.normal;
+                along += s.*column * s.normal;
             }
+            double sum = 0, square = 0;
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const double c = samples[i].*column - along / normal * samples[i].normal;
+                sum += c * r[i];
+                square += c * c;
+            }
+            if (square > 0)
+                scores[k] = sum / std::sqrt(square);
+        }
     }
-    std::vector<double> out;
-    for (std::size_t k = 0; k < sums.size(); ++k)
-        out.push_back(counts[k] > 0 && squares[k] > 0 ? sums[k] / std::sqrt(squares[k])
-                                                      : std::numeric_limits<double>::quiet_NaN());
-    return out;
+    return scores;
 }
 
 } // namespace stylobate

@@ -16,9 +16,9 @@ std::vector<std::vector<int>> carried_blocks(const Specimen& specimen);
 
 /// A joint that rocks, at one time.
 struct RockingSample {
-    double value = 0;  ///< sign x moment about the corner over weight x half width: 0 under the law
-    double normal = 0; ///< normal force over the weight: what a turning point inside its corner adds
-    std::vector<double> drag, eccentricity; ///< (carried blocks) what a unit of each adds
+    double value = 0;                  ///< sign x moment about the corner over weight x half width: 0 under the law
+    double normal = 0;                 ///< normal force over the weight: what a turning point inside its corner adds
+    double drag = 0, eccentricity = 0; ///< what a unit of each adds, the same of all blocks that are carried
 };
 
 class JointForces {
@@ -31,10 +31,11 @@ public:
     void add(std::size_t joint, const JointFaces& faces, const JointSeries& series, const CoarseRun& run,
              double open_rad, JointSums& sums);
 
-    /// Scores of drag and of eccentricity of each block, one at a time beside the turning points of the joints: of a
-    /// cause with column c and robust residuals r of scale s, sum c r / (s sqrt(sum c^2)). Without an effect it has the
-    /// mean 0, and its scale does not depend on the number of samples. NaN: fewer than 10 samples.
-    /// @return (2 n_block) drag of all blocks, then eccentricity
+    /// Scores of drag and of eccentricity at each joint, one at a time beside its turning point: with the column c of
+    /// what all carried blocks would add and robust residuals r of scale s, sum c r / (s sqrt(sum c^2)). Without an
+    /// effect the mean is 0. A cause in a block shows at the joint under it and at those below, and not at those
+    /// above: that is its place. NaN: fewer than 10 samples.
+    /// @return (2 n_joint) drag at all joints, then eccentricity
     std::vector<double> scores() const;
 
 private:

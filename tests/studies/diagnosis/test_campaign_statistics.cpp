@@ -178,6 +178,15 @@ Specimen slender()
     return s;
 }
 
+Specimen slender_on_slab()
+{
+    Specimen s = block_on_slab();
+    s.half_width_m = {0.04, 0.02};
+    s.half_height_m[1] = 0.1;
+    s.rest_y_m[1] = 0.2;
+    return s;
+}
+
 struct Rocking {
     double restitution = 0.8;
     double most_rad = 0.1;
@@ -186,14 +195,15 @@ struct Rocking {
     double drag = 0; ///< over the mass [1/m]
     double noise_m = 0, noise_rad = 0;
     double floor_rad = 0.02; ///< of the last excursion
+    bool on_slab = false;    ///< it stands on a slab that keeps still, and not on the table
 };
 
 /// A block that rocks from corner to corner: its equation of motion about the corner, integrated in small steps, with
 /// what a closure leaves of the speed. @param speeds after the closures
 Campaign rocking_block(const Rocking& how, std::vector<double>* tops = nullptr)
 {
-    const Specimen s = slender();
-    const double b = s.half_width_m[0], h = s.half_height_m[0], g = formula_gravity;
+    const Specimen s = how.on_slab ? slender_on_slab() : slender();
+    const double b = s.half_width_m.back(), h = s.half_height_m.back(), g = formula_gravity;
     std::vector<double> angle;
     double theta = 1e-9, rate = 0, most = 0, top = 0;
     { // speed that just reaches the wanted angle: energy about the corner
@@ -230,9 +240,11 @@ Campaign rocking_block(const Rocking& how, std::vector<double>* tops = nullptr)
     const std::size_t rest = 200;
     const auto pose = [&](int block, int i) {
         const auto k = static_cast<std::size_t>(i);
-        if (k < rest || k - rest >= angle.size())
-            return at_rest(s, block);
-        return turned(b, h, angle[k - rest], how.inside_m);
+        Pose at = at_rest(s, block);
+        if (k < rest || k - rest >= angle.size() || block + 1 < s.blocks())
+            return at;
+        const Pose moved = turned(b, h, angle[k - rest], how.inside_m);
+        return Pose{moved.x, at.y + moved.y - h, moved.theta};
     };
     return campaign_of(
         s, {formula_run(s, static_cast<int>(angle.size() + 2 * rest), pose, how.noise_m, how.noise_rad, 7)});
@@ -292,6 +304,16 @@ TEST(CampaignStatistics, ScoresOfDragAndEccentricity)
     // each shows in its own score
     EXPECT_LT(std::fabs(score("drag_score", {.restitution = 0.97, .eccentricity_m = 0.002})), 5);
     EXPECT_LT(std::fabs(score("eccentricity_score", {.restitution = 0.97, .drag = 30})), 5);
+}
+
+TEST(CampaignStatistics, ScoresAreOfTheJointThatRocks)
+{
+    const Campaign campaign = rocking_block(
+        {.restitution = 0.97, .eccentricity_m = 0.002, .noise_m = 1e-5, .noise_rad = 1e-4, .on_slab = true});
+    EXPECT_TRUE(std::isnan(value(campaign, "eccentricity_score", 0, 0)));
+    EXPECT_GT(value(campaign, "eccentricity_score", 0, 1), 8);
+    EXPECT_LT(std::fabs(value(campaign, "drag_score", 0, 1)), 5);
+    EXPECT_NEAR(value(campaign, "turning_offset", 1, 1), 0, 0.01);
 }
 
 /// A stack of equal blocks, run by run with other motions.
