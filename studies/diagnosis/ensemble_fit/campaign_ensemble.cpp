@@ -56,12 +56,14 @@ bool read_line(const std::string& line, std::size_t descriptors, std::size_t sta
 
 /// What a file of rows is of: another campaign, plan or version has another key.
 std::string key_of(const Campaign& measured, const Study& study, const std::vector<CandidateCause>& causes,
-                   const EnsemblePlan& plan)
+                   const EnsemblePlan& plan, const std::vector<double>& shown)
 {
     std::string key = "# stylobate simulated campaigns " + campaign_key(measured, study, plan.seed) +
                       fmt::format(" {} {} {} {}", plan.scouts, plan.parents, plan.nulls, plan.of_each_cause);
     for (const CandidateCause& cause : causes)
         key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.at_one);
+    for (const double value : shown) // the parents' laws depend on them
+        key += fmt::format(" {:.17g}", value);
     return key;
 }
 
@@ -171,7 +173,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     const TrackScales scales = track_scales(measured);
     const std::size_t descriptors = descriptor_labels(measured).size(), statistics = statistic_labels(measured).size();
     const std::uint64_t total = plan.total(causes.size());
-    const std::string key = key_of(measured, study, causes, plan);
+    const std::string key = key_of(measured, study, causes, plan, shown);
     std::string text = key + "\n";
     if (!cache.empty()) {
         std::ifstream in(cache);

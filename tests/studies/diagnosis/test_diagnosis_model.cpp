@@ -81,6 +81,9 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
     causes.push_back({"table_pitch", "base", "rotation_rad_s2_m", "rad s2/m", 0});
     causes.push_back({"vertical_motion", "base", "ratio", "", 0});
     causes.push_back({"adhesion", "joint 1", "adhesion_n_m", "N/m", 0, 1});
+    Cause yielding{"dowel", "joint 1", "yield_n", "N", 0, 1};
+    yielding.fixed = 2e-4; // the slip at which it yields
+    causes.push_back(yielding);
     for (const Cause& cause : causes) {
         SCOPED_TRACE(cause.label());
         mechanisms.insert(cause.mechanism);
@@ -122,6 +125,11 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
         }
         EXPECT_EQ(applied.base, sampled.base);
         EXPECT_TRUE(changed);
+        if (cause.parameter == "yield_n") { // the force at the end of the elastic slip is the yield force
+            const JointExtension& dowel = applied.joints[static_cast<std::size_t>(built.bed[1])].extension;
+            EXPECT_DOUBLE_EQ(dowel.dowel_stiffness_n_m * 2e-4, dowel.dowel_yield_n);
+            EXPECT_EQ(dowel.dowel_yield_n, sized.size);
+        }
     }
     EXPECT_EQ(mechanisms.size(), 11u); // the eight of the balance and three more
 }

@@ -1,0 +1,157 @@
+/// Simulated campaigns with labels: which are simulated, that they are the same whoever simulates them, and that an
+/// interrupted ensemble continues.
+
+#include "tests/ensemble/tracking/synthetic_campaign.hpp"
+
+#include "io/files/temporary_folder.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace stylobate {
+namespace {
+
+const Campaign& campaign()
+{
+    static const Campaign measured = measure({.runs = 2, .drums = 2, .strong_s = 0.5});
+    return measured;
+}
+
+TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
+{
+    const Specimen& s = campaign().specimen;
+    const TrackScales scales = track_scales(campaign());
+    const std::vector<CandidateCause> causes = candidate_causes(s, scales, {{0.01, 0.0}, {0.5, 0.0}}, 0.6);
+    std::map<std::string, const CandidateCause*> by_label;
+    for (const CandidateCause& cause : causes) {
+        by_label[cause.cause.label()] = &cause;
+        EXPECT_DOUBLE_EQ(cause.size_of(0), cause.cause.neutral) << cause.cause.label();
+        for (const double z : {cause.least, 0.3 * cause.most, cause.most})
+            EXPECT_NEAR(cause.z_of(cause.size_of(z)), z, 1e-12) << cause.cause.label();
+    }
+    EXPECT_EQ(by_label.size(), causes.size()) << "each once";
+    EXPECT_DOUBLE_EQ(by_label.at("joint_friction at joint 1")->size_of(1), 0.5);
+    EXPECT_DOUBLE_EQ(by_label.at("corner_loss at joint 0 left")->size_of(1), 0.15 * 0.048);
+    EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 0")->size_of(1), 0.6 / 0.01) << "all of a run's path";
+    EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 1")->size_of(1), 0.6 / (0.02 * 0.048))
+        << "a joint that does not slide does not wear to nothing";
+    // what the friction of the joint holds at rest: joint 0 carries both drums
+    EXPECT_NEAR(by_label.at("dowel at joint 0")->size_of(1), 0.6 * 2 * 0.1355 * 9.81, 1e-9);
+    EXPECT_EQ(by_label.at("eccentricity at block 1")->least, -1) << "to either side";
+}
+
+TEST(EnsemblePlan, EachCauseHasSizesFromWeakToStrong)
+{
+    const std::vector<CandidateCause> causes =
+        candidate_causes(campaign().specimen, track_scales(campaign()), {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
+    const EnsemblePlan plan;
+    std::map<int, std::vector<double>> sizes;
+    std::map<int, std::set<std::uint64_t>> parents;
+    for (std::uint64_t number = 0; number < plan.total(causes.size()); ++number) {
+        const auto [cause, z] = plan.label(causes, number);
+        EXPECT_EQ(cause < 0, number < plan.scouts + plan.nulls);
+        EXPECT_EQ(z == 0, cause < 0);
+        sizes[cause].push_back(z);
+        parents[cause].insert(plan.parent(number));
+    }
+    ASSERT_EQ(sizes.size(), causes.size() + 1);
+    for (std::size_t c = 0; c < causes.size(); ++c) {
+        const std::vector<double>& of = sizes.at(static_cast<int>(c));
+        ASSERT_EQ(of.size(), plan.of_each_cause);
+        EXPECT_EQ(*std::max_element(of.begin(), of.end()), causes[c].most);
+        EXPECT_EQ(*std::min_element(of.begin(), of.end()) < 0, causes[c].least < 0);
+        EXPECT_GE(parents.at(static_cast<int>(c)).size(), 4U) << "its laws are not all near one";
+    }
+}
+
+TEST(HealthyLawNearAnother, StaysInTheFamilyAndNearby)
+{
+    const LawFamily family;
+    double square = 0;
+    int n = 0;
+    for (std::uint64_t k = 0; k < 200; ++k) {
+        const HealthyLaw parent = draw_law(family, 3, k), law = draw_near(family, parent, 3, 1000 + k);
+        EXPECT_EQ(law.form, parent.form);
+        EXPECT_EQ(law.kind, parent.kind);
+        EXPECT_TRUE(law.stiffness >= 0.1 && law.stiffness <= 10);
+        EXPECT_TRUE(law.shear >= 0.1 && law.shear <= 1);
+        EXPECT_TRUE(law.inset >= 0 && law.inset <= 0.03);
+        EXPECT_EQ(law, draw_near(family, parent, 3, 1000 + k)) << "a function of its number";
+        if (parent.stiffness > 0.5 && parent.stiffness < 2) { // far from the bounds
+            square += std::pow(std::log(law.stiffness / parent.stiffness), 2);
+            ++n;
+        }
+    }
+    ASSERT_GT(n, 30);
+    EXPECT_NEAR(std::sqrt(square / n), 1.0 / 3, 5 * (1.0 / 3) / std::sqrt(2.0 * n));
+}
+
+/// Stops after so many campaigns.
+class Impatient : public Observer {
+public:
+    explicit Impatient(std::uint64_t most) : most_(most) {}
+    bool stop_requested() override { return done >= most_; }
+    std::uint64_t done = 0;
+
+private:
+    std::uint64_t most_;
+};
+
+TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
+{
+    const Study study = default_study(campaign());
+    const TrackScales scales = track_scales(campaign());
+    std::vector<CandidateCause> causes = candidate_causes(campaign().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
+    causes.resize(3);
+    EnsemblePlan plan;
+    plan.scouts = 24;
+    plan.parents = 3;
+    plan.nulls = 12;
+    plan.of_each_cause = 4;
+    const std::vector<double> shown =
+        statistics_of(campaign(), scales, direct_tests(campaign(), scales).base_m).descriptors;
+    const TemporaryFolder folder;
+    const auto text_of = [](const std::filesystem::path& file) {
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        return text.str();
+    };
+    const auto simulate = [&](const char* file, Isa isa, int threads, Observer& observer) {
+        return simulate_ensemble(
+            campaign(), study, causes, plan, shown, folder.path() / file, {isa, threads},
+            [&](std::uint64_t done, std::uint64_t) {
+                if (auto* impatient = dynamic_cast<Impatient*>(&observer))
+                    impatient->done = done;
+            },
+            observer);
+    };
+    Observer patient;
+    const CampaignEnsemble whole = simulate("whole", best_isa(), 2, patient);
+    ASSERT_TRUE(whole.complete);
+    ASSERT_EQ(whole.campaigns.size(), 24U + 12U + 12U);
+    EXPECT_EQ(whole.nulls(plan).statistics.rows(), 12);
+    EXPECT_EQ(whole.labelled().cause.size(), 12U);
+    EXPECT_TRUE(simulate("scalar", Isa::scalar, 1, patient).complete);
+    EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "scalar"));
+
+    Impatient impatient(24); // after the scouts
+    EXPECT_FALSE(simulate("parts", best_isa(), 1, impatient).complete);
+    const CampaignEnsemble rest = simulate("parts", best_isa(), 2, patient);
+    EXPECT_EQ(rest.cached, 24U);
+    EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "parts"));
+
+    // another seed is another ensemble, and does not continue this one
+    plan.seed = 2;
+    EXPECT_EQ(simulate("parts", best_isa(), 2, patient).cached, 0U);
+}
+
+} // namespace
+} // namespace stylobate
