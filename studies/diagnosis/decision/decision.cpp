@@ -199,6 +199,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
     out.named = named_directly(direct);
     const double explained = name_causes(direct, judged, rule, again, out);
     out.judged = std::move(judged);
+    out.structure95 = chance.quantile95_of_structures();
     find_unexplained(balance, chance, rule, explained, out);
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;
     // Most probable first. The second cause of the joints was judged with the first one given, among fewer rivals: it

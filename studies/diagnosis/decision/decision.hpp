@@ -55,6 +55,7 @@ struct Decided {
     std::vector<JudgedCause> judged; ///< all of the first round
     std::optional<StructureFit> unexplained;
     double unexplained_chance = 1;
+    double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind by chance [nats]
 };
 
 /// What the direct tests of base and sensors found is named (rule 1).

@@ -12,8 +12,6 @@ namespace {
 
 // Under which name the gains of structures are kept.
 constexpr const char* structure = "structure";
-// Friction that a study would assume where the specimen states none.
-constexpr double friction_unknown = 0.7;
 // Fewer campaigns do not show what one in twenty does: more than the most that they gave is asked for.
 constexpr std::size_t enough_campaigns = 20;
 constexpr double few_factor = 1.5;
@@ -68,13 +66,11 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
 {
     BalanceEvidence out;
     out.scales = scales;
-    const double friction = campaign.specimen.friction_nominal.value_or(friction_unknown);
+    const double friction = nominal_friction(campaign.specimen);
+    out.samples = law_samples(campaign, scales, base_m, friction);
     std::vector<LawSample> all;
-    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
-        const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
-        out.samples.push_back(law_samples(campaign.specimen, scales, track, static_cast<int>(r), friction));
-        all.insert(all.end(), out.samples.back().begin(), out.samples.back().end());
-    }
+    for (const std::vector<LawSample>& run : out.samples)
+        all.insert(all.end(), run.begin(), run.end());
     if (all.empty()) {
         out.why_not = "No joint with known forces slid or rocked long enough.";
         return out;

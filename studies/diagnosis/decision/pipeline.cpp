@@ -34,6 +34,13 @@ bool unrecorded_vertical(const Cause& cause)
     return cause.mechanism == "vertical_motion" && cause.parameter != "ratio";
 }
 
+/// How long the rest takes, if it goes on as it did.
+std::string time_left(std::chrono::steady_clock::time_point begun, std::uint64_t done, std::uint64_t left)
+{
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
+    return fmt::format(", about {:.0f} s left", passed.count() / static_cast<double>(done) * static_cast<double>(left));
+}
+
 /// The stages of a diagnosis in their order; each leaves what it found for those after it.
 /// A stage returns false if the observer stopped it.
 class Pipeline {
@@ -239,27 +246,34 @@ bool Pipeline::compare_statistics()
     std::filesystem::path cache = options_.cache;
     if (!cache.empty())
         cache.replace_filename(cache.stem().string() + "_campaigns.txt");
+    const auto begun = std::chrono::steady_clock::now();
+    std::optional<std::uint64_t> cached;
     ensemble_.emplace(ensemble_diagnosis(
-        campaign_, start_, scales_, direct_.base_m, plan, cache, options_.run,
+        campaign_, start_, scales_, known_, direct_.base_m, plan, cache, options_.run,
         [&](std::uint64_t done, std::uint64_t total) {
-            tell_(fmt::format("  simulated campaigns: {} of {}", done, total));
+            if (!cached)
+                cached = done;
+            tell_(fmt::format("  simulated campaigns: {} of {}{}", done, total,
+                              done > *cached ? time_left(begun, done - *cached, total - done) : ""));
         },
         observer_));
     count_.simulations += ensemble_->ensemble.simulations;
     count_.block_steps += ensemble_->ensemble.block_steps;
     if (!ensemble_->ensemble.complete)
         return false;
-    d_.nulls.push_back(
-        {"area, two_corner and points", plan.nulls,
-         "healthy contact laws of a wide family, friction of the joints, widths, masses and places of the "
-         "blocks, noise of the cameras"});
+    d_.nulls.push_back({"area, two_corner and points", plan.healthy() - plan.scouts(),
+                        "healthy contact laws of a wide family that are like the measured one, friction of the joints, "
+                        "widths, masses and places of the "
+                        "blocks, noise of the cameras"});
     return true;
 }
 
 bool Pipeline::reach_verdict()
 {
     if (ensemble_) {
-        decided_ = decide(direct_, *ensemble_);
+        for (const std::string& line : tests_in_words(*ensemble_))
+            tell_("  " + line);
+        decided_ = decide(direct_, *balance_, *ensemble_, options_.rule);
         state_verdict();
         return true;
     }
@@ -334,7 +348,7 @@ void Pipeline::describe_unexplained()
         const StructureFit& f = balance_->structures[k];
         u.features.push_back(
             {fmt::format("{} (block {}, {})", f.structure.depends_on, f.structure.block, f.structure.coordinate),
-             f.gain, chance_.gains.quantile95_of_structures()});
+             f.gain, decided_.structure95});
     }
     d_.unexplained = u;
 }

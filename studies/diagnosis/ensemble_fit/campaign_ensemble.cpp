@@ -1,8 +1,8 @@
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 
-#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/diagnosis/statistics/campaign_statistics.hpp"
+#include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
+#include "studies/diagnosis/statistics/balance_scores.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 namespace stylobate {
@@ -21,19 +20,25 @@ namespace {
 
 /// Campaigns that are simulated together: many bundles with full lanes, and often enough a word on progress.
 constexpr std::uint64_t together = 32;
+// Of the laws near the likest ones (`draw_near`), and by how much less in each further round.
+constexpr double first_spread = 1.0 / 3, narrower = 0.5;
 
 std::string line_of(const SimulatedCampaign& campaign)
 {
     std::string text = fmt::format("{}\t{}\t{:.17g}", campaign.number, campaign.cause, campaign.z);
-    for (const double value : campaign.descriptors)
-        text += fmt::format("\t{:.17g}", value);
-    for (const double value : campaign.statistics)
-        text += fmt::format("\t{:.17g}", value);
+    for (const auto* values : {&campaign.numbers.descriptors, &campaign.numbers.values, &campaign.scores})
+        for (const double value : *values)
+            text += fmt::format("\t{:.17g}", value);
     return text;
 }
 
+/// How many numbers a row has of each kind.
+struct RowShape {
+    std::size_t descriptors, statistics, scores;
+};
+
 /// A line as above. False: it is none, or of another shape.
-bool read_line(const std::string& line, std::size_t descriptors, std::size_t statistics, SimulatedCampaign& campaign)
+bool read_line(const std::string& line, const RowShape& shape, SimulatedCampaign& campaign)
 {
     std::vector<double> numbers;
     std::stringstream in(line);
@@ -43,170 +48,162 @@ bool read_line(const std::string& line, std::size_t descriptors, std::size_t sta
         if (end == part.c_str() || *end != '\0')
             return false;
     }
-    if (numbers.size() != 3 + descriptors + statistics)
+    if (numbers.size() != 3 + shape.descriptors + shape.statistics + shape.scores)
         return false;
     campaign.number = static_cast<std::uint64_t>(numbers[0]);
     campaign.cause = static_cast<int>(numbers[1]);
     campaign.z = numbers[2];
-    const auto middle = numbers.begin() + 3 + static_cast<std::ptrdiff_t>(descriptors);
-    campaign.descriptors.assign(numbers.begin() + 3, middle);
-    campaign.statistics.assign(middle, numbers.end());
+    const auto statistics = numbers.begin() + 3 + static_cast<std::ptrdiff_t>(shape.descriptors);
+    const auto scores = statistics + static_cast<std::ptrdiff_t>(shape.statistics);
+    campaign.numbers.descriptors.assign(numbers.begin() + 3, statistics);
+    campaign.numbers.values.assign(statistics, scores);
+    campaign.scores.assign(scores, numbers.end());
     return true;
 }
 
 /// What a file of rows is of: another campaign, plan or version has another key.
 std::string key_of(const Campaign& measured, const Study& study, const std::vector<CandidateCause>& causes,
-                   const EnsemblePlan& plan, const std::vector<double>& shown)
+                   const std::vector<SizedCause>& known, const EnsemblePlan& plan, const CampaignStatistics& shown)
 {
     std::string key = "# stylobate simulated campaigns " + campaign_key(measured, study, plan.seed) +
-                      fmt::format(" {} {} {} {}", plan.scouts, plan.parents, plan.nulls, plan.of_each_cause);
+                      fmt::format(" {} {} {} {} {} {} {}", plan.wide, plan.pairs, plan.rounds, plan.of_each_round,
+                                  plan.parents, plan.nulls, plan.of_each_cause);
     for (const CandidateCause& cause : causes)
         key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.at_one);
-    for (const double value : shown) // the parents' laws depend on them
-        key += fmt::format(" {:.17g}", value);
+    for (const SizedCause& cause : known)
+        key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.size);
+    for (const auto* values : {&shown.descriptors, &shown.values}) // the parents' laws depend on them
+        for (const double value : *values)
+            key += fmt::format(" {:.17g}", value);
     return key;
 }
 
-Eigen::MatrixXd matrix_of(const std::vector<const SimulatedCampaign*>& rows,
-                          std::vector<double> SimulatedCampaign::*values)
-{
-    const std::size_t columns = rows.empty() ? 0 : (rows.front()->*values).size();
-    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        for (std::size_t j = 0; j < columns; ++j)
-            out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = (rows[i]->*values)[j];
-    return out;
-}
-
-/// The laws of those scouts whose descriptors are nearest to the measured ones, each over its scatter among the scouts.
-std::vector<HealthyLaw> likest_laws(const CampaignEnsemble& ensemble, const EnsemblePlan& plan,
-                                    const std::vector<double>& shown)
-{
-    const Eigen::MatrixXd scouts = ensemble.scouts(plan).descriptors;
-    std::vector<std::pair<double, std::uint64_t>> distance;
-    for (Eigen::Index i = 0; i < scouts.rows(); ++i)
-        distance.emplace_back(0, static_cast<std::uint64_t>(i));
-    for (Eigen::Index k = 0; k < scouts.cols(); ++k) {
-        std::vector<double> known;
-        for (const double value : scouts.col(k))
-            if (std::isfinite(value))
-                known.push_back(value);
-        if (!std::isfinite(shown[static_cast<std::size_t>(k)]) || known.size() < 2)
-            continue;
-        const double middle = upper_median(known);
-        for (double& value : known)
-            value = std::fabs(value - middle);
-        const double spread = std::max(1.4826 * upper_median(std::move(known)), 1e-12);
-        constexpr double most = 5; // one strange descriptor does not decide; a missing one is as strange
-        for (Eigen::Index i = 0; i < scouts.rows(); ++i) {
-            const double off = (scouts(i, k) - shown[static_cast<std::size_t>(k)]) / spread;
-            const double part = std::isfinite(off) ? std::min(std::fabs(off), most) : most;
-            distance[static_cast<std::size_t>(i)].first += part * part;
-        }
+/// The healthy laws of an ensemble, round by round nearer to the measured one.
+class LikeLaws {
+public:
+    LikeLaws(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels, const CampaignStatistics& shown)
+        : plan_(plan), labels_(labels), shown_(law_numbers(labels, shown))
+    {
     }
-    std::sort(distance.begin(), distance.end());
-    std::vector<HealthyLaw> laws;
-    for (std::uint64_t i = 0; i < plan.parents; ++i)
-        laws.push_back(draw_law(plan.family, plan.seed, distance[i % distance.size()].second));
-    return laws;
-}
+
+    /// @param rows all campaigns of the rounds before
+    HealthyLaw of(std::uint64_t number, const std::vector<SimulatedCampaign>& rows)
+    {
+        if (number < plan_.wide)
+            return draw_law(plan_.family, plan_.seed, number);
+        if (number < plan_.scouts())
+            return draw_law(plan_.family, plan_.seed, number - plan_.wide);
+        const std::uint64_t round = plan_.round(number);
+        while (parents_.size() < round)
+            parents_.push_back(likest(parents_.size() + 1, rows));
+        const double spread = first_spread * std::pow(narrower, static_cast<double>(round - 1));
+        return draw_near(plan_.family, parents_[round - 1][plan_.parent(number)], spread, plan_.seed, number);
+    }
+
+    std::vector<double> distances(const std::vector<SimulatedCampaign>& rows) const
+    {
+        std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
+        for (std::uint64_t i = 0; i < plan_.pairs; ++i)
+            pairs.emplace_back(law_numbers(labels_, rows[i].numbers),
+                               law_numbers(labels_, rows[plan_.wide + i].numbers));
+        const LawLikeness likeness(pairs);
+        std::vector<double> out;
+        for (const SimulatedCampaign& row : rows)
+            out.push_back(likeness.distance(shown_, law_numbers(labels_, row.numbers)));
+        return out;
+    }
+
+private:
+    /// The laws of those campaigns before a round that are nearest.
+    std::vector<HealthyLaw> likest(std::uint64_t round, const std::vector<SimulatedCampaign>& rows)
+    {
+        const std::vector<double> distance = distances(rows);
+        std::vector<std::pair<double, std::uint64_t>> order;
+        for (std::uint64_t i = 0; i < plan_.begin_of(round); ++i)
+            order.emplace_back(distance[i], i);
+        std::sort(order.begin(), order.end());
+        std::vector<HealthyLaw> laws;
+        for (std::uint64_t i = 0; i < plan_.parents; ++i)
+            laws.push_back(of(order[i % order.size()].second, rows));
+        return laws;
+    }
+
+    const EnsemblePlan& plan_;
+    const std::vector<StatisticLabel>& labels_;
+    std::vector<double> shown_;
+    std::vector<std::vector<HealthyLaw>> parents_; ///< [round - 1]
+};
 
 } // namespace
 
+std::uint64_t EnsemblePlan::round(std::uint64_t number) const
+{
+    return number < scouts()
+               ? 0
+               : std::min(1 + (number - scouts()) / std::max<std::uint64_t>(of_each_round, 1), rounds + 1);
+}
+
+std::uint64_t EnsemblePlan::begin_of(std::uint64_t round) const
+{
+    return round == 0 ? 0 : scouts() + (round - 1) * of_each_round;
+}
+
 std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& causes, std::uint64_t number) const
 {
-    if (number < scouts + nulls)
+    if (number < healthy())
         return {-1, 0};
-    const std::uint64_t k = number - scouts - nulls;
+    const std::uint64_t k = number - healthy();
     const auto cause = static_cast<std::size_t>(k % causes.size());
     const std::uint64_t place = k / causes.size();
     const CandidateCause& c = causes[cause];
     // from weak to strong, each side where there are two; the neutral size is that of the nulls
-    const double part = static_cast<double>(place + 1) / static_cast<double>(of_each_cause);
-    double z = c.most * part;
-    if (c.least < 0 && place % 2 == 1)
-        z = c.least * part;
-    return {static_cast<int>(cause), z};
-}
-
-CampaignTable CampaignEnsemble::scouts(const EnsemblePlan& plan) const
-{
-    return table_of(0, plan.scouts);
-}
-
-CampaignTable CampaignEnsemble::nulls(const EnsemblePlan& plan) const
-{
-    return table_of(plan.scouts, plan.scouts + plan.nulls);
-}
-
-CampaignTable CampaignEnsemble::table_of(std::uint64_t first, std::uint64_t end) const
-{
-    std::vector<const SimulatedCampaign*> rows;
-    for (const SimulatedCampaign& campaign : campaigns)
-        if (campaign.number >= first && campaign.number < end)
-            rows.push_back(&campaign);
-    return {matrix_of(rows, &SimulatedCampaign::descriptors), matrix_of(rows, &SimulatedCampaign::statistics)};
-}
-
-LabelledCampaigns CampaignEnsemble::labelled() const
-{
-    LabelledCampaigns out;
-    std::vector<const SimulatedCampaign*> rows;
-    for (const SimulatedCampaign& campaign : campaigns)
-        if (campaign.cause >= 0) {
-            rows.push_back(&campaign);
-            out.cause.push_back(campaign.cause);
-            out.size.push_back(campaign.z);
-        }
-    out.table = {matrix_of(rows, &SimulatedCampaign::descriptors), matrix_of(rows, &SimulatedCampaign::statistics)};
-    return out;
+    const std::uint64_t sides = c.least < 0 ? 2 : 1, of_a_side = (of_each_cause + sides - 1) / sides;
+    const double part = static_cast<double>(place / sides + 1) / static_cast<double>(of_a_side);
+    return {static_cast<int>(cause), (place % sides == 0 ? c.most : c.least) * part};
 }
 
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
-                                   const std::vector<CandidateCause>& causes, const EnsemblePlan& plan,
-                                   const std::vector<double>& shown, const std::filesystem::path& cache,
-                                   const RunOptions& options,
+                                   const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
+                                   const EnsemblePlan& plan, const CampaignStatistics& shown,
+                                   const std::filesystem::path& cache, const RunOptions& options,
                                    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                    Observer& observer)
 {
     CampaignEnsemble out;
     const TrackScales scales = track_scales(measured);
-    const std::size_t descriptors = descriptor_labels(measured).size(), statistics = statistic_labels(measured).size();
+    const std::vector<StatisticLabel> labels = statistic_labels(measured);
+    const ScorePlan scored = score_plan(measured.specimen, scales);
     const std::uint64_t total = plan.total(causes.size());
-    const std::string key = key_of(measured, study, causes, plan, shown);
+    const std::string key = key_of(measured, study, causes, known, plan, shown);
     std::string text = key + "\n";
     if (!cache.empty()) {
+        const RowShape shape{shown.descriptors.size(), labels.size(), scored.size()};
         std::ifstream in(cache);
         std::string line;
         SimulatedCampaign campaign;
         if (std::getline(in, line) && line == key)
             while (out.campaigns.size() < total && std::getline(in, line) && !in.eof() && // one without its end is cut
-                   read_line(line, descriptors, statistics, campaign) && campaign.number == out.campaigns.size()) {
+                   read_line(line, shape, campaign) && campaign.number == out.campaigns.size()) {
                 out.campaigns.push_back(campaign);
                 text += line + "\n";
             }
         out.cached = out.campaigns.size();
     }
-    std::vector<HealthyLaw> parents;
+    LikeLaws laws(plan, labels, shown);
     progress(out.campaigns.size(), total);
     while (out.campaigns.size() < total) {
-        const std::uint64_t first = out.campaigns.size();
-        const std::uint64_t count = std::min(together, (first < plan.scouts ? plan.scouts : total) - first);
+        const std::uint64_t first = out.campaigns.size(), round = plan.round(first);
+        const std::uint64_t end = round > plan.rounds ? total : plan.begin_of(round + 1);
+        const std::uint64_t count = std::min(together, end - first);
         HealthyScatter scatter;
-        if (first < plan.scouts) {
-            scatter.laws = draw_laws(plan.family, plan.seed, first, count);
-        } else {
-            if (parents.empty())
-                parents = likest_laws(out, plan, shown);
-            for (std::uint64_t i = first; i < first + count; ++i)
-                scatter.laws.push_back(draw_near(plan.family, parents[plan.parent(i)], plan.seed, i));
-        }
-        std::vector<std::vector<SizedCause>> acting(count);
-        for (std::uint64_t i = 0; i < count; ++i)
+        std::vector<std::vector<SizedCause>> acting(count, known);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            scatter.laws.push_back(laws.of(first + i, out.campaigns));
             if (const auto [cause, z] = plan.label(causes, first + i); cause >= 0) {
                 const CandidateCause& candidate = causes[static_cast<std::size_t>(cause)];
-                acting[i] = {{candidate.cause, candidate.size_of(z)}};
+                acting[i].push_back({candidate.cause, candidate.size_of(z)});
             }
+        }
         const VirtualCampaigns made =
             virtual_campaigns(measured, study, plan.seed, first, count, scatter, acting, options, observer);
         out.simulations += made.simulations;
@@ -219,9 +216,8 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                 SimulatedCampaign& row = rows[i];
                 row.number = first + i;
                 std::tie(row.cause, row.z) = plan.label(causes, first + i);
-                const CampaignStatistics numbers = statistics_of(made.campaigns[i], scales, made.base_m);
-                row.descriptors = numbers.descriptors;
-                row.statistics = numbers.values;
+                row.numbers = statistics_of(made.campaigns[i], scales, made.base_m);
+                row.scores = balance_scores(made.campaigns[i], scales, made.base_m, scored);
             });
         });
         for (SimulatedCampaign& row : rows) {
@@ -232,6 +228,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
             write_whole(cache, text);
         progress(out.campaigns.size(), total);
     }
+    out.distance = laws.distances(out.campaigns);
     out.complete = true;
     return out;
 }

@@ -4,7 +4,7 @@
 
 #include "studies/diagnosis/ensemble_fit/candidate_causes.hpp"
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
-#include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
+#include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,45 +19,54 @@ struct SimulatedCampaign {
     std::uint64_t number = 0;
     int cause = -1; ///< index among the candidates; -1: healthy
     double z = 0;
-    std::vector<double> descriptors, statistics;
+    CampaignStatistics numbers;
+    std::vector<double> scores; ///< (score_plan)
 };
 
-/// Which campaigns are simulated: each a pure function of (seed, number).
+/// Which campaigns are simulated: each a pure function of (seed, number, the rows before its round).
+///
+/// Healthy laws come nearer to the measured one round by round: scouts of the whole family, then campaigns near the
+/// laws that were the likest so far. The rounds' campaigns and those after them are the null distribution: what chance
+/// gives under laws like the measured one.
 struct EnsemblePlan {
     std::uint64_t seed = 1;
-    std::uint64_t scouts = 144;      ///< healthy ones of the whole family: they show which laws are like the campaign's
-    std::uint64_t parents = 12;      ///< so many of their laws, the likest ones, are the parents of all others'
-    std::uint64_t nulls = 300;       ///< healthy ones near the parents
-    std::uint64_t of_each_cause = 9; ///< at sizes spread evenly over the range of z
+    std::uint64_t wide = 144;         ///< healthy ones of the whole family
+    std::uint64_t pairs = 24;         ///< others with the laws of the first of these: the scatter within a law
+    std::uint64_t rounds = 2;         ///< near the likest laws so far
+    std::uint64_t of_each_round = 72; ///< healthy ones
+    std::uint64_t parents = 12;       ///< so many of the likest laws are those near which is drawn
+    std::uint64_t nulls = 192;        ///< healthy ones near the likest laws of all
+    std::uint64_t of_each_cause = 6;  ///< near these too, at sizes spread evenly over the range of z
     LawFamily family;
 
-    std::uint64_t total(std::size_t causes) const { return scouts + nulls + causes * of_each_cause; }
-    /// Whose law a campaign has been given: its number among the parents.
+    std::uint64_t scouts() const { return wide + pairs; }
+    std::uint64_t healthy() const { return scouts() + rounds * of_each_round + nulls; }
+    std::uint64_t total(std::size_t causes) const { return healthy() + causes * of_each_cause; }
+    /// Of a campaign: 0 scouts, then the rounds, then all others.
+    std::uint64_t round(std::uint64_t number) const;
+    /// First campaign of a round.
+    std::uint64_t begin_of(std::uint64_t round) const;
+    /// Whose law a campaign has been given: its number among the parents of its round.
     std::uint64_t parent(std::uint64_t number) const { return (number + number / parents) % parents; }
-    /// Cause and size of a campaign: scouts come first, then the nulls.
+    /// Cause and size of a campaign: those of healthy ones come first.
     std::pair<int, double> label(const std::vector<CandidateCause>& causes, std::uint64_t number) const;
 };
 
 struct CampaignEnsemble {
     std::vector<SimulatedCampaign> campaigns; ///< in the order of their numbers
+    std::vector<double> distance;             ///< (campaigns) of their laws from the measured one (`LawLikeness`)
     std::uint64_t simulations = 0, block_steps = 0, cached = 0;
     bool complete = false; ///< false: the observer stopped it
-
-    CampaignTable scouts(const EnsemblePlan& plan) const;
-    CampaignTable nulls(const EnsemblePlan& plan) const;
-    LabelledCampaigns labelled() const;
-
-private:
-    CampaignTable table_of(std::uint64_t first, std::uint64_t end) const;
 };
 
-/// @param shown    the law descriptors of the measured campaign
+/// @param known    causes that act in every campaign: what direct tests found and no correction takes away
+/// @param shown    of the measured campaign
 /// @param cache    file that keeps the rows; empty: none
 /// @param progress is told (campaigns done, campaigns in all)
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
-                                   const std::vector<CandidateCause>& causes, const EnsemblePlan& plan,
-                                   const std::vector<double>& shown, const std::filesystem::path& cache,
-                                   const RunOptions& options,
+                                   const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
+                                   const EnsemblePlan& plan, const CampaignStatistics& shown,
+                                   const std::filesystem::path& cache, const RunOptions& options,
                                    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                    Observer& observer);
 

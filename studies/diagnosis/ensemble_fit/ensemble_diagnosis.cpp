@@ -1,6 +1,8 @@
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
+#include "studies/diagnosis/statistics/summaries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +13,83 @@ namespace stylobate {
 
 namespace {
 
-// Where the specimen states none.
-constexpr double friction_unknown = 0.7;
-
 Eigen::VectorXd vector_of(const std::vector<double>& values)
 {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// Statistics of one kind and motion, of all joints or blocks: what a common law shifts alike.
+/// A score as a statistic: forces that no law has make heavy tails.
+double tamed(double score)
+{
+    return std::asinh(score);
+}
+
+/// Causes whose scores are statistics beside those of whole runs: one of each mechanism, place and side. Their second
+/// parameters and wear that goes on are left to the test of the scores.
+std::vector<std::size_t> scores_among_statistics(const std::vector<Cause>& causes)
+{
+    std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::size_t>> of;
+    for (std::size_t c = 0; c < causes.size(); ++c)
+        if (!causes[c].persists && !(causes[c].mechanism == "corner_loss" && causes[c].side.empty()))
+            of[{causes[c].mechanism, causes[c].place, causes[c].side}].push_back(c);
+    std::vector<std::size_t> chosen;
+    for (const auto& [key, variants] : of)
+        chosen.push_back(variants[std::get<0>(key) == "stribeck" ? variants.size() / 2 : 0]);
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+}
+
+/// Campaigns as the verdict by statistics sees them.
+class EvidenceRows {
+public:
+    EvidenceRows(const std::vector<StatisticLabel>& statistics, const ScorePlan& scored)
+        : joints_(over_motions(statistics)), law_(over_joints(statistics)),
+          scores_(scores_among_statistics(scored.causes))
+    {
+        labels = joints_.labels;
+        for (const std::size_t c : scores_) {
+            const Cause& cause = scored.causes[c];
+            labels.push_back({"score of " + cause.mechanism + (cause.side.empty() ? "" : ", " + cause.side),
+                              cause.joint, cause.block, -1, 0});
+        }
+    }
+
+    std::vector<double> statistics(const CampaignStatistics& campaign, const std::vector<double>& scores) const
+    {
+        std::vector<double> row = means(joints_, campaign.values);
+        for (const std::size_t c : scores_)
+            row.push_back(tamed(scores[c]));
+        return row;
+    }
+    std::vector<double> descriptors(const CampaignStatistics& campaign) const { return medians(law_, campaign.values); }
+
+    CampaignTable table(const std::vector<const SimulatedCampaign*>& rows) const
+    {
+        CampaignTable out;
+        out.descriptors.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(law_.labels.size()));
+        out.statistics.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(labels.size()));
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            out.descriptors.row(row) = vector_of(descriptors(rows[i]->numbers)).transpose();
+            out.statistics.row(row) = vector_of(statistics(rows[i]->numbers, rows[i]->scores)).transpose();
+        }
+        return out;
+    }
+
+    std::vector<StatisticLabel> labels;
+
+private:
+    Summary joints_, law_;
+    std::vector<std::size_t> scores_;
+};
+
+/// Statistics of one kind, of all joints or blocks: what a common law shifts alike.
 std::vector<int> common_groups(const std::vector<StatisticLabel>& labels)
 {
-    std::map<std::tuple<std::string, int, int>, int> number;
+    std::map<std::pair<std::string, int>, int> number;
     std::vector<int> groups;
     for (const StatisticLabel& label : labels)
-        groups.push_back(
-            number.try_emplace({label.name, label.motion, label.side}, static_cast<int>(number.size())).first->second);
+        groups.push_back(number.try_emplace({label.name, label.side}, static_cast<int>(number.size())).first->second);
     return groups;
 }
 
@@ -56,15 +119,46 @@ void complete_descriptors(EnsembleEvidence& evidence)
     };
     complete(evidence.labelled.table.descriptors);
     complete(evidence.nulls.descriptors);
-    complete(evidence.law_descriptors);
     evidence.descriptors = evidence.descriptors(kept).eval();
+}
+
+/// How much a healthy campaign tells of the measured one: the nearer half of them count in full.
+std::vector<double> likeness_of(const std::vector<double>& distance)
+{
+    const double middle = upper_median(distance);
+    std::vector<double> out;
+    for (const double d : distance)
+        out.push_back(d > middle ? std::pow(middle / d, 2) : 1);
+    return out;
+}
+
+Eigen::MatrixXd scores_of(const std::vector<const SimulatedCampaign*>& rows, std::size_t count)
+{
+    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        out.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]->scores).transpose();
+    return out;
+}
+
+/// Of the measured law, among those of the healthy campaigns.
+double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan,
+                   const std::vector<StatisticLabel>& labels, const CampaignStatistics& measured)
+{
+    const std::vector<SimulatedCampaign>& rows = diagnosis.ensemble.campaigns;
+    std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
+    for (std::uint64_t i = 0; i < plan.pairs; ++i)
+        pairs.emplace_back(law_numbers(labels, rows[i].numbers), law_numbers(labels, rows[plan.wide + i].numbers));
+    std::vector<std::vector<double>> nulls;
+    for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
+        nulls.push_back(law_numbers(labels, rows[i].numbers));
+    return isolation_p_value(LawLikeness(pairs), nulls, law_numbers(labels, measured));
 }
 
 } // namespace
 
-int EnsembleDiagnosis::mechanism_of(std::size_t cause) const
+int EnsembleDiagnosis::mechanism_of(const Cause& cause) const
 {
-    const auto at = std::find(mechanisms.begin(), mechanisms.end(), causes[cause].cause.mechanism);
+    const auto at = std::find(mechanisms.begin(), mechanisms.end(), cause.mechanism);
     return static_cast<int>(at - mechanisms.begin());
 }
 
@@ -98,40 +192,76 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
 }
 
 EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
+                                     const std::vector<SizedCause>& known,
                                      const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
                                      const std::filesystem::path& cache, const RunOptions& options,
                                      const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                      Observer& observer)
 {
     EnsembleDiagnosis out;
-    const double friction = campaign.specimen.friction_nominal.value_or(friction_unknown);
+    const double friction = nominal_friction(campaign.specimen);
     out.causes = candidate_causes(campaign.specimen, scales, joint_paths(campaign, scales, base_m), friction);
     for (const CandidateCause& cause : out.causes)
         if (std::find(out.mechanisms.begin(), out.mechanisms.end(), cause.cause.mechanism) == out.mechanisms.end())
             out.mechanisms.push_back(cause.cause.mechanism);
-    out.statistics = statistic_labels(campaign);
-    out.descriptors = descriptor_labels(campaign);
-    out.measured = statistics_of(campaign, scales, base_m);
-    out.ensemble = simulate_ensemble(campaign, study, out.causes, plan, out.measured.descriptors, cache, options,
-                                     progress, observer);
+    const std::vector<StatisticLabel> labels = statistic_labels(campaign);
+    const CampaignStatistics measured = statistics_of(campaign, scales, base_m);
+    out.scored = score_plan(campaign.specimen, scales);
+    const std::vector<double> scores = balance_scores(campaign, scales, base_m, out.scored);
+    out.ensemble =
+        simulate_ensemble(campaign, study, out.causes, known, plan, measured, cache, options, progress, observer);
     if (!out.ensemble.complete)
         return out;
+
+    std::vector<const SimulatedCampaign*> nulls, labelled;
+    std::vector<double> distance;
     EnsembleEvidence evidence;
-    evidence.nulls = out.ensemble.nulls(plan);
-    evidence.labelled = out.ensemble.labelled();
+    for (std::size_t i = 0; i < out.ensemble.campaigns.size(); ++i) {
+        const SimulatedCampaign& row = out.ensemble.campaigns[i];
+        if (row.number < plan.scouts())
+            continue;
+        // a part is the neighbourhood of one law: what is left out is a law that the fit has not seen
+        const auto fold = static_cast<int>(plan.parent(row.number));
+        if (row.cause < 0) {
+            nulls.push_back(&row);
+            distance.push_back(out.ensemble.distance[i]);
+            evidence.null_fold.push_back(fold);
+        } else {
+            labelled.push_back(&row);
+            evidence.labelled_fold.push_back(fold);
+            evidence.labelled.cause.push_back(row.cause);
+            evidence.labelled.size.push_back(row.z);
+        }
+    }
     for (std::size_t c = 0; c < out.causes.size(); ++c)
-        evidence.mechanism.push_back(out.mechanism_of(c));
-    // a part is the neighbourhood of one law: what is left out is a law that the fit has not seen
-    for (const SimulatedCampaign& row : out.ensemble.campaigns)
-        if (row.number >= plan.scouts)
-            (row.cause < 0 ? evidence.null_fold : evidence.labelled_fold)
-                .push_back(static_cast<int>(plan.parent(row.number)));
-    evidence.common = common_groups(out.statistics);
-    evidence.descriptors = vector_of(out.measured.descriptors);
-    evidence.statistics = vector_of(out.measured.values);
-    evidence.law_descriptors = out.ensemble.scouts(plan).descriptors;
+        evidence.mechanism.push_back(out.mechanism_of(out.causes[c].cause));
+    const EvidenceRows rows(labels, out.scored);
+    out.evidence = rows.labels;
+    evidence.nulls = rows.table(nulls);
+    evidence.likeness = likeness_of(distance);
+    evidence.labelled.table = rows.table(labelled);
+    evidence.common = common_groups(rows.labels);
+    evidence.descriptors = vector_of(rows.descriptors(measured));
+    evidence.statistics = vector_of(rows.statistics(measured, scores));
+    out.law_p_value = evidence.law_p_value = law_p_value(out, plan, labels, measured);
     complete_descriptors(evidence);
-    out.verdict = ensemble_verdict(evidence);
+    out.by_statistics = ensemble_verdict(evidence);
+
+    ScoreEvidence of_scores;
+    for (const Cause& cause : out.scored.causes) {
+        of_scores.variants.mechanism.push_back(out.mechanism_of(cause));
+        of_scores.variants.sign.push_back(sign_of_cause(cause));
+    }
+    of_scores.variants.mechanism.resize(out.scored.size(), -1);
+    of_scores.variants.sign.resize(out.scored.size(), 0);
+    of_scores.nulls = scores_of(nulls, out.scored.size());
+    of_scores.likeness = evidence.likeness;
+    of_scores.labelled = scores_of(labelled, out.scored.size());
+    of_scores.labelled_cause = evidence.labelled.cause;
+    for (const int cause : evidence.labelled.cause)
+        of_scores.labelled_mechanism.push_back(evidence.mechanism[static_cast<std::size_t>(cause)]);
+    of_scores.campaign = vector_of(scores);
+    out.by_scores = score_test(of_scores, out.causes.size());
     return out;
 }
 

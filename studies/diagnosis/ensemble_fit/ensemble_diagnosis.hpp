@@ -2,26 +2,33 @@
 /// What the statistics of a campaign show of its joints and blocks, by campaigns that are simulated for it.
 
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
+#include "studies/diagnosis/likelihood/score_test.hpp"
+#include "studies/diagnosis/statistics/balance_scores.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
 namespace stylobate {
 
 struct EnsembleDiagnosis {
     std::vector<CandidateCause> causes;
-    std::vector<std::string> mechanisms; ///< names by the numbers of `EnsembleVerdict::set`
-    std::vector<StatisticLabel> statistics, descriptors;
-    CampaignStatistics measured;
+    std::vector<std::string> mechanisms;  ///< names by the numbers of the verdicts' mechanisms
+    std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
+    ScorePlan scored;                     ///< what the verdict by scores sees
     CampaignEnsemble ensemble;
-    EnsembleVerdict verdict; ///< default where the observer stopped it
+    double law_p_value = 1; ///< of the measured law in the family
+    // default where the observer stopped it
+    EnsembleVerdict by_statistics;
+    ScoreVerdict by_scores;
 
-    /// Mechanism of a candidate, by its number.
-    int mechanism_of(std::size_t cause) const;
+    /// Number of a cause's mechanism.
+    int mechanism_of(const Cause& cause) const;
 };
 
 /// @param campaign with its base corrected for what the direct tests found
 /// @param study    contacts about which healthy laws are drawn
+/// @param known    causes that act in every simulated campaign
 /// @param base_m   (runs)(nt) as in `balance_evidence`
 EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
+                                     const std::vector<SizedCause>& known,
                                      const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
                                      const std::filesystem::path& cache, const RunOptions& options,
                                      const std::function<void(std::uint64_t, std::uint64_t)>& progress,

@@ -11,6 +11,8 @@
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -297,12 +299,15 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
     out.complete = report.complete;
     if (!out.complete)
         return out;
-    for (std::size_t j = 0; j < jobs.size(); ++j) {
-        const auto [c, i] = job_of[j];
-        Draws noise(seed, (first + c) * measured.runs.size() + i, Stream::camera_noise);
-        see(measured, measured.runs[i], built, jobs[j].realization, out.base_m[i], report.results[j].watched, noise,
-            out.campaigns[c].runs[i]);
-    }
+    // each run has noise of its own, so that their order does not matter
+    tbb::task_arena(options.threads).execute([&] {
+        tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+            const auto [c, i] = job_of[j];
+            Draws noise(seed, (first + c) * measured.runs.size() + i, Stream::camera_noise);
+            see(measured, measured.runs[i], built, jobs[j].realization, out.base_m[i], report.results[j].watched, noise,
+                out.campaigns[c].runs[i]);
+        });
+    });
     return out;
 }
 

@@ -7,6 +7,10 @@
 /// the corners the blocks turn (contacts are not rigid), each joint's own, the blocks' centres of mass.
 
 #include "studies/diagnosis/laws/law_samples.hpp"
+#include "studies/diagnosis/laws/robust_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include <limits>
 #include <optional>
@@ -28,6 +32,7 @@ struct Cause {
                            ///< that yields the slip at which it does),
                            ///< path after which friction wears no more (0: never)
     std::string side = {}; ///< of a corner: "left" or "right"
+    bool persists = false; ///< of wear: it goes on from run to run
     std::string label() const { return mechanism + " at " + place + (side.empty() ? "" : " " + side); }
 };
 
@@ -45,7 +50,7 @@ struct Scatter {
     double common_friction = 0.05; ///< relative: all joints together, against the nominal one
     double friction = 0.04;        ///< relative: each joint by itself
     double turning_point = 0.01;   ///< over the half width: how far inside its corner a joint turns, beside the common
-    double common_turning = 0.05;  ///< the same, common to all
+    double common_turning = 0.05;  ///< the same, common to all: inside the corners, never outside
     double mass_centre = 0.004;    ///< over the half width: of each block, to one side
 };
 
@@ -54,10 +59,11 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& s
 
 /// Forces and frictions of no mechanism in the list, for describing what stays unexplained.
 struct Structure {
-    int block = -1; ///< -1: friction of all joints
+    int block = -1; ///< -1: each block, or all joints
     std::string coordinate;
     std::string depends_on;
     std::string text;
+    bool friction = false; ///< of all joints; else a force on a block, -1: on each
 };
 struct StructureFit {
     Structure structure;
@@ -66,8 +72,12 @@ struct StructureFit {
     std::vector<double> gain_by_run;
 };
 
+/// Forces and frictions that are described where no mechanism is, at every place.
+std::vector<Structure> balance_structures(const Specimen& specimen);
+
 class BalanceFit {
 public:
+    /// @param specimen is referred to, and must outlive this
     /// @param friction with which the samples were written
     /// @param runs number of runs in the campaign
     BalanceFit(const Specimen& specimen, std::vector<LawSample> samples, double friction, int runs,
@@ -84,8 +94,15 @@ public:
 
     /// Fits one cause beside the baseline and the causes that are already taken as given.
     CauseFit fit(const Cause& cause, const std::vector<Cause>& given = {}) const;
-    /// The structures of `describe`, fitted beside the causes given; most telling first.
+    /// The structures of `balance_structures`, fitted beside the causes given; most telling first.
     std::vector<StructureFit> describe(const std::vector<Cause>& given = {}) const;
+
+    /// How strongly the samples ask for a cause, without fitting it: the derivative of the log posterior of the
+    /// baseline for its size at the neutral one, over the root of its information (Rao's score test, Proceedings of
+    /// the Cambridge Philosophical Society 44 (1948)). Of scatter about 1 where nothing acts, positive where the fitted
+    /// coefficient would be. NaN: the samples do not show the cause.
+    double score(const Cause& cause) const { return score_of(column(cause)); }
+    double score(const Structure& structure) const { return score_of(column(structure)); }
 
 private:
     struct Result {
@@ -94,18 +111,31 @@ private:
         std::vector<double> by_run;
         std::vector<double> residuals;
     };
-    using Column = std::vector<double>;
+    using Column = Eigen::VectorXd;
     Column column(const Cause& cause) const;
+    Column column(const Structure& structure) const;
+    /// Columns of the baseline, each of the size 1 at the most; they fill `size_` and `prior_`.
+    void add_baseline_columns();
     /// Whether a joint slides before its wear has ended, too.
     bool seen_wearing(const Cause& cause) const;
+    RobustFit solve(const std::vector<Column>& given, const Column* tried) const;
     Result regress(const std::vector<Column>& given, const Column* tried) const;
+    Result result_of(const RobustFit& fit, const std::vector<Column>& given, const Column* tried) const;
+    void prepare_scores(const RobustFit& baseline);
+    double score_of(const Column& tried) const;
 
     const Specimen& specimen_;
     std::vector<LawSample> samples_;
     double friction_;
     int runs_;
     Scatter scatter_;
+    Eigen::MatrixXd design_;           ///< (n x p) of the baseline
+    std::vector<double> size_, prior_; ///< (p) of its columns; prior sd in the units before
     Result baseline_;
+    // of the scores: the baseline's design without what is held at a bound, with the samples' weights
+    Eigen::VectorXd weights_, weighted_residuals_; ///< (n)
+    Eigen::MatrixXd weighted_design_;              ///< (n x p)
+    Eigen::LDLT<Eigen::MatrixXd> normal_;          ///< (p x p)
 };
 
 } // namespace stylobate

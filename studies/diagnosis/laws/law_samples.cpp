@@ -30,9 +30,16 @@ struct JointMotion {
     double width = 0; ///< half width of the narrower face
 };
 
+/// Paths of the joints since the specimen was built.
+struct PathsBefore {
+    std::vector<double> slip_m, rotation_rad; ///< (joints)
+};
+
 class Balance {
 public:
-    Balance(const Specimen& specimen, const TrackScales& scales, const Track& track, double friction)
+    /// @param before the run; the run's own are added
+    Balance(const Specimen& specimen, const TrackScales& scales, const Track& track, double friction,
+            PathsBefore& before)
         : s_(specimen), scales_(scales), track_(track), friction_(friction), weights_(rest_weights(specimen))
     {
         for (std::size_t i = 0; i < track.samples(); ++i) {
@@ -41,7 +48,7 @@ public:
                 joints.push_back(motion(lower, upper, i));
             motion_.push_back(std::move(joints));
         }
-        sum_paths();
+        sum_paths(before);
         find_hops();
     }
 
@@ -130,10 +137,16 @@ private:
         return m;
     }
 
-    void sum_paths()
+    void sum_paths(PathsBefore& before)
     {
         const std::size_t joints = s_.joints.size();
         std::vector<LawTerm> sums(joints);
+        before.slip_m.resize(joints, 0);
+        before.rotation_rad.resize(joints, 0);
+        for (std::size_t j = 0; j < joints; ++j) {
+            sums[j].slip_before_m = before.slip_m[j];
+            sums[j].rotation_before_rad = before.rotation_rad[j];
+        }
         const double forget = std::exp(-scales_.spacing_s / scales_.time_s);
         for (std::size_t i = 0; i < motion_.size(); ++i) {
             for (std::size_t j = 0; j < joints; ++j) {
@@ -146,6 +159,10 @@ private:
                     sums[j].rotation_path_rad += std::fabs(m.rotation - motion_[i - 1][j].rotation);
             }
             paths_.push_back(sums);
+        }
+        for (std::size_t j = 0; j < joints; ++j) {
+            before.slip_m[j] += sums[j].slip_path_m;
+            before.rotation_rad[j] += sums[j].rotation_path_rad;
         }
     }
 
@@ -190,9 +207,9 @@ private:
             return;
         for (int b = 0; b < s_.blocks(); ++b) {
             std::vector<int> before(track_.samples() + 1, 0);
-            for (std::size_t i = 0; i < track_.samples(); ++i)
-                before[i + 1] =
-                    before[i] + (std::fabs(track_.of(width, 2, in_y, b, i)) > most_lift * s_.gravity_m_s2 ? 1 : 0);
+            const std::vector<double> lift = track_.all_of(width, 2, in_y, b);
+            for (std::size_t i = 0; i < lift.size(); ++i)
+                before[i + 1] = before[i] + (std::fabs(lift[i]) > most_lift * s_.gravity_m_s2 ? 1 : 0);
             hopping_.push_back(std::move(before));
         }
     }
@@ -387,6 +404,11 @@ private:
 
 } // namespace
 
+double nominal_friction(const Specimen& specimen)
+{
+    return specimen.friction_nominal.value_or(0.7);
+}
+
 std::vector<double> rest_weights(const Specimen& specimen)
 {
     // from the top: each block hands its load on to its joints in equal parts
@@ -411,10 +433,21 @@ std::vector<double> rest_weights(const Specimen& specimen)
     return weights;
 }
 
-std::vector<LawSample> law_samples(const Specimen& specimen, const TrackScales& scales, const Track& track, int index,
-                                   double friction)
+std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const TrackScales& scales,
+                                                const std::vector<std::vector<double>>& base_m, double friction)
 {
-    return Balance(specimen, scales, track, friction).samples(index);
+    std::vector<std::size_t> order(campaign.runs.size());
+    for (std::size_t r = 0; r < order.size(); ++r)
+        order[r] = r;
+    const auto place = [&](std::size_t r) { return campaign.runs[r].run_order.value_or(static_cast<int>(r)); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+    PathsBefore before;
+    std::vector<std::vector<LawSample>> samples(order.size());
+    for (const std::size_t r : order) {
+        const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
+        samples[r] = Balance(campaign.specimen, scales, track, friction, before).samples(static_cast<int>(r));
+    }
+    return samples;
 }
 
 } // namespace stylobate

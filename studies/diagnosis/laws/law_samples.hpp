@@ -40,6 +40,8 @@ struct LawTerm {
     double rotation_rad = 0; ///< relative
     double rotation_path_rad = 0;
     double recent_slip_m = 0; ///< slip path with a memory of one time scale
+    double slip_before_m = 0; ///< slip path of the runs before
+    double rotation_before_rad = 0;
 };
 
 struct LawSample {
@@ -54,12 +56,17 @@ struct LawSample {
     double base_velocity_m_s = 0;
 };
 
-/// Samples of one run, far enough apart to be independent.
+/// Samples of each run, far enough apart to be independent. Paths of earlier runs are counted in the order in which the
+/// runs were shaken: what wears goes on from run to run.
 ///
+/// @param base_m (runs)(nt) the base displacement to be used; an inner one empty: not known
 /// @param friction that the sliding law is written with; what the true one differs by is left to be fitted
-/// @param index of the run
-std::vector<LawSample> law_samples(const Specimen& specimen, const TrackScales& scales, const Track& track, int index,
-                                   double friction);
+/// @return (runs)
+std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const TrackScales& scales,
+                                                const std::vector<std::vector<double>>& base_m, double friction);
+
+/// Friction that the sliding law is written with: the nominal one, 0.7 where the specimen states none.
+double nominal_friction(const Specimen& specimen);
 
 /// Weight that each joint carries at rest [N]: of what stands on it, shared equally among a block's joints.
 std::vector<double> rest_weights(const Specimen& specimen);

@@ -17,6 +17,18 @@ constexpr double least_scale = 0.5;
 // Samples that count as seen beforehand, with the scale 1: a group of few samples keeps a sensible one.
 constexpr double prior_samples = 8;
 
+/// The normal equations without the coefficients that are held at 0.
+void hold(Eigen::MatrixXd& normal, Eigen::VectorXd& right, const std::vector<bool>& held)
+{
+    for (Eigen::Index k = 0; k < right.size(); ++k)
+        if (held[static_cast<std::size_t>(k)]) {
+            normal.row(k).setZero();
+            normal.col(k).setZero();
+            normal(k, k) = 1;
+            right(k) = 0;
+        }
+}
+
 } // namespace
 
 double student_log_density(double residual, double sd)
@@ -40,6 +52,9 @@ RobustFit robust_fit(const RegressionData& data)
     fit.scale = Eigen::VectorXd::Ones(data.groups);
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
     Eigen::MatrixXd normal;
+    const auto one_sided = [&](Eigen::Index k) {
+        return !data.one_sided.empty() && data.one_sided[static_cast<std::size_t>(k)];
+    };
     for (int i = 0; i < iterations; ++i) {
         Eigen::VectorXd w(n);
         for (Eigen::Index k = 0; k < n; ++k) {
@@ -52,8 +67,20 @@ RobustFit robust_fit(const RegressionData& data)
         for (Eigen::Index k = 0; k < p; ++k)
             if (normal(k, k) == 0)
                 normal(k, k) = 1;
-        const Eigen::VectorXd next =
-            normal.ldlt().solve(data.columns.transpose() * (w.array() * data.values.array()).matrix());
+        Eigen::VectorXd right = data.columns.transpose() * (w.array() * data.values.array()).matrix();
+        Eigen::VectorXd next = normal.ldlt().solve(right);
+        fit.weights = w;
+        fit.held.assign(static_cast<std::size_t>(p), false);
+        for (bool negative = true; negative;) {
+            negative = false;
+            for (Eigen::Index k = 0; k < p; ++k)
+                if (one_sided(k) && next(k) < 0)
+                    fit.held[static_cast<std::size_t>(k)] = negative = true;
+            if (negative) {
+                hold(normal, right, fit.held);
+                next = normal.ldlt().solve(right);
+            }
+        }
         const double moved = (next - fit.coefficients).cwiseAbs().maxCoeff();
         fit.coefficients = next;
 
@@ -77,11 +104,17 @@ RobustFit robust_fit(const RegressionData& data)
             break;
     }
     fit.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+    for (Eigen::Index k = 0; k < p; ++k)
+        if (fit.held[static_cast<std::size_t>(k)])
+            fit.covariance(k, k) = 0;
     fit.log_density.resize(n);
-    const Eigen::VectorXd residual = data.values - data.columns * fit.coefficients;
-    for (Eigen::Index k = 0; k < n; ++k)
-        fit.log_density(k) =
-            student_log_density(residual(k), data.sd(k) * fit.scale(data.group[static_cast<std::size_t>(k)]));
+    fit.residuals.resize(n);
+    fit.errors = data.values - data.columns * fit.coefficients;
+    for (Eigen::Index k = 0; k < n; ++k) {
+        const double sd = data.sd(k) * fit.scale(data.group[static_cast<std::size_t>(k)]);
+        fit.log_density(k) = student_log_density(fit.errors(k), sd);
+        fit.residuals(k) = fit.errors(k) / sd;
+    }
     fit.log_prior = -0.5 * (precision.array() * fit.coefficients.array().square()).sum();
     fit.log_posterior = fit.log_density.sum() + fit.log_prior;
     return fit;

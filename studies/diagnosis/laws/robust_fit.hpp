@@ -18,13 +18,19 @@ struct RegressionData {
     std::vector<int> group;  ///< (n) from 0
     int groups = 1;
     Eigen::VectorXd prior_sd; ///< (p) about 0; infinity: none
+    /// (p) whether a coefficient cannot be negative; empty: none. One that would be is held at 0.
+    std::vector<bool> one_sided = {};
 };
 
 struct RobustFit {
     Eigen::VectorXd coefficients; ///< (p)
-    Eigen::MatrixXd covariance;   ///< (p x p)
+    Eigen::MatrixXd covariance;   ///< (p x p); 0 of coefficients that are held at 0
+    std::vector<bool> held;       ///< (p)
+    Eigen::VectorXd weights;      ///< (n) of each sample's square, Student's over its variance
     Eigen::VectorXd scale;        ///< (groups) factor of the samples' sd
     Eigen::VectorXd log_density;  ///< (n) of each sample
+    Eigen::VectorXd errors;       ///< (n) values less what the columns give
+    Eigen::VectorXd residuals;    ///< (n) the same over their sd and scale
     double log_prior = 0;
     double log_posterior = 0; ///< sum of the above two
 };

@@ -3,6 +3,7 @@
 /// fitted by weighted least squares (weights (1 - (k / (h + 1))^2)^2), which is a fixed set of coefficients. What the
 /// noise of the samples makes of the result is therefore known.
 
+#include <cstddef>
 #include <vector>
 
 namespace stylobate {
@@ -17,6 +18,8 @@ public:
     /// Smoothed value (derivative 0), rate (1) or acceleration (2) of every sample; within a half width of the ends 0.
     /// @param series (n)   @return (n)
     std::vector<double> apply(int derivative, const std::vector<double>& series) const;
+    /// The same of one sample.
+    double at(int derivative, const std::vector<double>& series, std::size_t sample) const;
 
     /// Standard deviation of the result where the samples have independent noise of standard deviation 1.
     double noise(int derivative) const { return noise_[derivative]; }

@@ -137,7 +137,7 @@ TrackScales track_scales(const Campaign& campaign)
 
 Track::Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales& scales,
              const std::vector<double>& base_m)
-    : blocks_(specimen.blocks())
+    : blocks_(specimen.blocks()), widths_(scales.widths)
 {
     const double dt = scales.spacing_s;
     const auto n = run.time_s.size() < 2
@@ -147,19 +147,18 @@ Track::Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales
         time_s_.push_back(run.time_s.front() + dt * static_cast<double>(i));
 
     const auto columns = static_cast<std::size_t>(blocks_);
-    std::vector<std::vector<double>> raw;
     std::vector<char> bad(n, 0);
     for (const Series* series : {&run.blocks.x_m, &run.blocks.y_m, &run.blocks.theta_rad})
         for (std::size_t b = 0; b < columns; ++b) {
             if (series->empty()) {
-                raw.emplace_back(n, 0.0);
+                raw_.emplace_back(n, 0.0);
                 std::fill(bad.begin(), bad.end(), 1);
                 continue;
             }
-            raw.push_back(resampled(run.time_s, series->values.data() + b, columns, time_s_.front(), dt, n));
+            raw_.push_back(resampled(run.time_s, series->values.data() + b, columns, time_s_.front(), dt, n));
             for (std::size_t i = 0; i < n; ++i)
-                if (!std::isfinite(raw.back()[i])) {
-                    raw.back()[i] = 0;
+                if (!std::isfinite(raw_.back()[i])) {
+                    raw_.back()[i] = 0;
                     bad[i] = 1;
                 }
         }
@@ -171,13 +170,8 @@ Track::Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales
     for (std::size_t i = 0; i < n; ++i)
         bad_before_[i + 1] = bad_before_[i] + bad[i];
 
-    smooth_.resize(scales.widths.size());
-    for (std::size_t w = 0; w < scales.widths.size(); ++w)
-        for (int d = 0; d < 3; ++d)
-            for (const auto& series : raw)
-                smooth_[w][static_cast<std::size_t>(d)].push_back(scales.widths[w].apply(d, series));
     for (int d = 0; d < 2; ++d)
-        for (const auto& series : raw)
+        for (const auto& series : raw_)
             now_[static_cast<std::size_t>(d)].push_back(scales.rates.apply(d, series));
     if (!base_m.empty()) {
         const std::vector<double> base = resampled(run.time_s, base_m.data(), 1, time_s_.front(), dt, n);

@@ -46,11 +46,15 @@ public:
     /// Whether all blocks are seen, and none is falling, `margin` samples to either side.
     bool usable(std::size_t i, int margin) const;
 
-    /// Smoothed by `widths[width]`; derivative 0 to 2.
+    /// Smoothed by `widths[width]`; derivative 0 to 2. Computed anew by every call: few samples are asked for.
     double of(int width, int derivative, Component coordinate, int block, std::size_t i) const
     {
-        return smooth_[static_cast<std::size_t>(width)][static_cast<std::size_t>(derivative)][index(coordinate, block)]
-                      [i];
+        return widths_[static_cast<std::size_t>(width)].at(derivative, raw_[index(coordinate, block)], i);
+    }
+    /// (n) the same of all samples, for less.
+    std::vector<double> all_of(int width, int derivative, Component coordinate, int block) const
+    {
+        return widths_[static_cast<std::size_t>(width)].apply(derivative, raw_[index(coordinate, block)]);
     }
     /// Smoothed by `rates`; derivative 0 or 1.
     double now(int derivative, Component coordinate, int block, std::size_t i) const
@@ -72,8 +76,9 @@ private:
     int blocks_;
     std::vector<double> time_s_;
     std::vector<int> bad_before_; ///< (n + 1) how many samples before the i-th are not usable
-    std::vector<std::array<std::vector<std::vector<double>>, 3>> smooth_; ///< [width][derivative][3 n_block][n]
-    std::array<std::vector<std::vector<double>>, 2> now_;                 ///< [derivative][3 n_block][n]
+    std::vector<LocalCubic> widths_;
+    std::vector<std::vector<double>> raw_;                ///< [3 n_block][n]
+    std::array<std::vector<std::vector<double>>, 2> now_; ///< [derivative][3 n_block][n]
     std::array<std::vector<double>, 2> base_;
 };
 

@@ -6,8 +6,18 @@ namespace stylobate {
 
 double conformal_p_value(const std::vector<double>& nulls, double score)
 {
-    const auto as_large = std::count_if(nulls.begin(), nulls.end(), [score](double null) { return null >= score; });
-    return static_cast<double>(1 + as_large) / static_cast<double>(1 + nulls.size());
+    return conformal_p_value(nulls, {}, score);
+}
+
+double conformal_p_value(const std::vector<double>& nulls, const std::vector<double>& weights, double score)
+{
+    double as_large = 1, all = 1;
+    for (std::size_t i = 0; i < nulls.size(); ++i) {
+        const double weight = weights.empty() ? 1 : weights[i];
+        all += weight;
+        as_large += nulls[i] >= score ? weight : 0;
+    }
+    return as_large / all;
 }
 
 CalibratedProbability::CalibratedProbability(std::vector<Case> cases)

@@ -35,10 +35,15 @@ public:
         : mechanism_(evidence.mechanism)
     {
         std::vector<Eigen::Index> nulls;
+        std::vector<double> weights;
         for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i)
-            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out)
+            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out) {
                 nulls.push_back(i);
-        law_ = std::make_unique<LawAdjustment>(rows_of(evidence.nulls, nulls), evidence.descriptors, wanted);
+                weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
+            }
+        law_ = std::make_unique<LawAdjustment>(
+            rows_of(evidence.nulls, nulls),
+            Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())), wanted);
 
         std::map<int, std::vector<Eigen::Index>> of_cause;
         for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
@@ -134,7 +139,7 @@ private:
 
 /// What the campaigns that were left out of a fit were taken for.
 struct LeftOut {
-    std::vector<double> null_gains, null_left;
+    std::vector<double> null_gains, null_left, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
     std::map<int, std::pair<double, double>> right; ///< candidate: named rightly, in all
     std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
@@ -156,6 +161,7 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
         if (!is_named) {
             out.null_gains.push_back(found[static_cast<std::size_t>(best)].gain);
             out.null_left.push_back(fit.left(residual, found[static_cast<std::size_t>(best)], best));
+            out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
         }
     }
     if (!is_named)
@@ -200,8 +206,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     EnsembleVerdict out;
     out.causes.resize(evidence.mechanism.size());
     out.power.assign(evidence.mechanism.size(), 0);
-    out.law_p_value = LawAdjustment::descriptor_p_value(evidence.law_descriptors, evidence.descriptors);
-    out.contrasts = out.law_p_value < rule.outside;
+    out.contrasts = evidence.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
     const Fit fit(evidence, wanted, out.contrasts, -1);
     out.used = fit.law().used();
@@ -223,12 +228,16 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
         folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, fold));
         look_at_left_out(evidence, *folds.back(), fold, left_out, {});
     }
-    const auto is_named = [&](double gain) { return conformal_p_value(left_out.null_gains, gain) <= rule.named; };
+    const auto chance = [&](double gain) {
+        return conformal_p_value(left_out.null_gains, left_out.null_weights, gain);
+    };
+    const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
         look_at_left_out(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
-    out.p_value = conformal_p_value(left_out.null_gains, cause.gain);
+    out.null_weights = left_out.null_weights;
+    out.p_value = chance(cause.gain);
     out.named = is_named(cause.gain);
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, best));
     for (const auto& [candidate, counts] : left_out.right)
@@ -260,13 +269,14 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
 
     // what is left is compared with both: healthy campaigns beside the cause that suits them best, and labelled ones
     const double left = fit.left(out.residual, cause, best);
-    const auto exceeds = [&](const std::vector<double>& others) {
-        const double p = conformal_p_value(others, left);
+    const auto exceeds = [&](const std::vector<double>& others, const std::vector<double>& weights) {
+        const double p = conformal_p_value(others, weights, left);
         out.left_p_value = std::max(out.left_p_value, p);
         return p <= std::max(rule.unexplained, 1 / (1 + static_cast<double>(others.size())));
     };
     out.left_p_value = 0;
-    const bool beyond_nulls = exceeds(left_out.null_left), beyond_labelled = exceeds(left_out.labelled_left);
+    const bool beyond_nulls = exceeds(left_out.null_left, left_out.null_weights),
+               beyond_labelled = exceeds(left_out.labelled_left, {});
     out.unexplained = beyond_nulls && beyond_labelled;
     return out;
 }

@@ -15,8 +15,10 @@ namespace stylobate {
 
 /// The fixed numbers of the rule.
 struct EnsembleRule {
-    double named = 0.015;      ///< largest p-value of the largest gain at which a cause is named
-    double outside = 0.01;     ///< p-value of the descriptors below which the law is outside the family
+    /// Largest p-value at which a cause is named: of each of two tests, of the statistics and of the balance's scores,
+    /// so that they give no more than 1.5 % false alarms together.
+    double named = 0.0075;
+    double outside = 0.01;     ///< p-value of the law below which it is outside the family
     double apart = 3;          ///< nats within which rivals are in the set with the best
     double confused = 0.2;     ///< share of a rival's left-out campaigns that are called by the best's name
     double unexplained = 0.01; ///< p-value of what is left beside the best cause
@@ -30,9 +32,9 @@ struct LabelledCampaigns {
 
 struct EnsembleEvidence {
     CampaignTable nulls;
+    std::vector<double> likeness; ///< (nulls) how much each tells of the measured campaign, at most 1; empty: 1
     LabelledCampaigns labelled;
-    Eigen::MatrixXd
-        law_descriptors;        ///< (n x q) of healthy campaigns of the whole family of laws; the nulls may be near
+    double law_p_value = 1;     ///< of the measured law in the family
     std::vector<int> mechanism; ///< (causes) candidates of one mechanism at several places have one number
     /// (p) statistics that a common law shifts alike, as the same one of all joints, have one number; -1: by itself
     std::vector<int> common;
@@ -53,14 +55,13 @@ struct EnsembleVerdict {
     CauseLikelihood second_likelihood;
     double second_p_value = 1; ///< among labelled campaigns, in which there is one cause alone
     std::vector<int> set;      ///< mechanisms that these data do not distinguish from the best
-    double law_p_value = 1;    ///< of the law descriptors in the family
     bool contrasts = false;    ///< the law is outside the family: only contrasts between joints were used
     double left_p_value = 1;   ///< of what is left beside the best cause
     bool unexplained = false;
-    Eigen::VectorXd residual;       ///< (used) of the measured campaign
-    Eigen::VectorXd shift;          ///< (used) what the best cause makes of it
-    std::vector<Eigen::Index> used; ///< columns of the statistics
-    std::vector<double> null_gains; ///< largest gains of healthy campaigns, each left out
+    Eigen::VectorXd residual;                     ///< (used) of the measured campaign
+    Eigen::VectorXd shift;                        ///< (used) what the best cause makes of it
+    std::vector<Eigen::Index> used;               ///< columns of the statistics
+    std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out
     /// Share of left-out labelled campaigns of each candidate that are named with the right mechanism: what these data
     /// can show.
     std::vector<double> power;

@@ -14,34 +14,14 @@ namespace {
 
 // A statistic that fewer of the nulls have does not show what nulls give.
 constexpr double least_share = 0.8;
-// The neighbourhood holds at least this part of the nulls.
-constexpr double neighbours = 0.6;
-// Ridge on standardized descriptors: two of them may show the same.
-constexpr double ridge = 1e-3;
+// Ridge on standardized descriptors: two of them may show the same, and there are many for the campaigns there are.
+constexpr double ridge = 0.05;
 constexpr int parts = 5;
 constexpr std::array freedoms = {4.0, 6.0, 9.0, 14.0, 22.0, 35.0, 60.0, 120.0, 1000.0};
 
 double median(std::vector<double> values)
 {
     return upper_median(std::move(values));
-}
-
-/// Tricube weights: 1 in the middle, 0 beyond the `neighbours` nearest.
-Eigen::VectorXd local_weights(const Eigen::MatrixXd& standardized, const Eigen::VectorXd& at)
-{
-    const Eigen::Index n = standardized.rows();
-    Eigen::VectorXd distance(n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        distance(i) = (standardized.row(i).transpose() - at).norm();
-    std::vector<double> sorted(distance.data(), distance.data() + n);
-    std::sort(sorted.begin(), sorted.end());
-    const auto last = static_cast<std::size_t>(neighbours * static_cast<double>(n));
-    // twice: the farthest neighbour keeps a weight of two thirds
-    const double reach = std::max(2 * sorted[std::min(last, sorted.size() - 1)], 1e-12);
-    return distance.unaryExpr([reach](double d) {
-        const double part = std::min(d / reach, 1.0);
-        return std::pow(1 - part * part * part, 3);
-    });
 }
 
 } // namespace
@@ -76,7 +56,8 @@ Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen
     return out;
 }
 
-LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& at, const std::vector<bool>& wanted)
+LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights,
+                             const std::vector<bool>& wanted)
 {
     const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
     for (Eigen::Index j = 0; j < nulls.statistics.cols(); ++j) {
@@ -93,10 +74,6 @@ LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& 
             value = std::fabs(value - middle_(k));
         spread_(k) = std::max(1.4826 * median(std::move(values)), 1e-12);
     }
-    Eigen::MatrixXd all(n, q);
-    for (Eigen::Index i = 0; i < n; ++i)
-        all.row(i) = standardized(nulls.descriptors.row(i)).transpose();
-    const Eigen::VectorXd weights = local_weights(all, standardized(at));
     regress(nulls, weights);
     Eigen::MatrixXd residuals(n, static_cast<Eigen::Index>(used_.size()));
     for (Eigen::Index i = 0; i < n; ++i)
@@ -130,7 +107,9 @@ void LawAdjustment::regress(const CampaignTable& nulls, const Eigen::VectorXd& w
             normal.diagonal().tail(q).array() += ridge * w.sum();
             coefficients_.col(j) = normal.ldlt().solve(design.transpose() * (w.asDiagonal() * known));
             const Eigen::VectorXd expected = design * coefficients_.col(j);
-            const double freedom = std::max(w.sum() - 1 - static_cast<double>(q), 1.0);
+            // the ridge takes less than one degree of freedom for each descriptor
+            const Eigen::MatrixXd hat = normal.ldlt().solve(design.transpose() * w.asDiagonal() * design);
+            const double freedom = std::max(w.sum() - hat.trace(), 1.0);
             scatter_(j) = std::sqrt(std::max((w.array() * (known - expected).array().square()).sum() / freedom, 1e-24));
             const double most = 4 * scatter_(j);
             known = expected + (known - expected).cwiseMax(-most).cwiseMin(most);
@@ -186,21 +165,6 @@ void LawAdjustment::find_tails(const Eigen::MatrixXd& residuals, const Eigen::Ve
             scale_ = scale;
         }
     }
-}
-
-double LawAdjustment::descriptor_p_value(const Eigen::MatrixXd& nulls, const Eigen::VectorXd& descriptors)
-{
-    const Eigen::RowVectorXd mean = nulls.colwise().mean();
-    const Eigen::MatrixXd centred = nulls.rowwise() - mean;
-    Eigen::MatrixXd covariance = centred.transpose() * centred / static_cast<double>(nulls.rows() - 1);
-    covariance.diagonal().array() += 1e-9 * covariance.diagonal().array() + 1e-300;
-    const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
-    const auto distance = [&](const Eigen::VectorXd& d) { return d.dot(factor.solve(d)); };
-    const double own = distance(descriptors - mean.transpose());
-    Eigen::Index farther = 0;
-    for (Eigen::Index i = 0; i < nulls.rows(); ++i)
-        farther += distance(centred.row(i).transpose()) >= own ? 1 : 0;
-    return static_cast<double>(1 + farther) / static_cast<double>(1 + nulls.rows());
 }
 
 } // namespace stylobate

@@ -2,13 +2,13 @@
 /// What healthy campaigns give at the law descriptors of one campaign: the expected statistics, and their joint
 /// scatter.
 ///
-/// Statistics depend on the healthy contact law, which is not known; the law descriptors of a campaign show it. In a
-/// neighbourhood of the campaign's descriptors the expected statistics are a linear function of the descriptors (local
-/// linear regression: Cleveland, "Robust locally weighted regression and smoothing scatterplots", Journal of the
-/// American Statistical Association 74 (1979); regression adjustment: Beaumont, Zhang and Balding, "Approximate
-/// Bayesian computation in population genetics", Genetics 162 (2002)). The correlation of the residuals is shrunk
-/// towards none (Schaefer and Strimmer, "A shrinkage approach to large-scale covariance matrix estimation", Statistical
-/// Applications in Genetics and Molecular Biology 4 (2005)), and their tails are Student's.
+/// Statistics depend on the healthy contact law, which is not known; the law descriptors of a campaign show it. Among
+/// campaigns whose laws are like the measured one the expected statistics are a linear function of the descriptors, and
+/// the likest weigh most (local linear regression: Cleveland, "Robust locally weighted regression and smoothing
+/// scatterplots", Journal of the American Statistical Association 74 (1979); regression adjustment: Beaumont, Zhang and
+/// Balding, "Approximate Bayesian computation in population genetics", Genetics 162 (2002)). The correlation of the
+/// residuals is shrunk towards none (Schaefer and Strimmer, "A shrinkage approach to large-scale covariance matrix
+/// estimation", Statistical Applications in Genetics and Molecular Biology 4 (2005)), and their tails are Student's.
 
 #include <Eigen/Core>
 
@@ -24,10 +24,10 @@ struct CampaignTable {
 
 class LawAdjustment {
 public:
-    /// @param nulls  healthy campaigns, at least 20 and more than twice the descriptors
-    /// @param at     (q) descriptors about which the regression is local
-    /// @param wanted (p) whether a statistic is to be used: those that the measured campaign has
-    LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& at, const std::vector<bool>& wanted);
+    /// @param nulls   healthy campaigns, at least 20 and more than twice the descriptors
+    /// @param weights (n) how much each tells of the measured campaign, at most 1
+    /// @param wanted  (p) whether a statistic is to be used: those that the measured campaign has
+    LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights, const std::vector<bool>& wanted);
 
     /// Columns of the statistics that are used: wanted, and finite in most of the nulls.
     const std::vector<Eigen::Index>& used() const { return used_; }
@@ -42,10 +42,6 @@ public:
     /// Degrees of freedom of Student's tails, and the factor on the correlation, both found by leaving parts out.
     double freedom() const { return freedom_; }
     double scale() const { return scale_; }
-
-    /// Probability that descriptors of the family lie as far from its middle as these: the rank of their Mahalanobis
-    /// distance among those of the nulls, (1 + as far or farther) / (1 + n).
-    static double descriptor_p_value(const Eigen::MatrixXd& nulls, const Eigen::VectorXd& descriptors);
 
 private:
     void regress(const CampaignTable& nulls, const Eigen::VectorXd& weights);

@@ -15,8 +15,6 @@ namespace stylobate {
 
 namespace {
 
-// Friction that the samples are written with where the specimen states none; what it is does not matter.
-constexpr double friction_unknown = 0.7;
 // A slide counts from this part of the velocity at which the diagnosis takes a joint to slide: what it takes for the
 // slip of one instant asks for four deviations of the noise, a window full of samples of one sign for fewer.
 constexpr double slow_part = 0.5;
@@ -133,21 +131,15 @@ FrictionJudgement judge_friction(const Campaign& campaign, const TrackScales& sc
 {
     TrackScales slow = scales;
     slow.slip_m_s *= slow_part;
-    std::vector<Track> tracks;
-    for (std::size_t r = 0; r < campaign.runs.size(); ++r)
-        tracks.emplace_back(campaign.specimen, campaign.runs[r], slow, base_m[r]);
     const auto judged_with = [&](double friction) {
         std::vector<LawSample> all;
-        for (std::size_t r = 0; r < tracks.size(); ++r) {
-            const std::vector<LawSample> found =
-                law_samples(campaign.specimen, slow, tracks[r], static_cast<int>(r), friction);
+        for (const std::vector<LawSample>& found : law_samples(campaign, slow, base_m, friction))
             std::copy_if(found.begin(), found.end(), std::back_inserter(all),
                          [](const LawSample& s) { return !mixed(s); });
-        }
         return judge_friction(campaign.specimen, slow, all, friction, static_cast<int>(campaign.runs.size()));
     };
     // twice: what joints differ by is a part of the friction that they have, not of the nominal one
-    const FrictionJudgement first = judged_with(campaign.specimen.friction_nominal.value_or(friction_unknown));
+    const FrictionJudgement first = judged_with(nominal_friction(campaign.specimen));
     return first.value > 0 ? judged_with(first.value) : first;
 }
 

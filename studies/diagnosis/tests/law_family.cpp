@@ -186,14 +186,14 @@ HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t n
     return law;
 }
 
-HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, std::uint64_t seed, std::uint64_t number)
+HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, double spread, std::uint64_t seed,
+                     std::uint64_t number)
 {
-    constexpr double jitter = 1.0 / 3;
     const auto normal = [&](LawDraw which) {
         return standard_normal(uniform01(seed, number, Stream::virtual_specimen, static_cast<std::uint64_t>(which)));
     };
     const auto moved = [&](double value, double part, LawDraw which, double least, double most) {
-        return std::clamp(value * std::exp(part * jitter * normal(which)), least, most);
+        return std::clamp(value * std::exp(part * spread * normal(which)), least, most);
     };
     HealthyLaw law = parent;
     law.stiffness = moved(law.stiffness, 1, LawDraw::stiffness, family.least_stiffness, family.most_stiffness);
@@ -205,10 +205,11 @@ HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, std::uin
     law.damping = moved(law.damping, 1, LawDraw::damping, 1e-3, 1);
     law.tangential_damping =
         moved(law.tangential_damping, 1, LawDraw::tangential_damping, least_tangential, most_tangential);
-    law.face_share = std::clamp(law.face_share + 0.3 * jitter * normal(LawDraw::face_share), 0.0, 1.0);
-    law.rate *= std::exp(jitter * normal(LawDraw::rate));
-    law.inset = std::clamp(law.inset + 0.1 * family.most_inset * normal(LawDraw::inset), 0.0, family.most_inset);
-    law.friction *= std::exp(0.3 * family.common_friction * normal(LawDraw::friction));
+    law.face_share = std::clamp(law.face_share + 0.3 * spread * normal(LawDraw::face_share), 0.0, 1.0);
+    law.rate *= std::exp(spread * normal(LawDraw::rate));
+    law.inset =
+        std::clamp(law.inset + 0.3 * spread * family.most_inset * normal(LawDraw::inset), 0.0, family.most_inset);
+    law.friction *= std::exp(0.9 * spread * family.common_friction * normal(LawDraw::friction));
     return law;
 }
 

@@ -73,9 +73,10 @@ HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t n
 std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first,
                                   std::uint64_t count);
 
-/// A law near another one: of the same form and kind of damping, its scales moved by a third (1 sigma of the
-/// logarithm), within the family's bounds. A pure function of parent, seed and number.
-HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, std::uint64_t seed, std::uint64_t number);
+/// A law near another one: of the same form and kind of damping, its scales moved by `spread` (1 sigma of the
+/// logarithm), all else by the same part of its range, within the family's bounds. A pure function of its arguments.
+HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, double spread, std::uint64_t seed,
+                     std::uint64_t number);
 
 /// Puts a law into the contacts of a study, before a realization is made of it.
 void apply_law(const HealthyLaw& law, Study& study);

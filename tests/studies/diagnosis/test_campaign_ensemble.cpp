@@ -57,7 +57,7 @@ TEST(EnsemblePlan, EachCauseHasSizesFromWeakToStrong)
     std::map<int, std::set<std::uint64_t>> parents;
     for (std::uint64_t number = 0; number < plan.total(causes.size()); ++number) {
         const auto [cause, z] = plan.label(causes, number);
-        EXPECT_EQ(cause < 0, number < plan.scouts + plan.nulls);
+        EXPECT_EQ(cause < 0, number < plan.healthy());
         EXPECT_EQ(z == 0, cause < 0);
         sizes[cause].push_back(z);
         parents[cause].insert(plan.parent(number));
@@ -72,19 +72,33 @@ TEST(EnsemblePlan, EachCauseHasSizesFromWeakToStrong)
     }
 }
 
+TEST(EnsemblePlan, RoundsFollowOnEachOther)
+{
+    const EnsemblePlan plan;
+    std::uint64_t number = 0;
+    for (std::uint64_t round = 0; round <= plan.rounds + 1; ++round) {
+        EXPECT_EQ(number, plan.begin_of(round));
+        const std::uint64_t count = round == 0 ? plan.scouts() : round <= plan.rounds ? plan.of_each_round : plan.nulls;
+        for (std::uint64_t i = 0; i < count; ++i)
+            EXPECT_EQ(plan.round(number++), round);
+    }
+    EXPECT_EQ(number, plan.healthy());
+    EXPECT_EQ(plan.round(plan.total(30) - 1), plan.rounds + 1) << "labelled ones are near the likest laws, too";
+}
+
 TEST(HealthyLawNearAnother, StaysInTheFamilyAndNearby)
 {
     const LawFamily family;
     double square = 0;
     int n = 0;
     for (std::uint64_t k = 0; k < 200; ++k) {
-        const HealthyLaw parent = draw_law(family, 3, k), law = draw_near(family, parent, 3, 1000 + k);
+        const HealthyLaw parent = draw_law(family, 3, k), law = draw_near(family, parent, 1.0 / 3, 3, 1000 + k);
         EXPECT_EQ(law.form, parent.form);
         EXPECT_EQ(law.kind, parent.kind);
         EXPECT_TRUE(law.stiffness >= 0.1 && law.stiffness <= 10);
         EXPECT_TRUE(law.shear >= 0.1 && law.shear <= 1);
         EXPECT_TRUE(law.inset >= 0 && law.inset <= 0.03);
-        EXPECT_EQ(law, draw_near(family, parent, 3, 1000 + k)) << "a function of its number";
+        EXPECT_EQ(law, draw_near(family, parent, 1.0 / 3, 3, 1000 + k)) << "a function of its number";
         if (parent.stiffness > 0.5 && parent.stiffness < 2) { // far from the bounds
             square += std::pow(std::log(law.stiffness / parent.stiffness), 2);
             ++n;
@@ -112,12 +126,13 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
     std::vector<CandidateCause> causes = candidate_causes(campaign().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
     causes.resize(3);
     EnsemblePlan plan;
-    plan.scouts = 24;
+    plan.wide = 16;
+    plan.pairs = 8;
+    plan.of_each_round = 6;
     plan.parents = 3;
     plan.nulls = 12;
     plan.of_each_cause = 4;
-    const std::vector<double> shown =
-        statistics_of(campaign(), scales, direct_tests(campaign(), scales).base_m).descriptors;
+    const CampaignStatistics shown = statistics_of(campaign(), scales, direct_tests(campaign(), scales).base_m);
     const TemporaryFolder folder;
     const auto text_of = [](const std::filesystem::path& file) {
         std::ostringstream text;
@@ -126,7 +141,7 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
     };
     const auto simulate = [&](const char* file, Isa isa, int threads, Observer& observer) {
         return simulate_ensemble(
-            campaign(), study, causes, plan, shown, folder.path() / file, {isa, threads},
+            campaign(), study, causes, {}, plan, shown, folder.path() / file, {isa, threads},
             [&](std::uint64_t done, std::uint64_t) {
                 if (auto* impatient = dynamic_cast<Impatient*>(&observer))
                     impatient->done = done;
@@ -136,21 +151,70 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
     Observer patient;
     const CampaignEnsemble whole = simulate("whole", best_isa(), 2, patient);
     ASSERT_TRUE(whole.complete);
-    ASSERT_EQ(whole.campaigns.size(), 24U + 12U + 12U);
-    EXPECT_EQ(whole.nulls(plan).statistics.rows(), 12);
-    EXPECT_EQ(whole.labelled().cause.size(), 12U);
+    ASSERT_EQ(whole.campaigns.size(), 24U + 2U * 6U + 12U + 12U);
+    const std::size_t scores = score_plan(campaign().specimen, scales).size();
+    for (const SimulatedCampaign& row : whole.campaigns) {
+        EXPECT_EQ(row.numbers.values.size(), shown.values.size());
+        EXPECT_EQ(row.scores.size(), scores);
+    }
     EXPECT_TRUE(simulate("scalar", Isa::scalar, 1, patient).complete);
     EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "scalar"));
 
-    Impatient impatient(24); // after the scouts
+    Impatient impatient(30); // after the scouts and a round
     EXPECT_FALSE(simulate("parts", best_isa(), 1, impatient).complete);
     const CampaignEnsemble rest = simulate("parts", best_isa(), 2, patient);
-    EXPECT_EQ(rest.cached, 24U);
+    EXPECT_EQ(rest.cached, 30U);
     EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "parts"));
+    EXPECT_EQ(rest.distance, whole.distance);
 
     // another seed is another ensemble, and does not continue this one
     plan.seed = 2;
     EXPECT_EQ(simulate("parts", best_isa(), 2, patient).cached, 0U);
+}
+
+/// One in which the law shows.
+const Campaign& lively()
+{
+    static const Campaign measured = measure({.runs = 4, .drums = 3, .friction = 0.8, .pga_m_s2 = 11, .strong_s = 2});
+    return measured;
+}
+
+/// Median distances of the scouts and of the nulls from a campaign of this law.
+std::pair<double, double> distances_from_law(const HealthyLaw& truth, const EnsemblePlan& plan)
+{
+    Observer observer;
+    HealthyScatter scatter;
+    scatter.laws = {truth};
+    const Study study = default_study(lively());
+    const TrackScales scales = track_scales(lively());
+    const VirtualCampaigns made = virtual_campaigns(lively(), study, 77, 1, 1, scatter, {}, {best_isa(), 2}, observer);
+    const CampaignStatistics shown = statistics_of(made.campaigns.front(), scales, made.base_m);
+    std::vector<CandidateCause> causes = candidate_causes(lively().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
+    causes.resize(1);
+    const CampaignEnsemble ensemble = simulate_ensemble(
+        made.campaigns.front(), study, causes, {}, plan, shown, {}, {best_isa(), 2},
+        [](std::uint64_t, std::uint64_t) {}, observer);
+    const auto median = [&](std::uint64_t from, std::uint64_t to) {
+        std::vector<double> distance(ensemble.distance.begin() + static_cast<std::ptrdiff_t>(from),
+                                     ensemble.distance.begin() + static_cast<std::ptrdiff_t>(to));
+        std::sort(distance.begin(), distance.end());
+        return distance[distance.size() / 2];
+    };
+    return {median(0, plan.scouts()), median(plan.begin_of(plan.rounds + 1), plan.healthy())};
+}
+
+TEST(CampaignEnsemble, RoundsComeNearerToTheLaw)
+{
+    EnsemblePlan plan;
+    plan.wide = 72;
+    plan.of_each_round = 24;
+    plan.parents = 6;
+    plan.nulls = 24;
+    plan.of_each_cause = 1;
+    const HealthyLaw truth = draw_law(plan.family, 5, 9);
+    const auto [scouts, nulls] = distances_from_law(truth, plan);
+    EXPECT_LT(nulls, 0.7 * scouts);
+    EXPECT_LT(nulls, 3) << "in units of the scatter within a law";
 }
 
 } // namespace

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace stylobate {
 namespace {
 
@@ -220,6 +223,117 @@ TEST(BalanceFit, WhatIsGivenIsNotFoundAgain)
     const BalanceEvidence left = balance_evidence(campaign, track_scales(campaign), base, {first.causes.front().cause});
     for (const CauseFit& fit : left.causes)
         EXPECT_LT(fit.gain, 6) << listed(left);
+}
+
+TEST(BalanceFit, FrictionThatFallsWithSpeedIsHeldAgainstTheStaticOne)
+{
+    // the static friction is the nominal one, the dynamic one 0.6 of it
+    const double mu = 0.5, speed = 0.04;
+    const BalanceEvidence evidence = evidence_of(coasting_campaign(
+        [&](double v) { return mu * (0.6 + 0.4 * std::exp(-std::fabs(v) / speed)) * formula_gravity; }));
+    const auto found = std::find_if(evidence.causes.begin(), evidence.causes.end(),
+                                    [](const CauseFit& fit) { return fit.cause.mechanism == "stribeck"; });
+    ASSERT_NE(found, evidence.causes.end()) << listed(evidence);
+    EXPECT_NEAR(found->size, 0.6, 0.06) << listed(evidence);
+    EXPECT_GT(found->gain, 15) << "a prior on the dynamic friction would cost 0.4 over 0.05, squared and halved: 32";
+}
+
+TEST(BalanceFit, WearThatGoesOnFromRunToRun)
+{
+    // friction falls with the whole path since the first run; within a run hardly
+    const double mu = 0.5, wear = 0.3, dt = 0.01 / formula_rate_hz;
+    Campaign campaign;
+    campaign.specimen = one_block();
+    double worn = 0;
+    unsigned seed = 50;
+    for (const double velocity : {1.2, -1.3, 1.4, -1.5, 1.6, -1.4}) {
+        std::vector<double> x(40, 0.0); // at rest, then pushed
+        double at = 0, v = std::fabs(velocity);
+        for (int i = 1; v > 0; ++i) {
+            const double slower = mu * (1 - wear * (worn + at)) * formula_gravity;
+            at += dt * (v - 0.5 * dt * slower);
+            v -= dt * slower;
+            if (i % 100 == 0 && v > 0)
+                x.push_back(std::copysign(at, velocity));
+        }
+        worn += at;
+        campaign.runs.push_back(pushed_run(campaign.specimen, x, ++seed));
+    }
+    // the order of the runs is that of their numbers, not that in the file
+    for (std::size_t r = 0; r < campaign.runs.size(); ++r)
+        campaign.runs[r].run_order = static_cast<int>(r);
+    std::swap(campaign.runs[0], campaign.runs[5]);
+    std::swap(campaign.runs[1], campaign.runs[3]);
+    const BalanceEvidence evidence = evidence_of(campaign);
+    ASSERT_FALSE(evidence.causes.empty());
+    const CauseFit& best = evidence.causes.front();
+    EXPECT_EQ(best.cause.mechanism, "friction_wear") << listed(evidence);
+    EXPECT_TRUE(best.cause.persists) << listed(evidence);
+    EXPECT_NEAR(best.size, wear, 4 * best.sd) << listed(evidence);
+}
+
+/// All faces begin to carry inside their corners, or, were it possible, outside them.
+Campaign inset_campaign(double inside_m)
+{
+    Campaign campaign;
+    campaign.specimen = one_block();
+    const double b = 0.03, h = 0.05, inertia = (b * b + h * h) / 3;
+    unsigned seed = 70;
+    for (const int sign : {1, -1, 1, -1, 1, -1, 1, -1}) {
+        const std::vector<double> theta = rocking(b - inside_m, h, inertia, 0.15 + 0.02 * (seed % 5), 0.08);
+        campaign.runs.push_back(formula_run(
+            campaign.specimen, static_cast<int>(theta.size()),
+            [&](int, int i) { return turned(b, h, sign * theta[static_cast<std::size_t>(i)], inside_m); }, camera_m,
+            camera_rad, ++seed));
+    }
+    return campaign;
+}
+
+TEST(BalanceFit, FacesCarryInsideTheirCornersAndNotOutside)
+{
+    const auto corner_gain = [](const BalanceEvidence& evidence) {
+        double most = 0;
+        for (const CauseFit& fit : evidence.causes)
+            if (fit.cause.mechanism == "corner_loss")
+                most = std::max(most, fit.gain);
+        return most;
+    };
+    // inside on both sides is what every contact does a little
+    EXPECT_LT(corner_gain(evidence_of(inset_campaign(0.0012))), 3);
+    const BalanceEvidence outside = evidence_of(inset_campaign(-0.0012));
+    ASSERT_TRUE(outside.fit);
+    // the common turning point is at its bound: scores are there, and ask for the other sign
+    for (const Cause& cause : balance_causes(one_block(), outside.scales))
+        if (cause.mechanism == "corner_loss" && cause.side.empty()) {
+            EXPECT_LT(outside.fit->score(cause), 0);
+        }
+}
+
+TEST(BalanceFit, ScoresAreSignedRootsOfGains)
+{
+    for (const Campaign& campaign : {slab_campaign(0.5, 0.45), rocking_campaign(0.0006), rocking_campaign(-0.0006)}) {
+        const BalanceEvidence evidence = evidence_of(campaign);
+        ASSERT_TRUE(evidence.fit);
+        int compared = 0;
+        for (const Cause& cause : balance_causes(campaign.specimen, evidence.scales)) {
+            const CauseFit fit = evidence.fit->fit(cause);
+            const double score = evidence.fit->score(cause);
+            if (std::isnan(score) || fit.gain == 0 || (cause.mechanism == "friction_wear" && cause.fixed > 0))
+                continue;
+            // a gain of g nats is a score of sqrt(2 g), while it is small: one step from the baseline
+            if (fit.gain < 4) {
+                EXPECT_NEAR(std::fabs(score), std::sqrt(2 * fit.gain), 0.3 + 0.2 * std::fabs(score)) << cause.label();
+            }
+            const bool either_way = cause.mechanism == "joint_friction" || cause.mechanism == "eccentricity";
+            if (std::fabs(score) > 1 && either_way) {
+                EXPECT_EQ(score < 0, fit.size < cause.neutral) << cause.label();
+            }
+            ++compared;
+        }
+        EXPECT_GT(compared, 3);
+        for (const Structure& structure : balance_structures(campaign.specimen))
+            EXPECT_FALSE(std::isinf(evidence.fit->score(structure))) << structure.text;
+    }
 }
 
 } // namespace

@@ -13,10 +13,8 @@ namespace {
 
 std::vector<LawSample> samples_of(const Campaign& campaign, double friction)
 {
-    const TrackScales scales = track_scales(campaign);
-    const MeasuredRun& run = campaign.runs.front();
-    const Track track(campaign.specimen, run, scales, run.base_displacement_m.values);
-    return law_samples(campaign.specimen, scales, track, 0, friction);
+    const std::vector<std::vector<double>> base = {campaign.runs.front().base_displacement_m.values};
+    return law_samples(campaign, track_scales(campaign), base, friction).front();
 }
 
 Campaign campaign_of(const Specimen& specimen, int samples, const std::function<Pose(int, int)>& pose)

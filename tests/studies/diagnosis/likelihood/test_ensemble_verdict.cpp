@@ -20,7 +20,6 @@ protected:
     EnsembleVerdictStatistics() : world_(21)
     {
         evidence_.nulls = world_.nulls(300);
-        evidence_.law_descriptors = evidence_.nulls.descriptors;
         constexpr int of_each = 9;
         LabelledCampaigns& labelled = evidence_.labelled;
         labelled.table = {Eigen::MatrixXd(causes * of_each, descriptors),
@@ -64,7 +63,7 @@ TEST_F(EnsembleVerdictStatistics, HealthyCampaignsAreSeldomNamed)
         named += verdict.named ? 1 : 0;
         unexplained += verdict.unexplained ? 1 : 0;
     }
-    EXPECT_LE(named, 8) << "1.8 of 120 are expected";
+    EXPECT_LE(named, 6) << "0.9 of 120 are expected";
     EXPECT_LE(unexplained, 7) << "1.2 are expected";
 }
 
@@ -80,7 +79,7 @@ public:
     }
     bool names(const Eigen::VectorXd& law, const Eigen::VectorXd& campaign) const
     {
-        return conformal_p_value(nulls_, gain(law, campaign)) <= 0.015;
+        return conformal_p_value(nulls_, gain(law, campaign)) <= EnsembleRule{}.named;
     }
 
 private:
@@ -118,7 +117,7 @@ TEST_F(EnsembleVerdictStatistics, CausesAreNamedWithProbabilitiesThatHold)
         alone += verdict.set.empty() ? 1 : 0;
     }
     EXPECT_GT(possible, 40);
-    EXPECT_GE(named, 0.8 * possible) << "of those that can be named at all";
+    EXPECT_GE(named, 0.6 * possible) << "of those that can be named at all";
     EXPECT_GE(right, 0.95 * named);
     EXPECT_NEAR(stated / named, static_cast<double>(right) / named, 0.1);
     EXPECT_GE(alone, 0.7 * named) << "shifts of different statistics are told apart";
@@ -180,6 +179,7 @@ TEST_F(EnsembleVerdictStatistics, ALawOutsideTheFamilyNamesNothingByItself)
         Eigen::VectorXd campaign = world_.campaign(law, i < 10 ? -1 : i % causes, 1);
         for (int j = 0; j < statistics; ++j)
             campaign(j) += (j % 5 - 2) * 2;
+        evidence_.law_p_value = 0.003;
         const EnsembleVerdict verdict = judge(law, campaign);
         contrasts += verdict.contrasts ? 1 : 0;
         (i < 10 ? named : right) += verdict.named && (i < 10 || verdict.best == i % causes) ? 1 : 0;

@@ -1,0 +1,82 @@
+#include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
+
+#include "ensemble/numerics/sample_quantiles.hpp"
+#include "studies/diagnosis/likelihood/conformal.hpp"
+#include "studies/diagnosis/statistics/summaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double far = 10;       // beyond it one number tells no more
+constexpr double kept = 0.75;    // part of the numbers that count
+constexpr std::size_t least = 6; // pairs that have a number
+
+} // namespace
+
+std::vector<double> law_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign)
+{
+    std::vector<double> numbers = campaign.descriptors;
+    const std::vector<double> common = medians(over_joints(labels), campaign.values);
+    numbers.insert(numbers.end(), common.begin(), common.end());
+    return numbers;
+}
+
+LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs)
+{
+    const std::size_t count = pairs.empty() ? 0 : pairs.front().first.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        std::vector<double> apart;
+        for (const auto& [one, other] : pairs)
+            if (const double d = std::fabs(one[k] - other[k]); std::isfinite(d))
+                apart.push_back(d);
+        // of a difference of two
+        scatter_.push_back(apart.size() < least ? 0 : 1.4826 * upper_median(std::move(apart)) / std::sqrt(2.0));
+    }
+}
+
+double LawLikeness::distance(const std::vector<double>& of, const std::vector<double>& other) const
+{
+    std::vector<double> squares;
+    for (std::size_t k = 0; k < scatter_.size(); ++k) {
+        if (!std::isfinite(of[k]) || !(scatter_[k] > 0))
+            continue;
+        const double apart = std::isfinite(other[k]) ? std::fabs(of[k] - other[k]) / scatter_[k] : far;
+        squares.push_back(std::pow(std::min(apart, far), 2));
+    }
+    if (squares.empty())
+        return 0;
+    std::sort(squares.begin(), squares.end());
+    squares.resize(static_cast<std::size_t>(std::ceil(kept * static_cast<double>(squares.size()))));
+    double sum = 0;
+    for (const double square : squares)
+        sum += square;
+    return std::sqrt(sum / static_cast<double>(squares.size()));
+}
+
+double isolation_p_value(const LawLikeness& likeness, const std::vector<std::vector<double>>& nulls,
+                         const std::vector<double>& law)
+{
+    constexpr std::size_t neighbours = 12;
+    const auto isolation = [&](const std::vector<double>& of, std::size_t own) {
+        std::vector<double> distance;
+        for (std::size_t i = 0; i < nulls.size(); ++i)
+            if (i != own)
+                distance.push_back(likeness.distance(of, nulls[i]));
+        std::sort(distance.begin(), distance.end());
+        distance.resize(std::min(distance.size(), neighbours));
+        double sum = 0;
+        for (const double d : distance)
+            sum += d;
+        return sum;
+    };
+    std::vector<double> of_nulls;
+    for (std::size_t i = 0; i < nulls.size(); ++i)
+        of_nulls.push_back(isolation(nulls[i], i));
+    return conformal_p_value(of_nulls, isolation(law, nulls.size()));
+}
+
+} // namespace stylobate

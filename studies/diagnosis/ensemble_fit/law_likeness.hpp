@@ -1,0 +1,34 @@
+#pragma once
+/// How unlike the healthy laws of two campaigns are, by what they do to all joints.
+
+#include "studies/diagnosis/statistics/campaign_statistics.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// Numbers of a campaign that show its law and hardly a cause: its descriptors, and the median over the joints of each
+/// kind of statistic.
+std::vector<double> law_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign);
+
+/// Differences of law numbers in units of their scatter among specimens of one law.
+class LawLikeness {
+public:
+    /// @param pairs law numbers of campaigns of one law each, whose specimens differ
+    explicit LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs);
+
+    /// Root mean square over the numbers that `of` has, the largest quarter left out: a cause moves some of them. What
+    /// the other one does not have counts as far.
+    double distance(const std::vector<double>& of, const std::vector<double>& other) const;
+
+private:
+    std::vector<double> scatter_; ///< 0: not known, or none
+};
+
+/// Rank of a law among healthy ones by how far it is from its nearest neighbours: a law that the family does not have
+/// is by itself. Conformal: uniform, or larger, where it is one of them.
+double isolation_p_value(const LawLikeness& likeness, const std::vector<std::vector<double>>& nulls,
+                         const std::vector<double>& law);
+
+} // namespace stylobate

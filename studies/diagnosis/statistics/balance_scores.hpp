@@ -1,0 +1,27 @@
+#pragma once
+/// What the balance of forces says of every cause and of every force of no known kind, as one score each
+/// (`BalanceFit::score`): the same numbers of a measured campaign and of simulated ones.
+
+#include "studies/diagnosis/laws/balance_fit.hpp"
+
+#include <vector>
+
+namespace stylobate {
+
+/// Of which the scores of a specimen are: causes first, then structures.
+struct ScorePlan {
+    std::vector<Cause> causes;
+    std::vector<Structure> structures;
+    std::size_t size() const { return causes.size() + structures.size(); }
+};
+ScorePlan score_plan(const Specimen& specimen, const TrackScales& scales);
+
+/// @param base_m (runs)(nt) as in `law_samples`
+/// @return (plan) NaN where the samples do not show it, and everywhere where there are no samples
+std::vector<double> balance_scores(const Campaign& campaign, const TrackScales& scales,
+                                   const std::vector<std::vector<double>>& base_m, const ScorePlan& plan);
+
+/// Which way a cause can act by its score: 1, -1 or, either way, 0.
+int sign_of_cause(const Cause& cause);
+
+} // namespace stylobate
