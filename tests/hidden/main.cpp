@@ -75,7 +75,7 @@ Answer answer_of(const VirtualCampaign& made)
     for (std::size_t k = 0; k < made.effects.size(); ++k) {
         const HiddenEffect& effect = made.effects[k];
         answer.effects.push_back({effect.name, effect.listed, effect.place, effect.parameter, effect.size,
-                                  effect.size_comparable, seen[k].snr_noise, seen[k].snr_scatter,
+                                  effect.size_comparable, seen[k].snr_noise, seen[k].snr_scatter, seen[k].law_share,
                                   seen[k].detectable()});
     }
     return answer;

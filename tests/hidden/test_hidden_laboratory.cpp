@@ -364,6 +364,42 @@ TEST(Detectability, NothingIsSeenOfNothingAndMoreOfMore)
     }
 }
 
+TEST(Detectability, WhatAHealthyLawMakesIsNoEffect)
+{
+    // by hand: an effect along one law and across it
+    const std::vector<double> along = {3, 4, 0}, across = {0, 0, 5}, both = {3, 4, 5};
+    EXPECT_NEAR(share_of_laws(both, {along}, 3), 0.5, 1e-12);
+    EXPECT_NEAR(share_of_laws(both, {along, across}, 3), 1, 1e-12);
+    EXPECT_NEAR(share_of_laws(across, {along}, 3), 0, 1e-12);
+    EXPECT_NEAR(share_of_laws({6, 8, 0}, {along}, 1), 0.75, 1e-12) << "taken once at the most";
+    Detectability found{40, 2, 0.5};
+    EXPECT_TRUE(found.detectable());
+    found.law_share = 0.8;
+    EXPECT_FALSE(found.detectable()) << "what is left is below the scatter";
+    found = {40, 20, 0.9};
+    EXPECT_FALSE(found.detectable()) << "what is left is below the noise";
+
+    // friction that is a little less everywhere is a law, a shifted centre of mass is none
+    Wish wish;
+    wish.law = Law::compliant;
+    wish.specimen = SpecimenKind::two_drums;
+    wish.effects = {"joint_friction"};
+    wish.most_motions = 1;
+    VirtualCampaign made = make_campaign(2, wish);
+    const auto share = [&](const Effects& effects) {
+        made.effects[0].effects = effects;
+        made.model.effects = together(made.effects);
+        for (TrueRun& run : made.runs)
+            run.history = shake(made.model, TableMotion(run.shaking, {}, made.model.step_s), run.start);
+        return detectability_of(made)[0].law_share;
+    };
+    Effects everywhere, one_block;
+    everywhere.beds[0].friction_ratio = everywhere.beds[1].friction_ratio = 0.98;
+    one_block.bodies[1].eccentricity_m = 0.003;
+    EXPECT_GT(share(everywhere), 0.8);
+    EXPECT_LT(share(one_block), 0.5);
+}
+
 TEST(Campaigns, AreTheirSeeds)
 {
     Wish wish;

@@ -9,9 +9,6 @@ namespace stylobate {
 
 namespace {
 
-// Friction that differs by less differs between healthy joints.
-constexpr double friction_matters = 0.12;
-constexpr double stribeck_matters = 0.9;
 // A direct test is as sure as its thresholds are far.
 constexpr double direct_probability = 0.97;
 // Two places of one mechanism that explain alike are one finding.
@@ -154,16 +151,6 @@ std::vector<JudgedCause> named_directly(const DirectResult& direct)
         named.push_back(std::move(j));
     }
     return named;
-}
-
-bool matters(const CauseFit& fit)
-{
-    const std::string& m = fit.cause.mechanism;
-    if (m == "joint_friction")
-        return std::fabs(std::log(fit.size)) > friction_matters;
-    if (m == "stribeck")
-        return fit.size < stribeck_matters;
-    return true;
 }
 
 std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,

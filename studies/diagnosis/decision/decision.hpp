@@ -66,7 +66,4 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
                const ChanceGains& chance, const DecisionRule& rule,
                const std::function<std::vector<JudgedCause>(const JudgedCause& given)>& again);
 
-/// Whether a size is beyond what specimens differ by anyway.
-bool matters(const CauseFit& fit);
-
 } // namespace stylobate

@@ -1,6 +1,7 @@
 #include "studies/diagnosis/decision/evidence.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "studies/diagnosis/statistics/balance_scores.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,22 +36,6 @@ const char* to_string(Channel channel)
     return "";
 }
 
-bool possible(const CauseFit& fit)
-{
-    const std::string& m = fit.cause.mechanism;
-    if (!std::isfinite(fit.size) || !std::isfinite(fit.sd) || fit.gain <= 0)
-        return false;
-    if (m == "joint_friction")
-        return fit.size > 0.05 && fit.size < 3;
-    if (m == "stribeck")
-        return fit.size > 0.05 && fit.size < 1;
-    if (m == "friction_wear" && fit.size * fit.cause.fixed > 1)
-        return false; // no friction is left
-    if (m == "drag" || m == "dowel" || m == "corner_loss" || m == "corner_wear" || m == "friction_wear")
-        return fit.size > 0;
-    return true;
-}
-
 std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits)
 {
     std::erase_if(fits, [](const CauseFit& fit) { return !possible(fit); });
@@ -66,16 +51,11 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
 {
     BalanceEvidence out;
     out.scales = scales;
-    const double friction = nominal_friction(campaign.specimen);
-    out.samples = law_samples(campaign, scales, base_m, friction);
-    std::vector<LawSample> all;
-    for (const std::vector<LawSample>& run : out.samples)
-        all.insert(all.end(), run.begin(), run.end());
-    if (all.empty()) {
+    out.fit = fit_balance(campaign, scales, base_m);
+    if (!out.fit) {
         out.why_not = "No joint with known forces slid or rocked long enough.";
         return out;
     }
-    out.fit.emplace(campaign.specimen, std::move(all), friction, static_cast<int>(campaign.runs.size()));
     std::vector<CauseFit> fits;
     for (const Cause& cause : balance_causes(campaign.specimen, scales))
         fits.push_back(out.fit->fit(cause, given));

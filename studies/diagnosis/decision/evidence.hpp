@@ -25,8 +25,7 @@ const char* to_string(Channel channel);
 /// The forces of a campaign.
 struct BalanceEvidence {
     TrackScales scales;
-    std::vector<std::vector<LawSample>> samples; ///< (runs)
-    std::optional<BalanceFit> fit;               ///< nothing where no joint slid or rocked long enough
+    std::optional<BalanceFit> fit;        ///< nothing where no joint slid or rocked long enough
     std::vector<CauseFit> causes;         ///< one for each mechanism and place, physically possible ones, best first
     std::vector<StructureFit> structures; ///< most telling first
     std::string why_not;                  ///< where there is no fit
@@ -36,9 +35,6 @@ struct BalanceEvidence {
 /// @param given causes that are taken as given: what is fitted is fitted beside them
 BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& scales,
                                  const std::vector<std::vector<double>>& base_m, const std::vector<Cause>& given = {});
-
-/// Whether a fitted size is one that the mechanism can have.
-bool possible(const CauseFit& fit);
 
 /// The best of each mechanism and place (over sides and second parameters), possible ones alone, best first.
 std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits);

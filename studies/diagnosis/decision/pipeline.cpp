@@ -301,6 +301,20 @@ void Pipeline::state_verdict()
     tell_("  " + d_.verdict_text);
     if (!d_.candidates.empty())
         d_.figures.push_back(candidates_figure(d_.candidates));
+    if (!ensemble_)
+        return;
+    for (std::size_t i = 0; i < decided_.named.size(); ++i) {
+        const Channel channel = decided_.named[i].channel;
+        const Cause& cause = decided_.named[i].fit.cause;
+        const EnsembleVerdict& statistics = ensemble_->by_statistics;
+        if (channel == Channel::balance)
+            d_.figures.push_back(carrying_figure(ensemble_->of_scores, d_.candidates[i]));
+        else if (channel == Channel::statistics &&
+                 ensemble_->causes[static_cast<std::size_t>(statistics.best)].cause.label() == cause.label())
+            d_.figures.push_back(carrying_figure(ensemble_->of_statistics, d_.candidates[i]));
+    }
+    for (const Missing& missing : hardly_shown(*ensemble_))
+        d_.missing.push_back(missing);
 }
 
 /// One for each mechanism and place: as it was named first, else as it is in the set, else as it was judged.

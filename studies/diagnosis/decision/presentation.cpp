@@ -121,6 +121,47 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
     return figure;
 }
 
+DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& named)
+{
+    DiagnosisFigure figure;
+    figure.place = FigurePlace::candidates;
+    figure.title = fmt::format("What shows {} at {}: {}", named.mechanism, named.place, number.text);
+    figure.caption =
+        "Simulated campaigns of this specimen under these motions, with contact laws like the measured one: "
+        "healthy ones (at the neutral size), and ones with the cause at several sizes. The measured "
+        "campaign stands at the size that was found.";
+    figure.x_label = named.parameter + (named.unit.empty() ? "" : " [" + named.unit + "]");
+    figure.y_label = number.text;
+    FigureSeries healthy{"healthy", SeriesKind::points, {}, {}, {}, {}},
+        labelled{"with the cause", SeriesKind::points, {}, {}, {}, {}},
+        measured{"measured", SeriesKind::points, {}, {}, {}, {}};
+    for (const double value : number.nulls) {
+        healthy.x.push_back(named.neutral.value_or(0));
+        healthy.y.push_back(value);
+    }
+    for (const auto& [size, value] : number.labelled) {
+        labelled.x.push_back(size);
+        labelled.y.push_back(value);
+    }
+    measured.x = {named.size.value_or(named.neutral.value_or(0))};
+    measured.y = {number.measured};
+    figure.series = {healthy, labelled, measured};
+    return figure;
+}
+
+std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble)
+{
+    constexpr double strong = 0.6, hardly = 0.5; // z; share that is named
+    std::vector<Missing> out;
+    for (std::size_t m = 0; m < ensemble.mechanisms.size(); ++m)
+        if (const auto power = ensemble.power(static_cast<int>(m), strong); power && *power < hardly)
+            out.push_back({ensemble.mechanisms[m],
+                           fmt::format("These data would hardly show it: of simulated campaigns in which it acts "
+                                       "strongly {:.0f} % are named rightly.",
+                                       100 * *power)});
+    return out;
+}
+
 CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start)
 {
     CalibratedParameter p{"contact.friction", "",         start.contact.friction, std::nullopt, std::nullopt,

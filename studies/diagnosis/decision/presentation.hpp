@@ -2,6 +2,7 @@
 
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
+#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 
@@ -20,6 +21,12 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
 
 /// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
 DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);
+
+/// A number that carries a named cause, against healthy campaigns and ones with that cause.
+DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& named);
+
+/// Mechanisms that these data would hardly show, and how often, for the list of what could not be judged; none: empty.
+std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble);
 
 /// The friction as the balance of forces judges it, for the table of the baseline.
 CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start);

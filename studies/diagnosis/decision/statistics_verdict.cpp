@@ -41,12 +41,12 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
 }
 
 /// A variant as its score judges it; its size is that of the balance of forces.
-JudgedCause judged(const EnsembleDiagnosis& ensemble, const BalanceEvidence& balance, std::size_t variant)
+JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t variant)
 {
     const ScoreVerdict& verdict = ensemble.by_scores;
     JudgedCause j;
     j.channel = Channel::balance;
-    j.fit = balance.fit->fit(ensemble.scored.causes[variant]);
+    j.fit = ensemble.fits[variant];
     j.fit.gain = nats_of_score(verdict.scores[variant]);
     j.chance95 = nats_of_score(quantile95(verdict.cause.nulls));
     j.chance = conformal_p_value(verdict.cause.nulls, verdict.likeness, verdict.scores[variant]);
@@ -150,11 +150,10 @@ void judge_statistics(const EnsembleDiagnosis& ensemble, Decided& out, std::vect
 }
 
 /// The same by the scores, one of each mechanism and place.
-void judge_scores(const EnsembleDiagnosis& ensemble, const BalanceEvidence& balance, Decided& out,
-                  std::vector<JudgedCause>& found)
+void judge_scores(const EnsembleDiagnosis& ensemble, Decided& out, std::vector<JudgedCause>& found)
 {
     const ScoreVerdict& verdict = ensemble.by_scores;
-    if (!balance.fit || verdict.cause.variant < 0)
+    if (verdict.cause.variant < 0)
         return;
     std::vector<std::size_t> order;
     for (std::size_t v = 0; v < ensemble.scored.causes.size(); ++v)
@@ -167,22 +166,20 @@ void judge_scores(const EnsembleDiagnosis& ensemble, const BalanceEvidence& bala
     for (const std::size_t v : order) {
         if (seen.size() == most_listed)
             break;
-        JudgedCause j = judged(ensemble, balance, v);
+        JudgedCause j = judged(ensemble, v);
         if (std::any_of(seen.begin(), seen.end(), [&](const JudgedCause& other) { return same_place(other, j); }))
             continue;
         const bool best = static_cast<int>(v) == verdict.cause.variant;
         const bool probable = verdict.named && verdict.probability >= least_probability;
         if (best) {
             j.probability = verdict.named ? verdict.probability : 0;
-            j.considered = probable && !vetoed && matters(j.fit) && possible(j.fit);
+            j.considered = probable && !vetoed;
             if (!verdict.named)
                 j.why_not = fmt::format("the p-value of the score is {:.2g}", verdict.cause.p_value);
             else if (!probable)
                 j.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);
             else if (vetoed)
                 j.why_not = "a force of no known kind explains the motion better";
-            else if (!j.considered)
-                j.why_not = "its size is within the scatter between specimens";
             if (j.considered)
                 found.push_back(j);
         } else if (const auto& set = verdict.set;
@@ -214,7 +211,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
     out.structure95 = nats_of_score(quantile95(ensemble.by_scores.unknown.nulls));
     std::vector<JudgedCause> found;
     judge_statistics(ensemble, out, found);
-    judge_scores(ensemble, balance, out, found);
+    judge_scores(ensemble, out, found);
     std::stable_sort(out.judged.begin(), out.judged.end(), [](const JudgedCause& a, const JudgedCause& b) {
         return a.considered != b.considered ? a.considered : a.chance < b.chance;
     });

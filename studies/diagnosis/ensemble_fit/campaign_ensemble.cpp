@@ -217,7 +217,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                 row.number = first + i;
                 std::tie(row.cause, row.z) = plan.label(causes, first + i);
                 row.numbers = statistics_of(made.campaigns[i], scales, made.base_m);
-                row.scores = balance_scores(made.campaigns[i], scales, made.base_m, scored);
+                row.scores = balance_scores(fit_balance(made.campaigns[i], scales, made.base_m), scored);
             });
         });
         for (SimulatedCampaign& row : rows) {

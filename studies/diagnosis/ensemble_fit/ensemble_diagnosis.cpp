@@ -4,8 +4,11 @@
 #include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
 #include "studies/diagnosis/statistics/summaries.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -18,11 +21,14 @@ Eigen::VectorXd vector_of(const std::vector<double>& values)
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// A score as a statistic: forces that no law has make heavy tails.
+/// A score as a statistic: forces that no law has make heavy tails. A campaign that does not show the cause has 0: that
+/// a joint slides where it would not says something, too.
 double tamed(double score)
 {
-    return std::asinh(score);
+    return std::isfinite(score) ? std::asinh(score) : 0;
 }
+// Of noise alone a score scatters by 1; where healthy campaigns hardly show it, that of a tamed one is taken as this.
+constexpr double tamed_scatter = 0.5;
 
 /// Causes whose scores are statistics beside those of whole runs: one of each mechanism, place and side. Their second
 /// parameters and wear that goes on are left to the test of the scores.
@@ -47,6 +53,9 @@ public:
           scores_(scores_among_statistics(scored.causes))
     {
         labels = joints_.labels;
+        least_scatter.assign(labels.size() + scores_.size(), 0);
+        std::fill(least_scatter.begin() + static_cast<std::ptrdiff_t>(labels.size()), least_scatter.end(),
+                  tamed_scatter);
         for (const std::size_t c : scores_) {
             const Cause& cause = scored.causes[c];
             labels.push_back({"score of " + cause.mechanism + (cause.side.empty() ? "" : ", " + cause.side),
@@ -77,6 +86,7 @@ public:
     }
 
     std::vector<StatisticLabel> labels;
+    std::vector<double> least_scatter; ///< (labels)
 
 private:
     Summary joints_, law_;
@@ -140,6 +150,69 @@ Eigen::MatrixXd scores_of(const std::vector<const SimulatedCampaign*>& rows, std
     return out;
 }
 
+/// Whether a size is far from all that labelled campaigns have: nothing could be said of it.
+bool beyond_simulated(const CauseFit& fit, const std::vector<CandidateCause>& candidates)
+{
+    constexpr double far = 1.5; // over the largest z
+    const Cause& cause = fit.cause;
+    for (const bool same_place : {true, false})
+        for (const CandidateCause& c : candidates)
+            if (c.cause.mechanism == cause.mechanism && c.cause.parameter == cause.parameter &&
+                (!same_place || (c.cause.place == cause.place && c.cause.side == cause.side))) {
+                const double z = c.z_of(fit.size);
+                return z > far * c.most || z < std::min(far * c.least, 0.0);
+            }
+    return false;
+}
+
+/// @param column of all tables   @param of says whether a candidate's campaigns are the labelled ones
+template <class Of>
+CarryingNumber carrying_number(const EnsembleDiagnosis& diagnosis, const LabelledCampaigns& labelled, double measured,
+                               const Eigen::VectorXd& nulls, const Eigen::VectorXd& labelled_numbers, Of&& of)
+{
+    CarryingNumber out;
+    out.measured = measured;
+    for (const double value : nulls)
+        if (std::isfinite(value))
+            out.nulls.push_back(value);
+    for (std::size_t i = 0; i < labelled.cause.size(); ++i) {
+        const CandidateCause& cause = diagnosis.causes[static_cast<std::size_t>(labelled.cause[i])];
+        const double value = labelled_numbers(static_cast<Eigen::Index>(i));
+        if (of(cause.cause) && std::isfinite(value))
+            out.labelled.emplace_back(cause.size_of(labelled.size[i]), value);
+    }
+    return out;
+}
+
+void find_carrying_numbers(const EnsembleEvidence& evidence, const ScoreEvidence& scores, EnsembleDiagnosis& out)
+{
+    if (const EnsembleVerdict& verdict = out.by_statistics; verdict.best >= 0) {
+        Eigen::Index most = 0;
+        verdict.shift.cwiseProduct(verdict.residual).maxCoeff(&most);
+        const Eigen::Index column = verdict.used[static_cast<std::size_t>(most)];
+        const Cause& best = out.causes[static_cast<std::size_t>(verdict.best)].cause;
+        out.of_statistics =
+            carrying_number(out, evidence.labelled, evidence.statistics(column), evidence.nulls.statistics.col(column),
+                            evidence.labelled.table.statistics.col(column), [&](const Cause& c) {
+                                return c.mechanism == best.mechanism && c.place == best.place && c.side == best.side;
+                            });
+        const StatisticLabel& label = out.evidence[static_cast<std::size_t>(column)];
+        out.of_statistics.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
+                                               : label.joint >= 0 ? fmt::format(" of joint {}", label.joint)
+                                                                  : "");
+    }
+    if (const int best = out.by_scores.cause.variant; best >= 0) {
+        const Cause& cause = out.scored.causes[static_cast<std::size_t>(best)];
+        out.of_scores = carrying_number(out, evidence.labelled, scores.campaign(best), scores.nulls.col(best),
+                                        scores.labelled.col(best), [&](const Cause& c) {
+                                            return c.mechanism == cause.mechanism && c.place == cause.place &&
+                                                   c.parameter == cause.parameter &&
+                                                   (cause.side.empty() || c.side == cause.side);
+                                        });
+        out.of_scores.text = "score of " + cause.label();
+    }
+}
+
 /// Of the measured law, among those of the healthy campaigns.
 double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan,
                    const std::vector<StatisticLabel>& labels, const CampaignStatistics& measured)
@@ -160,6 +233,23 @@ int EnsembleDiagnosis::mechanism_of(const Cause& cause) const
 {
     const auto at = std::find(mechanisms.begin(), mechanisms.end(), cause.mechanism);
     return static_cast<int>(at - mechanisms.begin());
+}
+
+std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) const
+{
+    double right = 0, all = 0;
+    std::size_t i = 0;
+    for (const SimulatedCampaign& row : ensemble.campaigns) {
+        if (row.cause < 0)
+            continue;
+        if (mechanism_of(causes[static_cast<std::size_t>(row.cause)].cause) == mechanism &&
+            std::fabs(row.z) >= least_z) {
+            all += 1;
+            right += by_statistics.labelled_right[i] || by_scores.labelled_right[i] ? 1 : 0;
+        }
+        ++i;
+    }
+    return all > 0 ? std::optional(right / all) : std::nullopt;
 }
 
 JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
@@ -207,7 +297,14 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
     const std::vector<StatisticLabel> labels = statistic_labels(campaign);
     const CampaignStatistics measured = statistics_of(campaign, scales, base_m);
     out.scored = score_plan(campaign.specimen, scales);
-    const std::vector<double> scores = balance_scores(campaign, scales, base_m, out.scored);
+    const std::optional<BalanceFit> balance = fit_balance(campaign, scales, base_m);
+    std::vector<double> scores = balance_scores(balance, out.scored);
+    for (std::size_t v = 0; v < out.scored.causes.size(); ++v) {
+        out.fits.push_back(balance ? balance->fit(out.scored.causes[v]) : CauseFit());
+        // what only an impossible size would explain is not judged; of healthy campaigns it is: their bar is the higher
+        if (!possible(out.fits.back()) || !matters(out.fits.back()) || beyond_simulated(out.fits.back(), out.causes))
+            scores[v] = std::numeric_limits<double>::quiet_NaN();
+    }
     out.ensemble =
         simulate_ensemble(campaign, study, out.causes, known, plan, measured, cache, options, progress, observer);
     if (!out.ensemble.complete)
@@ -241,6 +338,7 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
     evidence.likeness = likeness_of(distance);
     evidence.labelled.table = rows.table(labelled);
     evidence.common = common_groups(rows.labels);
+    evidence.least_scatter = rows.least_scatter;
     evidence.descriptors = vector_of(rows.descriptors(measured));
     evidence.statistics = vector_of(rows.statistics(measured, scores));
     out.law_p_value = evidence.law_p_value = law_p_value(out, plan, labels, measured);
@@ -257,11 +355,11 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
     of_scores.nulls = scores_of(nulls, out.scored.size());
     of_scores.likeness = evidence.likeness;
     of_scores.labelled = scores_of(labelled, out.scored.size());
-    of_scores.labelled_cause = evidence.labelled.cause;
     for (const int cause : evidence.labelled.cause)
         of_scores.labelled_mechanism.push_back(evidence.mechanism[static_cast<std::size_t>(cause)]);
     of_scores.campaign = vector_of(scores);
-    out.by_scores = score_test(of_scores, out.causes.size());
+    out.by_scores = score_test(of_scores);
+    find_carrying_numbers(evidence, of_scores, out);
     return out;
 }
 

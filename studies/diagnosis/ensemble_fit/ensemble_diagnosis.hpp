@@ -6,18 +6,38 @@
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace stylobate {
+
+/// One number that carries a verdict, of the measured campaign and of simulated ones.
+struct CarryingNumber {
+    std::string text; ///< what it is
+    double measured = 0;
+    std::vector<double> nulls;                       ///< of healthy campaigns; without those that do not have it
+    std::vector<std::pair<double, double>> labelled; ///< size and number of the campaigns with the cause
+};
 
 struct EnsembleDiagnosis {
     std::vector<CandidateCause> causes;
     std::vector<std::string> mechanisms;  ///< names by the numbers of the verdicts' mechanisms
     std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
     ScorePlan scored;                     ///< what the verdict by scores sees
+    std::vector<CauseFit> fits;           ///< (scored.causes) of the measured campaign
     CampaignEnsemble ensemble;
     double law_p_value = 1; ///< of the measured law in the family
     // default where the observer stopped it
     EnsembleVerdict by_statistics;
     ScoreVerdict by_scores;
+
+    /// Share of labelled campaigns of a mechanism, with z of at least this, that either test names rightly: what these
+    /// data can show. Nothing: no campaign has it.
+    std::optional<double> power(int mechanism, double least_z) const;
+    /// What of the statistics speaks most for their best cause, and the score of the best one.
+    CarryingNumber of_statistics, of_scores;
 
     /// Number of a cause's mechanism.
     int mechanism_of(const Cause& cause) const;

@@ -16,6 +16,9 @@ namespace {
 constexpr double least_sd = 0.01;
 // What the path costs after which wear ends, in nats: half of ln(samples) for some fifty of them.
 constexpr double price_of_an_end = 2;
+// Friction that differs by less differs between healthy joints.
+constexpr double friction_matters = 0.12;
+constexpr double stribeck_matters = 0.9;
 // A sample shows wear that ends if it has this part of it still before it.
 constexpr double worn_enough = 0.75;
 
@@ -159,9 +162,35 @@ double CauseFit::gain_without_best() const
     return gain_by_run.empty() ? gain : gain - *std::max_element(gain_by_run.begin(), gain_by_run.end());
 }
 
+bool possible(const CauseFit& fit)
+{
+    const std::string& m = fit.cause.mechanism;
+    if (!std::isfinite(fit.size) || !std::isfinite(fit.sd) || fit.gain <= 0)
+        return false;
+    if (m == "joint_friction")
+        return fit.size > 0.05 && fit.size < 3;
+    if (m == "stribeck")
+        return fit.size > 0.05 && fit.size < 1;
+    if (m == "friction_wear" && fit.size * fit.cause.fixed > 1)
+        return false; // no friction is left
+    if (m == "drag" || m == "dowel" || m == "corner_loss" || m == "corner_wear" || m == "friction_wear")
+        return fit.size > 0;
+    return true;
+}
+
+bool matters(const CauseFit& fit)
+{
+    const std::string& m = fit.cause.mechanism;
+    if (m == "joint_friction")
+        return std::fabs(std::log(fit.size)) > friction_matters;
+    if (m == "stribeck")
+        return fit.size < stribeck_matters;
+    return true;
+}
+
 BalanceFit::BalanceFit(const Specimen& specimen, std::vector<LawSample> samples, double friction, int runs,
                        const Scatter& scatter)
-    : specimen_(specimen), samples_(std::move(samples)), friction_(friction), runs_(runs), scatter_(scatter)
+    : specimen_(&specimen), samples_(std::move(samples)), friction_(friction), runs_(runs), scatter_(scatter)
 {
     if (samples_.empty())
         return;
@@ -207,7 +236,7 @@ BalanceFit::Column BalanceFit::column(const Cause& cause) const
                 return pushed(s, b, -speed * vx, -speed * vy, 0);
             });
         if (cause.mechanism == "eccentricity")
-            return over_blocks(s, cause.block, [&](int b) { return off_centre(specimen_, s, b); });
+            return over_blocks(s, cause.block, [&](int b) { return off_centre(*specimen_, s, b); });
         return 0;
     };
     return each(samples_, value);
@@ -232,8 +261,8 @@ BalanceFit::Column BalanceFit::column(const Structure& structure) const
         return over_blocks(s, structure.block, [&](int b) {
             const auto k = static_cast<std::size_t>(b);
             // in proportion to the mass, or to mass x half width
-            const double by = specimen_.mass_kg[k] * at->value(specimen_, s, k) *
-                              (at->to == in_theta ? specimen_.half_width_m[k] : 1);
+            const double by = specimen_->mass_kg[k] * at->value(*specimen_, s, k) *
+                              (at->to == in_theta ? specimen_->half_width_m[k] : 1);
             return pushed(s, b, at->to == in_x ? by : 0, at->to == in_y ? by : 0, at->to == in_theta ? by : 0);
         });
     });
@@ -256,13 +285,13 @@ void BalanceFit::add_baseline_columns()
     };
     add(slides(-1), scatter_.common_friction);
     add(turns(-1), scatter_.common_turning);
-    for (int j = 0; j < static_cast<int>(specimen_.joints.size()); ++j) {
+    for (int j = 0; j < static_cast<int>(specimen_->joints.size()); ++j) {
         add(slides(j), scatter_.friction);
         add(turns(j), scatter_.turning_point);
     }
-    for (int b = 0; b < specimen_.blocks(); ++b)
-        add(each(samples_, [&](const LawSample& s) { return off_centre(specimen_, s, b); }),
-            scatter_.mass_centre * specimen_.half_width_m[static_cast<std::size_t>(b)]);
+    for (int b = 0; b < specimen_->blocks(); ++b)
+        add(each(samples_, [&](const LawSample& s) { return off_centre(*specimen_, s, b); }),
+            scatter_.mass_centre * specimen_->half_width_m[static_cast<std::size_t>(b)]);
     design_.resize(static_cast<Eigen::Index>(samples_.size()), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k)
         design_.col(static_cast<Eigen::Index>(k)) = columns[k] / size_[k];
@@ -414,7 +443,7 @@ std::vector<StructureFit> BalanceFit::describe(const std::vector<Cause>& given) 
         columns.push_back(column(cause));
     const Result before = given.empty() ? baseline_ : regress(columns, nullptr);
     std::vector<StructureFit> found;
-    for (Structure& structure : balance_structures(specimen_)) {
+    for (Structure& structure : balance_structures(*specimen_)) {
         const Column tried = column(structure);
         if ((tried.array() == 0).all())
             continue;

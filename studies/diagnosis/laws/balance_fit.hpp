@@ -45,6 +45,11 @@ struct CauseFit {
     double gain_without_best() const;
 };
 
+/// Whether a fitted size is one that the mechanism can have.
+bool possible(const CauseFit& fit);
+/// Whether it is beyond what specimens differ by anyway.
+bool matters(const CauseFit& fit);
+
 /// What is taken to vary from specimen to specimen (1 sigma).
 struct Scatter {
     double common_friction = 0.05; ///< relative: all joints together, against the nominal one
@@ -124,7 +129,7 @@ private:
     void prepare_scores(const RobustFit& baseline);
     double score_of(const Column& tried) const;
 
-    const Specimen& specimen_;
+    const Specimen* specimen_;
     std::vector<LawSample> samples_;
     double friction_;
     int runs_;

@@ -43,7 +43,8 @@ public:
             }
         law_ = std::make_unique<LawAdjustment>(
             rows_of(evidence.nulls, nulls),
-            Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())), wanted);
+            Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())), wanted,
+            evidence.least_scatter);
 
         std::map<int, std::vector<Eigen::Index>> of_cause;
         for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
@@ -141,7 +142,7 @@ private:
 struct LeftOut {
     std::vector<double> null_gains, null_left, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
-    std::map<int, std::pair<double, double>> right; ///< candidate: named rightly, in all
+    std::vector<bool> right;                        ///< (labelled) named, with the right mechanism
     std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;              ///< mechanism: in all
     std::vector<double> labelled_left;              ///< distance beside the best cause
@@ -177,9 +178,7 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
         const int truth = evidence.mechanism[static_cast<std::size_t>(labelled.cause[i])];
         const bool named = is_named(cause.gain);
         const bool right = fit.mechanism(best) == truth;
-        auto& [rightly, all] = out.right[labelled.cause[i]];
-        all += 1;
-        rightly += named && right ? 1 : 0;
+        out.right[i] = named && right;
         if (!named)
             continue;
         out.named.push_back({fit.lead(found, best), right});
@@ -205,7 +204,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
 {
     EnsembleVerdict out;
     out.causes.resize(evidence.mechanism.size());
-    out.power.assign(evidence.mechanism.size(), 0);
+    out.labelled_right.assign(evidence.labelled.cause.size(), false);
     out.contrasts = evidence.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
     const Fit fit(evidence, wanted, out.contrasts, -1);
@@ -224,6 +223,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     const int count = 1 + *std::max_element(evidence.null_fold.begin(), evidence.null_fold.end());
     std::vector<std::unique_ptr<Fit>> folds;
     LeftOut left_out;
+    left_out.right.assign(evidence.labelled.cause.size(), false);
     for (int fold = 0; fold < count; ++fold) {
         folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, fold));
         look_at_left_out(evidence, *folds.back(), fold, left_out, {});
@@ -240,8 +240,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.p_value = chance(cause.gain);
     out.named = is_named(cause.gain);
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, best));
-    for (const auto& [candidate, counts] : left_out.right)
-        out.power[static_cast<std::size_t>(candidate)] = counts.first / counts.second;
+    out.labelled_right = left_out.right;
 
     if (const Fit::Second second = fit.second(out.residual, cause, best); out.named && second.model >= 0) {
         out.second_likelihood = second.cause;

@@ -38,6 +38,7 @@ struct EnsembleEvidence {
     std::vector<int> mechanism; ///< (causes) candidates of one mechanism at several places have one number
     /// (p) statistics that a common law shifts alike, as the same one of all joints, have one number; -1: by itself
     std::vector<int> common;
+    std::vector<double> least_scatter; ///< (p) as of `LawAdjustment`; empty: 0
     /// (nulls), (labelled) part that is left out together, from 0. Parts of one kind of law each make every check one
     /// on a law that the fit has not seen. Each part holds some nulls.
     std::vector<int> null_fold, labelled_fold;
@@ -62,9 +63,7 @@ struct EnsembleVerdict {
     Eigen::VectorXd shift;                        ///< (used) what the best cause makes of it
     std::vector<Eigen::Index> used;               ///< columns of the statistics
     std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out
-    /// Share of left-out labelled campaigns of each candidate that are named with the right mechanism: what these data
-    /// can show.
-    std::vector<double> power;
+    std::vector<bool> labelled_right;             ///< (labelled) named with the right mechanism, left out
 };
 
 EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const EnsembleRule& rule = {});

@@ -57,7 +57,7 @@ Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen
 }
 
 LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights,
-                             const std::vector<bool>& wanted)
+                             const std::vector<bool>& wanted, const std::vector<double>& least_scatter)
 {
     const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
     for (Eigen::Index j = 0; j < nulls.statistics.cols(); ++j) {
@@ -74,7 +74,7 @@ LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& 
             value = std::fabs(value - middle_(k));
         spread_(k) = std::max(1.4826 * median(std::move(values)), 1e-12);
     }
-    regress(nulls, weights);
+    regress(nulls, weights, least_scatter);
     Eigen::MatrixXd residuals(n, static_cast<Eigen::Index>(used_.size()));
     for (Eigen::Index i = 0; i < n; ++i)
         residuals.row(i) = residual(nulls.descriptors.row(i), nulls.statistics.row(i)).transpose();
@@ -88,7 +88,8 @@ Eigen::VectorXd LawAdjustment::standardized(const Eigen::VectorXd& descriptors) 
     return ((descriptors - middle_).cwiseQuotient(spread_)).cwiseMax(-5).cwiseMin(5);
 }
 
-void LawAdjustment::regress(const CampaignTable& nulls, const Eigen::VectorXd& weights)
+void LawAdjustment::regress(const CampaignTable& nulls, const Eigen::VectorXd& weights,
+                            const std::vector<double>& least_scatter)
 {
     const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
     const auto p = static_cast<Eigen::Index>(used_.size());
@@ -110,7 +111,10 @@ void LawAdjustment::regress(const CampaignTable& nulls, const Eigen::VectorXd& w
             // the ridge takes less than one degree of freedom for each descriptor
             const Eigen::MatrixXd hat = normal.ldlt().solve(design.transpose() * w.asDiagonal() * design);
             const double freedom = std::max(w.sum() - hat.trace(), 1.0);
-            scatter_(j) = std::sqrt(std::max((w.array() * (known - expected).array().square()).sum() / freedom, 1e-24));
+            const double least =
+                least_scatter.empty() ? 0 : least_scatter[static_cast<std::size_t>(used_[static_cast<std::size_t>(j)])];
+            const double square = (w.array() * (known - expected).array().square()).sum() / freedom;
+            scatter_(j) = std::sqrt(std::max({square, least * least, 1e-24}));
             const double most = 4 * scatter_(j);
             known = expected + (known - expected).cwiseMax(-most).cwiseMin(most);
         }

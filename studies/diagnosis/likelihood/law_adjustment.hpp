@@ -27,7 +27,10 @@ public:
     /// @param nulls   healthy campaigns, at least 20 and more than twice the descriptors
     /// @param weights (n) how much each tells of the measured campaign, at most 1
     /// @param wanted  (p) whether a statistic is to be used: those that the measured campaign has
-    LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights, const std::vector<bool>& wanted);
+    /// @param least_scatter (p) of each statistic, in its unit: what noise gives where the nulls hardly show it; empty:
+    /// 0
+    LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights, const std::vector<bool>& wanted,
+                  const std::vector<double>& least_scatter = {});
 
     /// Columns of the statistics that are used: wanted, and finite in most of the nulls.
     const std::vector<Eigen::Index>& used() const { return used_; }
@@ -44,7 +47,7 @@ public:
     double scale() const { return scale_; }
 
 private:
-    void regress(const CampaignTable& nulls, const Eigen::VectorXd& weights);
+    void regress(const CampaignTable& nulls, const Eigen::VectorXd& weights, const std::vector<double>& least_scatter);
     void find_tails(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights);
     Eigen::VectorXd standardized(const Eigen::VectorXd& descriptors) const;
 

@@ -11,10 +11,9 @@ namespace {
 
 // The unit of a score is this quantile of its size in healthy campaigns,
 constexpr double unit_quantile = 0.9;
-// together with a score that noise alone gives: a variant that few healthy campaigns show has a unit too.
+// together with a score that noise alone gives. Healthy campaigns that do not show a variant count with 0: that a joint
+// slides where it would not is what a low friction shows.
 constexpr double least_unit = 0.7;
-// Shown by fewer healthy campaigns than this share, a variant is not judged.
-constexpr double least_seen_share = 0.5;
 constexpr int score_parts = 6;
 
 // Of a normal score, in standard deviations: what a unit is.
@@ -42,20 +41,14 @@ public:
     {
         for (Eigen::Index v = 0; v < evidence.nulls.cols(); ++v) {
             std::vector<std::pair<double, double>> sizes;
-            double seen = 0, all = 0;
             for (Eigen::Index i = 0; i < evidence.nulls.rows(); ++i) {
                 if (left_out >= 0 && i % score_parts == left_out)
                     continue;
                 const double weight = evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)];
-                all += weight;
-                if (!std::isfinite(evidence.nulls(i, v)))
-                    continue;
-                seen += weight;
-                sizes.emplace_back(std::fabs(evidence.nulls(i, v)), weight);
+                const double size = std::fabs(evidence.nulls(i, v));
+                sizes.emplace_back(std::isfinite(size) ? size : 0, weight);
             }
-            unit_.push_back(seen >= least_seen_share * all && !sizes.empty()
-                                ? std::hypot(weighted_quantile(std::move(sizes), unit_quantile), least_unit)
-                                : HUGE_VAL);
+            unit_.push_back(std::hypot(weighted_quantile(std::move(sizes), unit_quantile), least_unit));
         }
     }
 
@@ -109,10 +102,10 @@ double nats_of_score(double score)
     return 0.5 * std::pow(unit_sd * score, 2);
 }
 
-ScoreVerdict score_test(const ScoreEvidence& evidence, std::size_t candidates, const EnsembleRule& rule)
+ScoreVerdict score_test(const ScoreEvidence& evidence, const EnsembleRule& rule)
 {
     ScoreVerdict out;
-    out.power.assign(candidates, 0);
+    out.labelled_right.assign(evidence.labelled_mechanism.size(), false);
     out.likeness = evidence.likeness;
     const Units units(evidence, -1);
     for (std::size_t v = 0; v < evidence.variants.mechanism.size(); ++v)
@@ -139,27 +132,22 @@ ScoreVerdict score_test(const ScoreEvidence& evidence, std::size_t candidates, c
     out.named = out.cause.p_value <= rule.named;
 
     std::vector<CalibratedProbability::Case> cases;
-    std::map<int, std::pair<double, double>> right_of; // candidate: right, all
-    std::map<int, std::map<int, double>> taken_for;    // true mechanism: named one
-    std::map<int, double> named_of;                    // true mechanism
+    std::map<int, std::map<int, double>> taken_for; // true mechanism: named one
+    std::map<int, double> named_of;                 // true mechanism
     for (Eigen::Index i = 0; i < evidence.labelled.rows(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         const Eigen::VectorXd scores = evidence.labelled.row(i);
         const LargestScore best = units.largest(scores, is_cause);
-        auto& [right, all] = right_of[evidence.labelled_cause[k]];
-        all += 1;
         if (best.variant < 0 || chance(out.cause, best.score) > rule.named)
             continue;
         const int said = evidence.variants.mechanism[static_cast<std::size_t>(best.variant)];
         const bool is_right = said == evidence.labelled_mechanism[k];
-        right += is_right ? 1 : 0;
+        out.labelled_right[k] = is_right;
         cases.push_back({lead(units, scores, best.score, said), is_right});
         taken_for[evidence.labelled_mechanism[k]][said] += 1;
         named_of[evidence.labelled_mechanism[k]] += 1;
     }
     out.probability = CalibratedProbability(cases)(lead(units, evidence.campaign, out.cause.score, mechanism));
-    for (const auto& [candidate, counts] : right_of)
-        out.power[static_cast<std::size_t>(candidate)] = counts.first / counts.second;
 
     std::set<int> rivals;
     for (std::size_t v = 0; v < out.scores.size(); ++v) {

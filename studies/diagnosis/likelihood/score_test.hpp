@@ -26,7 +26,6 @@ struct ScoreEvidence {
     std::vector<double> likeness;        ///< (n) how much each tells of the measured campaign, at most 1; empty: 1
     Eigen::MatrixXd labelled;            ///< (m x variants)
     std::vector<int> labelled_mechanism; ///< (m)
-    std::vector<int> labelled_cause;     ///< (m) index of the candidate
     Eigen::VectorXd campaign;            ///< (variants)
 };
 
@@ -43,15 +42,14 @@ struct ScoreVerdict {
     LargestScore cause, unknown;
     std::vector<double> likeness; ///< of the healthy campaigns
     bool named = false;
-    double probability = 0;    ///< that the mechanism named is right, if one of the list acts
-    std::vector<int> set;      ///< mechanisms that the scores do not distinguish from the best
-    std::vector<double> power; ///< (candidates) share of labelled campaigns named with the right mechanism
+    double probability = 0;           ///< that the mechanism named is right, if one of the list acts
+    std::vector<int> set;             ///< mechanisms that the scores do not distinguish from the best
+    std::vector<bool> labelled_right; ///< (labelled) named, with the right mechanism
 };
 
 /// A score as nats: a unit is the 90 % quantile of healthy campaigns, 1.64 standard deviations of normal ones.
 double nats_of_score(double score);
 
-/// @param candidates number of labelled causes
-ScoreVerdict score_test(const ScoreEvidence& evidence, std::size_t candidates, const EnsembleRule& rule = {});
+ScoreVerdict score_test(const ScoreEvidence& evidence, const EnsembleRule& rule = {});
 
 } // namespace stylobate

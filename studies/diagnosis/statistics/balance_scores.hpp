@@ -4,6 +4,7 @@
 
 #include "studies/diagnosis/laws/balance_fit.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -17,9 +18,12 @@ struct ScorePlan {
 ScorePlan score_plan(const Specimen& specimen, const TrackScales& scales);
 
 /// @param base_m (runs)(nt) as in `law_samples`
-/// @return (plan) NaN where the samples do not show it, and everywhere where there are no samples
-std::vector<double> balance_scores(const Campaign& campaign, const TrackScales& scales,
-                                   const std::vector<std::vector<double>>& base_m, const ScorePlan& plan);
+/// @return refers to the campaign's specimen; nothing where no joint slid or rocked long enough
+std::optional<BalanceFit> fit_balance(const Campaign& campaign, const TrackScales& scales,
+                                      const std::vector<std::vector<double>>& base_m);
+
+/// @return (plan) NaN where the samples do not show it, and everywhere where there is no fit
+std::vector<double> balance_scores(const std::optional<BalanceFit>& fit, const ScorePlan& plan);
 
 /// Which way a cause can act by its score: 1, -1 or, either way, 0.
 int sign_of_cause(const Cause& cause);

@@ -50,10 +50,11 @@ std::string text_of(const Answer& answer)
                     toml_quoted(answer.verdict()), answer.runs, answer.collapses, toml_number(answer.friction));
     for (const AnswerEffect& effect : answer.effects)
         text += fmt::format("\n[[effect]]\nname = {}\nlisted = {}\nplace = {}\nparameter = {}\nsize = {}\n"
-                            "size_comparable = {}\nsnr_noise = {}\nsnr_scatter = {}\ndetectable = {}\n",
+                            "size_comparable = {}\nsnr_noise = {}\nsnr_scatter = {}\nlaw_share = {}\ndetectable = {}\n",
                             toml_quoted(effect.name), effect.listed, toml_quoted(effect.place),
                             toml_quoted(effect.parameter), toml_number(effect.size), effect.size_comparable,
-                            toml_number(effect.snr_noise), toml_number(effect.snr_scatter), effect.detectable);
+                            toml_number(effect.snr_noise), toml_number(effect.snr_scatter),
+                            toml_number(effect.law_share), effect.detectable);
     return text;
 }
 
@@ -83,6 +84,7 @@ Answer read_answer(const std::filesystem::path& file)
             effect.size_comparable = entry(one, "size_comparable", Type::boolean).boolean;
             effect.snr_noise = number(one, "snr_noise");
             effect.snr_scatter = number(one, "snr_scatter");
+            effect.law_share = number(one, "law_share");
             effect.detectable = entry(one, "detectable", Type::boolean).boolean;
             answer.effects.push_back(effect);
         }

@@ -18,6 +18,7 @@ struct AnswerEffect {
     bool size_comparable = true;
     double snr_noise = 0;
     double snr_scatter = 0;
+    double law_share = 0;
     bool detectable = false;
 };
 

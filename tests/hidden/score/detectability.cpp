@@ -44,18 +44,17 @@ State as_state_of(const Model& twin, const Model& model, const State& state, con
     return same;
 }
 
-/// Sum of squares of what a twin does otherwise, window by window from the same state, in standard deviations of the
+/// What a twin does otherwise, number by number, window by window from the same state, in standard deviations of the
 /// cameras' noise.
-double difference(const VirtualCampaign& made, const Model& twin)
+std::vector<double> differences(const VirtualCampaign& made, const Model& twin)
 {
     const Model& model = made.model;
     const double sd_v = velocity_change_noise(made.planned.camera_m);
     const double sd_w = velocity_change_noise(made.planned.camera_rad);
-    const auto squared = [](double change, double sd) {
-        const double in_sd = std::min(std::abs(change) / sd, most_of_one);
-        return in_sd * in_sd;
+    const auto limited = [](double change, double sd) {
+        return std::isfinite(change) ? std::clamp(change / sd, -most_of_one, most_of_one) : most_of_one;
     };
-    double sum = 0;
+    std::vector<double> all;
     for (const TrueRun& run : made.runs) {
         const TableMotion motion(run.shaking, model.effects.base, model.step_s);
         // by the twin's effects on the table, at the time of the file
@@ -79,12 +78,63 @@ double difference(const VirtualCampaign& made, const Model& twin)
             for (int i = 0; i < model.body_count; ++i) {
                 const auto b = static_cast<std::size_t>(i);
                 const BodyState truly = seen(model, i, to.bodies[b]), instead = seen(twin, i, state.bodies[b]);
-                sum += squared(truly.vx - instead.vx, sd_v) + squared(truly.vy - instead.vy, sd_v) +
-                       squared(truly.omega - instead.omega, sd_w);
+                all.push_back(limited(truly.vx - instead.vx, sd_v));
+                all.push_back(limited(truly.vy - instead.vy, sd_v));
+                all.push_back(limited(truly.omega - instead.omega, sd_w));
             }
         }
     }
+    return all;
+}
+
+double product(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
     return sum;
+}
+
+double norm(const std::vector<double>& values)
+{
+    return std::sqrt(product(values, values));
+}
+
+// How often a change of the law below may be taken.
+constexpr double most_steps = 3;
+
+/// The same specimen with other healthy laws: one step each in everything that is common to all joints. Without the
+/// effects, which the caller leaves as they are.
+std::vector<Model> other_laws(const Model& model)
+{
+    std::vector<Model> laws;
+    const auto add = [&](auto&& change) {
+        laws.push_back(model);
+        change(laws.back());
+    };
+    add([](Model& m) {
+        for (Bed& bed : m.beds)
+            bed.friction *= 1.05;
+    });
+    add([](Model& m) { // all faces begin to carry inside their corners
+        for (Body& body : m.bodies)
+            body.half_width_m *= 0.995;
+        m.base_half_width_m *= 0.995;
+    });
+    if (model.law == Law::nonsmooth) {
+        add([](Model& m) { m.parameters.restitution += m.parameters.restitution < 0.2 ? 0.1 : -0.1; });
+        return laws;
+    }
+    add([](Model& m) { // a bed of half the stiffness sinks deeper under the same weight
+        m.parameters.stiffness_n_m *= 0.5;
+    });
+    add([](Model& m) { m.parameters.damping_s_m *= 1.5; });
+    add([](Model& m) { m.parameters.bristle_m *= 1.5; });
+    add([](Model& m) {
+        for (BedEffect& bed : m.effects.beds)
+            bed.exponent_change += 0.25;
+    });
+    return laws;
 }
 
 /// What stands otherwise before anything moves: a drum off its place, a face that is not square.
@@ -119,6 +169,32 @@ double velocity_change_noise(double noise_sd)
     return std::sqrt(2.0) * slope;
 }
 
+bool Detectability::detectable() const
+{
+    const double left = std::sqrt(1 - law_share);
+    return left * snr_noise >= least_snr_noise && left * snr_scatter >= least_snr_scatter;
+}
+
+double share_of_laws(const std::vector<double>& effect, const std::vector<std::vector<double>>& laws, double most)
+{
+    const double all = product(effect, effect);
+    if (!(all > 0))
+        return 0;
+    // least squares within bounds, one coefficient after the other
+    std::vector<double> left = effect, taken(laws.size(), 0);
+    for (int sweep = 0; sweep < 100; ++sweep)
+        for (std::size_t k = 0; k < laws.size(); ++k) {
+            const double square = product(laws[k], laws[k]);
+            if (!(square > 0))
+                continue;
+            const double wanted = std::clamp(taken[k] + product(laws[k], left) / square, -most, most);
+            for (std::size_t i = 0; i < left.size(); ++i)
+                left[i] -= (wanted - taken[k]) * laws[k][i];
+            taken[k] = wanted;
+        }
+    return std::clamp(1 - product(left, left) / all, 0.0, 1.0);
+}
+
 std::vector<Detectability> detectability_of(const VirtualCampaign& made)
 {
     std::vector<Detectability> all;
@@ -127,15 +203,21 @@ std::vector<Detectability> detectability_of(const VirtualCampaign& made)
     Model scattered = made.model;
     Draws draws(made.seed, Draw::scatter);
     scatter(scattered, made.planned.specimen, draws);
-    const double by_scatter = std::sqrt(difference(made, scattered));
+    const double by_scatter = norm(differences(made, scattered));
+    std::vector<std::vector<double>> laws;
+    for (const Model& law : other_laws(made.model))
+        laws.push_back(differences(made, law));
     for (std::size_t k = 0; k < made.effects.size(); ++k) {
         std::vector<HiddenEffect> others = made.effects;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
         Model twin = made.model;
         twin.effects = together(others);
         const Detectability rest = at_rest(made, made.effects[k].effects);
-        const double moving = std::sqrt(difference(made, twin));
+        const std::vector<double> by_effect = differences(made, twin);
+        const double moving = norm(by_effect);
         Detectability found;
+        if (moving > rest.snr_noise)
+            found.law_share = share_of_laws(by_effect, laws, most_steps);
         found.snr_noise = std::max(rest.snr_noise, moving);
         found.snr_scatter = std::max(rest.snr_scatter, moving / std::max(by_scatter, 1e-9));
         all.push_back(found);

@@ -17,7 +17,7 @@ namespace {
 
 AnswerEffect effect(const std::string& name, bool detectable = true, bool listed = true)
 {
-    return {name, listed, "joint 0", "ratio", 0.6, true, 40, detectable ? 4.0 : 0.5, detectable};
+    return {name, listed, "joint 0", "ratio", 0.6, true, 40, detectable ? 4.0 : 0.5, 0.25, detectable};
 }
 
 Answer hiding(const std::vector<AnswerEffect>& effects)
@@ -188,6 +188,7 @@ TEST(Answers, AreReadAsTheyAreWritten)
     std::filesystem::remove(file);
     EXPECT_EQ(text_of(read), text_of(answer));
     EXPECT_EQ(read.effects[1].size, -1.25e-3);
+    EXPECT_EQ(read.effects[1].law_share, 0.25);
     EXPECT_FALSE(read.effects[1].detectable);
     EXPECT_EQ(read.verdict(), "named");
     EXPECT_EQ(hiding({}).verdict(), "none");
