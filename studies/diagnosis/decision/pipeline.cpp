@@ -313,7 +313,7 @@ void Pipeline::state_verdict()
                  ensemble_->causes[static_cast<std::size_t>(statistics.best)].cause.label() == cause.label())
             d_.figures.push_back(carrying_figure(ensemble_->of_statistics, d_.candidates[i]));
     }
-    for (const Missing& missing : hardly_shown(*ensemble_))
+    for (const Missing& missing : hardly_shown(*ensemble_, decided_))
         d_.missing.push_back(missing);
 }
 

@@ -149,12 +149,21 @@ DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& n
     return figure;
 }
 
-std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble)
+std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble, const Decided& decided)
 {
+    const auto told = [&](const std::string& mechanism) {
+        for (const auto* list : {&decided.named, &decided.in_set})
+            for (const JudgedCause& j : *list)
+                if (j.fit.cause.mechanism == mechanism)
+                    return true;
+        return false;
+    };
+
     constexpr double strong = 0.6, hardly = 0.5; // z; share that is named
     std::vector<Missing> out;
     for (std::size_t m = 0; m < ensemble.mechanisms.size(); ++m)
-        if (const auto power = ensemble.power(static_cast<int>(m), strong); power && *power < hardly)
+        if (const auto power = ensemble.power(static_cast<int>(m), strong);
+            power && *power < hardly && !told(ensemble.mechanisms[m]))
             out.push_back({ensemble.mechanisms[m],
                            fmt::format("These data would hardly show it: of simulated campaigns in which it acts "
                                        "strongly {:.0f} % are named rightly.",

@@ -25,8 +25,9 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);
 /// A number that carries a named cause, against healthy campaigns and ones with that cause.
 DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& named);
 
-/// Mechanisms that these data would hardly show, and how often, for the list of what could not be judged; none: empty.
-std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble);
+/// Mechanisms that these data would hardly show, and how often, for the list of what could not be judged.
+/// @param decided what is named or in the set is left out
+std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble, const Decided& decided);
 
 /// The friction as the balance of forces judges it, for the table of the baseline.
 CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start);

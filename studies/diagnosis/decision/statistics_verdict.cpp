@@ -114,6 +114,21 @@ bool beyond_simulation(const CauseFit& fit)
            (fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio");
 }
 
+/// What the named causes of joints and blocks leave of 1 goes to those in the set, by their gains.
+void share_what_remains(Decided& out)
+{
+    double left = 1, sum = 0, most = 0;
+    for (const JudgedCause& j : out.named)
+        if (j.channel != Channel::direct)
+            left = std::min(left, 1 - j.probability);
+    for (const JudgedCause& j : out.in_set)
+        most = std::max(most, j.fit.gain);
+    for (const JudgedCause& j : out.in_set)
+        sum += std::exp(j.fit.gain - most);
+    for (JudgedCause& j : out.in_set)
+        j.probability = left * std::exp(j.fit.gain - most) / sum;
+}
+
 /// By the statistics: all candidates, the likeliest first; the best and its rivals are considered if they may be named.
 void judge_statistics(const EnsembleDiagnosis& ensemble, Decided& out, std::vector<JudgedCause>& found)
 {
@@ -236,6 +251,8 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
             return other.fit.cause.mechanism == j.fit.cause.mechanism;
         });
     });
+    share_what_remains(out);
+    std::erase_if(out.judged, [](const JudgedCause& j) { return !j.considered && j.fit.gain == 0; });
     const bool judged_by_simulation = std::none_of(direct.found.begin(), direct.found.end(), beyond_simulation);
     if (judged_by_simulation) {
         out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.named);

@@ -68,6 +68,10 @@ std::string key_of(const Campaign& measured, const Study& study, const std::vect
     std::string key = "# stylobate simulated campaigns " + campaign_key(measured, study, plan.seed) +
                       fmt::format(" {} {} {} {} {} {} {}", plan.wide, plan.pairs, plan.rounds, plan.of_each_round,
                                   plan.parents, plan.nulls, plan.of_each_cause);
+    for (const ContactForm form : plan.family.forms)
+        key += fmt::format(" form {}", static_cast<int>(form));
+    for (const DampingKind kind : plan.family.kinds)
+        key += fmt::format(" damping {}", to_string(kind));
     for (const CandidateCause& cause : causes)
         key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.at_one);
     for (const SizedCause& cause : known)

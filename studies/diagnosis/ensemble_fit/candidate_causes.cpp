@@ -12,18 +12,19 @@ namespace stylobate {
 namespace {
 
 // What is strong: z = 1.
-constexpr double friction_at_one = 0.5; // of a joint, over that of the others
-constexpr double dynamic_at_one = 0.5;  // dynamic over static friction
-constexpr double stribeck_speed = 0.02; // over sqrt(g H): slow slip is of this order
-constexpr double worn_at_one = 0.6;     // of the friction, after the path of a whole run
-constexpr double chip_at_one = 0.15;    // over the width of the face
-constexpr double drag_at_one = 0.5;     // of the weight, at sqrt(g H)
-constexpr double centre_at_one = 0.08;  // over the width
-constexpr double hold_at_one = 1.0;     // of a dowel or of adhesion, over the friction of the joint at rest
-constexpr double dowel_slip = 0.005;    // at which a dowel yields, over the width
+constexpr double less_friction_at_one = 0.5, more_friction_at_one = 1.5; // of a joint, over that of the others
+constexpr double dynamic_at_one = 0.5;                                   // dynamic over static friction
+constexpr double stribeck_speed = 0.02;                                  // over sqrt(g H): slow slip is of this order
+constexpr double worn_at_one = 0.6;    // of the friction, after the path of a whole run
+constexpr double chip_at_one = 0.15;   // over the width of the face
+constexpr double drag_at_one = 0.3;    // of the weight, at the largest speeds of the campaign
+constexpr double centre_at_one = 0.08; // over the width
+constexpr double hold_at_one = 1.0;    // of a dowel or of adhesion, over the friction of the joint at rest
+constexpr double dowel_slip = 0.005;   // at which a dowel yields, over the width
 // Paths shorter than these would make wear of any size possible.
 constexpr double least_slip = 0.02;     // over the width
 constexpr double least_rotation = 0.02; // rad
+constexpr double least_speed = 0.01;    // over sqrt(g H): likewise of drag
 
 Cause at_joint(const char* mechanism, int joint, const char* parameter, const char* unit, double neutral = 0)
 {
@@ -67,7 +68,9 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
         if (lower >= 0)
             width = std::min(width, 2 * specimen.half_width_m[static_cast<std::size_t>(lower)]);
         const double held = hold_at_one * friction * weight[k];
-        all.push_back({at_joint("joint_friction", j, "ratio", "", 1), friction_at_one, true, -0.75, 1.25});
+        // less friction makes a joint slide, more friction does not make it stand stiller: each has a shift of its own
+        for (const double at_one : {less_friction_at_one, more_friction_at_one})
+            all.push_back({at_joint("joint_friction", j, "ratio", "", 1), at_one, true, 0, 1.25});
         all.push_back({at_joint("friction_wear", j, "wear_per_m", "1/m"),
                        worn_at_one / std::max(paths.slip_m[k], least_slip * width)});
         for (const char* side : {"left", "right"}) {
@@ -88,8 +91,9 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
             sum += m;
         return sum / static_cast<double>(specimen.mass_kg.size());
     }();
-    all.push_back({{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"},
-                   drag_at_one * mass * specimen.gravity_m_s2 / (speed * speed)});
+    all.push_back(
+        {{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"},
+         drag_at_one * mass * specimen.gravity_m_s2 / std::pow(std::max(paths.speed_m_s, least_speed * speed), 2)});
     for (int b = 0; b < specimen.blocks(); ++b) {
         CandidateCause centre{at_block("eccentricity", b, "offset_m", "m"),
                               centre_at_one * 2 * specimen.half_width_m[static_cast<std::size_t>(b)]};

@@ -14,6 +14,7 @@ namespace stylobate {
 struct JointPaths {
     std::vector<double> slip_m;       ///< (joints)
     std::vector<double> rotation_rad; ///< (joints)
+    double speed_m_s = 0;             ///< sideways, of the blocks: 99 % quantile; drag goes with its square
 };
 
 /// A mechanism at a place. Its size is counted by z: 0 is neutral, 1 is strong.

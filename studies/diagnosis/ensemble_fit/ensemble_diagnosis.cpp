@@ -155,14 +155,15 @@ bool beyond_simulated(const CauseFit& fit, const std::vector<CandidateCause>& ca
 {
     constexpr double far = 1.5; // over the largest z
     const Cause& cause = fit.cause;
-    for (const bool same_place : {true, false})
-        for (const CandidateCause& c : candidates)
-            if (c.cause.mechanism == cause.mechanism && c.cause.parameter == cause.parameter &&
-                (!same_place || (c.cause.place == cause.place && c.cause.side == cause.side))) {
-                const double z = c.z_of(fit.size);
-                return z > far * c.most || z < std::min(far * c.least, 0.0);
-            }
-    return false;
+    bool simulated = false;
+    for (const CandidateCause& c : candidates) {
+        if (c.cause.mechanism != cause.mechanism || c.cause.parameter != cause.parameter)
+            continue;
+        simulated = true;
+        if (const double z = c.z_of(fit.size); z <= far * c.most && z >= far * c.least)
+            return false;
+    }
+    return simulated;
 }
 
 /// @param column of all tables   @param of says whether a candidate's campaigns are the labelled ones
@@ -214,9 +215,9 @@ void find_carrying_numbers(const EnsembleEvidence& evidence, const ScoreEvidence
 }
 
 /// Of the measured law, among those of the healthy campaigns.
-double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan,
-                   const std::vector<StatisticLabel>& labels, const CampaignStatistics& measured)
+double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
 {
+    const std::vector<StatisticLabel>& labels = diagnosis.statistics;
     const std::vector<SimulatedCampaign>& rows = diagnosis.ensemble.campaigns;
     std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
     for (std::uint64_t i = 0; i < plan.pairs; ++i)
@@ -224,7 +225,7 @@ double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan,
     std::vector<std::vector<double>> nulls;
     for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
         nulls.push_back(law_numbers(labels, rows[i].numbers));
-    return isolation_p_value(LawLikeness(pairs), nulls, law_numbers(labels, measured));
+    return isolation_p_value(LawLikeness(pairs), nulls, law_numbers(labels, diagnosis.measured));
 }
 
 } // namespace
@@ -256,9 +257,13 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
                        const std::vector<std::vector<double>>& base_m)
 {
     const std::size_t joints = campaign.specimen.joints.size();
-    JointPaths paths{std::vector<double>(joints, 0), std::vector<double>(joints, 0)};
+    JointPaths paths{std::vector<double>(joints, 0), std::vector<double>(joints, 0), 0};
+    std::vector<double> speeds;
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
+        for (std::size_t i = 0; i < track.samples(); ++i)
+            for (int b = 0; b < campaign.specimen.blocks() && track.usable(i, 1); ++b)
+                speeds.push_back(std::fabs(track.now(1, in_x, b, i)));
         for (std::size_t j = 0; j < joints; ++j) {
             const int lower = campaign.specimen.joints[j].first, upper = campaign.specimen.joints[j].second;
             double slip = 0, turn = 0;
@@ -278,15 +283,15 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
             paths.rotation_rad[j] += turn / static_cast<double>(campaign.runs.size());
         }
     }
+    if (!speeds.empty()) {
+        std::sort(speeds.begin(), speeds.end());
+        paths.speed_m_s = sorted_quantile(speeds, 0.99, QuantileDefinition::linear);
+    }
     return paths;
 }
 
-EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
-                                     const std::vector<SizedCause>& known,
-                                     const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
-                                     const std::filesystem::path& cache, const RunOptions& options,
-                                     const std::function<void(std::uint64_t, std::uint64_t)>& progress,
-                                     Observer& observer)
+EnsembleDiagnosis what_is_measured(const Campaign& campaign, const TrackScales& scales,
+                                   const std::vector<std::vector<double>>& base_m)
 {
     EnsembleDiagnosis out;
     const double friction = nominal_friction(campaign.specimen);
@@ -294,22 +299,22 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
     for (const CandidateCause& cause : out.causes)
         if (std::find(out.mechanisms.begin(), out.mechanisms.end(), cause.cause.mechanism) == out.mechanisms.end())
             out.mechanisms.push_back(cause.cause.mechanism);
-    const std::vector<StatisticLabel> labels = statistic_labels(campaign);
-    const CampaignStatistics measured = statistics_of(campaign, scales, base_m);
+    out.statistics = statistic_labels(campaign);
+    out.measured = statistics_of(campaign, scales, base_m);
     out.scored = score_plan(campaign.specimen, scales);
     const std::optional<BalanceFit> balance = fit_balance(campaign, scales, base_m);
-    std::vector<double> scores = balance_scores(balance, out.scored);
+    out.scores = balance_scores(balance, out.scored);
     for (std::size_t v = 0; v < out.scored.causes.size(); ++v) {
         out.fits.push_back(balance ? balance->fit(out.scored.causes[v]) : CauseFit());
         // what only an impossible size would explain is not judged; of healthy campaigns it is: their bar is the higher
         if (!possible(out.fits.back()) || !matters(out.fits.back()) || beyond_simulated(out.fits.back(), out.causes))
-            scores[v] = std::numeric_limits<double>::quiet_NaN();
+            out.scores[v] = std::numeric_limits<double>::quiet_NaN();
     }
-    out.ensemble =
-        simulate_ensemble(campaign, study, out.causes, known, plan, measured, cache, options, progress, observer);
-    if (!out.ensemble.complete)
-        return out;
+    return out;
+}
 
+void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
+{
     std::vector<const SimulatedCampaign*> nulls, labelled;
     std::vector<double> distance;
     EnsembleEvidence evidence;
@@ -330,18 +335,18 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
             evidence.labelled.size.push_back(row.z);
         }
     }
-    for (std::size_t c = 0; c < out.causes.size(); ++c)
-        evidence.mechanism.push_back(out.mechanism_of(out.causes[c].cause));
-    const EvidenceRows rows(labels, out.scored);
+    for (const CandidateCause& cause : out.causes)
+        evidence.mechanism.push_back(out.mechanism_of(cause.cause));
+    const EvidenceRows rows(out.statistics, out.scored);
     out.evidence = rows.labels;
     evidence.nulls = rows.table(nulls);
     evidence.likeness = likeness_of(distance);
     evidence.labelled.table = rows.table(labelled);
     evidence.common = common_groups(rows.labels);
     evidence.least_scatter = rows.least_scatter;
-    evidence.descriptors = vector_of(rows.descriptors(measured));
-    evidence.statistics = vector_of(rows.statistics(measured, scores));
-    out.law_p_value = evidence.law_p_value = law_p_value(out, plan, labels, measured);
+    evidence.descriptors = vector_of(rows.descriptors(out.measured));
+    evidence.statistics = vector_of(rows.statistics(out.measured, out.scores));
+    out.law_p_value = evidence.law_p_value = law_p_value(out, plan);
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
 
@@ -357,9 +362,25 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
     of_scores.labelled = scores_of(labelled, out.scored.size());
     for (const int cause : evidence.labelled.cause)
         of_scores.labelled_mechanism.push_back(evidence.mechanism[static_cast<std::size_t>(cause)]);
-    of_scores.campaign = vector_of(scores);
+    of_scores.campaign = vector_of(out.scores);
+    of_scores.support = out.by_statistics.mechanism_gain;
+    of_scores.labelled_support = out.by_statistics.labelled_mechanism_gain;
     out.by_scores = score_test(of_scores);
     find_carrying_numbers(evidence, of_scores, out);
+}
+
+EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
+                                     const std::vector<SizedCause>& known,
+                                     const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
+                                     const std::filesystem::path& cache, const RunOptions& options,
+                                     const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                                     Observer& observer)
+{
+    EnsembleDiagnosis out = what_is_measured(campaign, scales, base_m);
+    out.ensemble =
+        simulate_ensemble(campaign, study, out.causes, known, plan, out.measured, cache, options, progress, observer);
+    if (out.ensemble.complete)
+        judge(plan, out);
     return out;
 }
 

@@ -23,7 +23,10 @@ struct CarryingNumber {
 
 struct EnsembleDiagnosis {
     std::vector<CandidateCause> causes;
-    std::vector<std::string> mechanisms;  ///< names by the numbers of the verdicts' mechanisms
+    std::vector<std::string> mechanisms; ///< names by the numbers of the verdicts' mechanisms
+    std::vector<StatisticLabel> statistics;
+    CampaignStatistics measured;
+    std::vector<double> scores;           ///< (scored) of the measured campaign; NaN: not shown, or not to be judged
     std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
     ScorePlan scored;                     ///< what the verdict by scores sees
     std::vector<CauseFit> fits;           ///< (scored.causes) of the measured campaign
@@ -53,6 +56,11 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
                                      const std::filesystem::path& cache, const RunOptions& options,
                                      const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                      Observer& observer);
+
+/// The parts of it: all but the simulated campaigns and the verdicts; the verdicts from these.
+EnsembleDiagnosis what_is_measured(const Campaign& campaign, const TrackScales& scales,
+                                   const std::vector<std::vector<double>>& base_m);
+void judge(const EnsemblePlan& plan, EnsembleDiagnosis& diagnosis);
 
 /// Mean over the runs of the path of each joint, from the smoothed motion.
 JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,

@@ -117,7 +117,7 @@ std::string nats_words()
 std::string chance_words()
 {
     return "p is the p-value of the gain: the share of simulated null campaigns (without a hidden effect) that reach "
-           "it. A gain with p below 0.001 is significant. Such a candidate may still be rejected if the named cause "
+           "it. A significant candidate may still be rejected if the named cause "
            "explains the same data better.";
 }
 

@@ -81,6 +81,16 @@ public:
         return mechanism_[static_cast<std::size_t>(causes_[static_cast<std::size_t>(model)])];
     }
 
+    /// Largest gain of each mechanism; of one without a model none: as if it explained nothing.
+    Eigen::VectorXd of_mechanisms(const std::vector<CauseLikelihood>& found) const
+    {
+        constexpr double none = -1e3;
+        Eigen::VectorXd out =
+            Eigen::VectorXd::Constant(1 + *std::max_element(mechanism_.begin(), mechanism_.end()), none);
+        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m)
+            out(mechanism(m)) = std::max(out(mechanism(m)), found[static_cast<std::size_t>(m)].gain);
+        return out;
+    }
     /// How far the best mechanism is before all others together [nats].
     double lead(const std::vector<CauseLikelihood>& found, Eigen::Index best) const
     {
@@ -143,6 +153,7 @@ struct LeftOut {
     std::vector<double> null_gains, null_left, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
     std::vector<bool> right;                        ///< (labelled) named, with the right mechanism
+    Eigen::MatrixXd gains;                          ///< (labelled x mechanisms)
     std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;              ///< mechanism: in all
     std::vector<double> labelled_left;              ///< distance beside the best cause
@@ -179,6 +190,7 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
         const bool named = is_named(cause.gain);
         const bool right = fit.mechanism(best) == truth;
         out.right[i] = named && right;
+        out.gains.row(static_cast<Eigen::Index>(i)) = fit.of_mechanisms(found).transpose();
         if (!named)
             continue;
         out.named.push_back({fit.lead(found, best), right});
@@ -224,6 +236,8 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     std::vector<std::unique_ptr<Fit>> folds;
     LeftOut left_out;
     left_out.right.assign(evidence.labelled.cause.size(), false);
+    out.mechanism_gain = fit.of_mechanisms(found);
+    left_out.gains.resize(static_cast<Eigen::Index>(evidence.labelled.cause.size()), out.mechanism_gain.size());
     for (int fold = 0; fold < count; ++fold) {
         folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, fold));
         look_at_left_out(evidence, *folds.back(), fold, left_out, {});
@@ -241,6 +255,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.named = is_named(cause.gain);
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, best));
     out.labelled_right = left_out.right;
+    out.labelled_mechanism_gain = left_out.gains;
 
     if (const Fit::Second second = fit.second(out.residual, cause, best); out.named && second.model >= 0) {
         out.second_likelihood = second.cause;

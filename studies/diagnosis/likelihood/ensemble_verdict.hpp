@@ -64,6 +64,9 @@ struct EnsembleVerdict {
     std::vector<Eigen::Index> used;               ///< columns of the statistics
     std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out
     std::vector<bool> labelled_right;             ///< (labelled) named with the right mechanism, left out
+    /// Largest gain of each mechanism: of the measured campaign, and of labelled ones that were left out.
+    Eigen::VectorXd mechanism_gain;          ///< (mechanisms)
+    Eigen::MatrixXd labelled_mechanism_gain; ///< (labelled x mechanisms)
 };
 
 EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const EnsembleRule& rule = {});

@@ -88,6 +88,25 @@ bool is_unknown(int mechanism)
     return mechanism < 0;
 }
 
+/// The best of the mechanisms whose scores are within some nats of the largest: the one that has most support beside.
+LargestScore supported(const Units& units, const Eigen::VectorXd& scores, const Eigen::VectorXd& support, double apart)
+{
+    const LargestScore largest = units.largest(scores, is_cause);
+    LargestScore best = largest;
+    double most = -HUGE_VAL;
+    for (Eigen::Index m = 0; m < support.size(); ++m) {
+        const LargestScore of = units.largest(scores, [&](int mechanism) { return mechanism == m; });
+        if (of.variant < 0 || nats_of_score(largest.score) - nats_of_score(of.score) > apart)
+            continue;
+        const double all = nats_of_score(of.score) + support(m);
+        if (all > most) {
+            most = all;
+            best = of;
+        }
+    }
+    return best;
+}
+
 /// How far the best mechanism is before the next one.
 double lead(const Units& units, const Eigen::VectorXd& scores, double best, int mechanism)
 {
@@ -110,7 +129,8 @@ ScoreVerdict score_test(const ScoreEvidence& evidence, const EnsembleRule& rule)
     const Units units(evidence, -1);
     for (std::size_t v = 0; v < evidence.variants.mechanism.size(); ++v)
         out.scores.push_back(units.score(evidence.campaign, v));
-    out.cause = units.largest(evidence.campaign, is_cause);
+    const double largest = units.largest(evidence.campaign, is_cause).score;
+    out.cause = supported(units, evidence.campaign, evidence.support, rule.apart);
     out.unknown = units.largest(evidence.campaign, is_unknown);
     std::vector<Units> without;
     for (int part = 0; part < score_parts; ++part)
@@ -124,7 +144,7 @@ ScoreVerdict score_test(const ScoreEvidence& evidence, const EnsembleRule& rule)
     const auto chance = [&](const LargestScore& largest, double score) {
         return conformal_p_value(largest.nulls, evidence.likeness, score);
     };
-    out.cause.p_value = chance(out.cause, out.cause.score);
+    out.cause.p_value = chance(out.cause, largest);
     out.unknown.p_value = chance(out.unknown, out.unknown.score);
     if (out.cause.variant < 0)
         return out;
@@ -137,9 +157,12 @@ ScoreVerdict score_test(const ScoreEvidence& evidence, const EnsembleRule& rule)
     for (Eigen::Index i = 0; i < evidence.labelled.rows(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         const Eigen::VectorXd scores = evidence.labelled.row(i);
-        const LargestScore best = units.largest(scores, is_cause);
-        if (best.variant < 0 || chance(out.cause, best.score) > rule.named)
+        const LargestScore most = units.largest(scores, is_cause);
+        if (most.variant < 0 || chance(out.cause, most.score) > rule.named)
             continue;
+        const Eigen::VectorXd support =
+            evidence.support.size() > 0 ? Eigen::VectorXd(evidence.labelled_support.row(i)) : Eigen::VectorXd();
+        const LargestScore best = supported(units, scores, support, rule.apart);
         const int said = evidence.variants.mechanism[static_cast<std::size_t>(best.variant)];
         const bool is_right = said == evidence.labelled_mechanism[k];
         out.labelled_right[k] = is_right;

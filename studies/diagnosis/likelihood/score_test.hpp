@@ -27,6 +27,10 @@ struct ScoreEvidence {
     Eigen::MatrixXd labelled;            ///< (m x variants)
     std::vector<int> labelled_mechanism; ///< (m)
     Eigen::VectorXd campaign;            ///< (variants)
+    /// What else speaks for each mechanism, in nats: it decides between mechanisms whose scores are alike. Empty:
+    /// nothing.
+    Eigen::VectorXd support;          ///< (mechanisms)
+    Eigen::MatrixXd labelled_support; ///< (m x mechanisms)
 };
 
 /// The largest score of one kind, in units of healthy campaigns.

@@ -18,7 +18,7 @@ struct Summary {
 
 /// Each statistic of each joint, over the motions.
 Summary over_motions(const std::vector<StatisticLabel>& statistics);
-/// Each kind of statistic, over the joints.
+/// Each kind of statistic under each motion, over the joints.
 Summary over_joints(const std::vector<StatisticLabel>& statistics);
 
 /// Mean of each group over those that are there; NaN: none.

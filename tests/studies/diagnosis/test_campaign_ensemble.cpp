@@ -5,7 +5,7 @@
 
 #include "io/files/temporary_folder.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
+#include "studies/diagnosis/decision/statistics_verdict.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <gtest/gtest.h>
@@ -29,29 +29,33 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
 {
     const Specimen& s = campaign().specimen;
     const TrackScales scales = track_scales(campaign());
-    const std::vector<CandidateCause> causes = candidate_causes(s, scales, {{0.01, 0.0}, {0.5, 0.0}}, 0.6);
+    const std::vector<CandidateCause> causes = candidate_causes(s, scales, {{0.01, 0.0}, {0.5, 0.0}, 0.4}, 0.6);
     std::map<std::string, const CandidateCause*> by_label;
     for (const CandidateCause& cause : causes) {
-        by_label[cause.cause.label()] = &cause;
+        // less friction, and more
+        by_label[(cause.at_one > 1 && cause.ratio ? "more " : "") + cause.cause.label()] = &cause;
         EXPECT_DOUBLE_EQ(cause.size_of(0), cause.cause.neutral) << cause.cause.label();
         for (const double z : {cause.least, 0.3 * cause.most, cause.most})
             EXPECT_NEAR(cause.z_of(cause.size_of(z)), z, 1e-12) << cause.cause.label();
     }
     EXPECT_EQ(by_label.size(), causes.size()) << "each once";
     EXPECT_DOUBLE_EQ(by_label.at("joint_friction at joint 1")->size_of(1), 0.5);
+    EXPECT_DOUBLE_EQ(by_label.at("more joint_friction at joint 1")->size_of(1), 1.5);
     EXPECT_DOUBLE_EQ(by_label.at("corner_loss at joint 0 left")->size_of(1), 0.15 * 0.048);
     EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 0")->size_of(1), 0.6 / 0.01) << "all of a run's path";
     EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 1")->size_of(1), 0.6 / (0.02 * 0.048))
         << "a joint that does not slide does not wear to nothing";
     // what the friction of the joint holds at rest: joint 0 carries both drums
     EXPECT_NEAR(by_label.at("dowel at joint 0")->size_of(1), 0.6 * 2 * 0.1355 * 9.81, 1e-9);
+    EXPECT_NEAR(by_label.at("drag at all")->size_of(1) * 0.4 * 0.4, 0.3 * 0.1355 * 9.81, 1e-9)
+        << "a part of the weight at the speeds that occur";
     EXPECT_EQ(by_label.at("eccentricity at block 1")->least, -1) << "to either side";
 }
 
 TEST(EnsemblePlan, EachCauseHasSizesFromWeakToStrong)
 {
     const std::vector<CandidateCause> causes =
-        candidate_causes(campaign().specimen, track_scales(campaign()), {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
+        candidate_causes(campaign().specimen, track_scales(campaign()), {{0.01, 0.01}, {0.5, 0.5}, 0.4}, 0.6);
     const EnsemblePlan plan;
     std::map<int, std::vector<double>> sizes;
     std::map<int, std::set<std::uint64_t>> parents;
@@ -123,7 +127,8 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
 {
     const Study study = default_study(campaign());
     const TrackScales scales = track_scales(campaign());
-    std::vector<CandidateCause> causes = candidate_causes(campaign().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
+    std::vector<CandidateCause> causes =
+        candidate_causes(campaign().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}, 0.4}, 0.6);
     causes.resize(3);
     EnsemblePlan plan;
     plan.wide = 16;
@@ -189,7 +194,8 @@ std::pair<double, double> distances_from_law(const HealthyLaw& truth, const Ense
     const TrackScales scales = track_scales(lively());
     const VirtualCampaigns made = virtual_campaigns(lively(), study, 77, 1, 1, scatter, {}, {best_isa(), 2}, observer);
     const CampaignStatistics shown = statistics_of(made.campaigns.front(), scales, made.base_m);
-    std::vector<CandidateCause> causes = candidate_causes(lively().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}}, 0.6);
+    std::vector<CandidateCause> causes =
+        candidate_causes(lively().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}, 0.4}, 0.6);
     causes.resize(1);
     const CampaignEnsemble ensemble = simulate_ensemble(
         made.campaigns.front(), study, causes, {}, plan, shown, {}, {best_isa(), 2},
@@ -215,6 +221,70 @@ TEST(CampaignEnsemble, RoundsComeNearerToTheLaw)
     const auto [scouts, nulls] = distances_from_law(truth, plan);
     EXPECT_LT(nulls, 0.7 * scouts);
     EXPECT_LT(nulls, 3) << "in units of the scatter within a law";
+}
+
+/// A campaign of the family's law in which these act, and how it is diagnosed.
+EnsembleDiagnosis diagnosed(const std::vector<SizedCause>& acting)
+{
+    Observer observer;
+    const Study study = default_study(lively());
+    EnsemblePlan plan;
+    plan.wide = 72;
+    plan.of_each_round = 48;
+    plan.nulls = 96;
+    HealthyScatter scatter;
+    scatter.laws = {draw_law(plan.family, 6, 4)};
+    const VirtualCampaigns made =
+        virtual_campaigns(lively(), study, 78, 1, 1, scatter, {acting}, {best_isa(), 2}, observer);
+    const Campaign& campaign = made.campaigns.front();
+    return ensemble_diagnosis(
+        campaign, study, track_scales(campaign), {}, made.base_m, plan, {}, {best_isa(), 2},
+        [](std::uint64_t, std::uint64_t) {}, observer);
+}
+
+TEST(EnsembleDiagnosis, APlantedCauseIsNamed)
+{
+    Cause slippery{"joint_friction", "joint 1", "ratio", "", 1};
+    slippery.joint = 1;
+    const EnsembleDiagnosis found = diagnosed({{slippery, 0.4}});
+    const Decided decided = decide({}, {}, found, {});
+    ASSERT_EQ(decided.verdict, Verdict::named);
+    EXPECT_EQ(decided.named.front().fit.cause.label(), "joint_friction at joint 1");
+    EXPECT_NEAR(decided.named.front().fit.size, 0.4, 0.15);
+    EXPECT_GE(decided.named.front().probability, 0.5);
+    EXPECT_EQ(tests_in_words(found).size(), 3U);
+
+    // what carries the name: campaigns with the cause lie on the side of the measured one, healthy ones do not
+    const CarryingNumber& carrying =
+        decided.named.front().channel == Channel::balance ? found.of_scores : found.of_statistics;
+    double healthy = 0, with_cause = 0;
+    for (const double value : carrying.nulls)
+        healthy += value / static_cast<double>(carrying.nulls.size());
+    int strong = 0;
+    for (const auto& [size, value] : carrying.labelled)
+        if (size < 0.6) {
+            with_cause += value;
+            ++strong;
+        }
+    ASSERT_GT(strong, 0);
+    EXPECT_GT((with_cause / strong - healthy) * (carrying.measured - healthy), 0);
+    const auto friction = found.power(found.mechanism_of(slippery), 0.6);
+    ASSERT_TRUE(friction);
+    EXPECT_GT(*friction, 0.2);
+    EXPECT_FALSE(found.power(99, 0));
+}
+
+TEST(EnsembleDiagnosis, NothingIsNamedWhereNothingIsHidden)
+{
+    const EnsembleDiagnosis found = diagnosed({});
+    const Decided decided = decide({}, {}, found, {});
+    EXPECT_EQ(decided.verdict, Verdict::none);
+    // a cause that the simulations cannot contain: joints are not judged, whatever they show
+    DirectResult direct;
+    CauseFit offset;
+    offset.cause = {"drum_offset", "block 1", "offset_m", "m"};
+    direct.found = {offset};
+    EXPECT_EQ(decide(direct, {}, found, {}).named.size(), 1U);
 }
 
 } // namespace

@@ -4,8 +4,11 @@
 
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 #include "studies/diagnosis/statistics/joint_sums.hpp"
+#include "studies/diagnosis/statistics/summaries.hpp"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 #include <algorithm>
 #include <numbers>
@@ -388,6 +391,26 @@ TEST(CampaignStatistics, WhatIsNotSeenIsMissing)
     for (double& x : run.blocks.y_m.values)
         x = std::nan("");
     EXPECT_TRUE(std::isnan(slip_path({run.base_displacement_m.values})));
+}
+
+TEST(Summaries, ByHand)
+{
+    const std::vector<StatisticLabel> labels = {
+        {"slip_path", 0, -1, 7, 0}, {"slip_path", 0, -1, 9, 0}, {"slip_path", 1, -1, 7, 0},
+        {"slip_path", 1, -1, 9, 0}, {"slip_path", 2, -1, 7, 0}, {"open_time", 0, -1, 7, -1},
+    };
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> values = {1, 3, none, 5, 40, none};
+    const Summary motions = over_motions(labels), joints = over_joints(labels);
+    ASSERT_EQ(motions.labels.size(), 4U);
+    EXPECT_EQ(motions.labels[1], (StatisticLabel{"slip_path", 1, -1, -1, 0}));
+    const std::vector<double> by_joint = means(motions, values);
+    EXPECT_EQ(by_joint[0], 2);
+    EXPECT_EQ(by_joint[1], 5) << "what is missing does not count";
+    EXPECT_TRUE(std::isnan(by_joint[3]));
+    ASSERT_EQ(joints.labels.size(), 3U) << "by motion and side";
+    EXPECT_EQ(medians(joints, values)[0], 40) << "upper median of two";
+    EXPECT_EQ(medians(joints, values)[1], 5);
 }
 
 } // namespace
