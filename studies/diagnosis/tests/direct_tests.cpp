@@ -2,6 +2,7 @@
 
 #include "studies/diagnosis/laws/ride.hpp"
 #include "studies/diagnosis/tests/direct_findings.hpp"
+#include "studies/diagnosis/tests/pitch_test.hpp"
 #include "studies/diagnosis/tests/rest_tests.hpp"
 #include "studies/diagnosis/tests/vertical_test.hpp"
 
@@ -16,12 +17,6 @@ namespace stylobate {
 namespace {
 
 const std::string base_place = "base";
-
-/// A sample of a series that this run may lack: then NaN.
-double sample_of(const std::vector<double>& series, std::size_t i)
-{
-    return series.empty() ? std::numeric_limits<double>::quiet_NaN() : series[i];
-}
 
 /// Circular frequency of a harmonic ride.
 double omega_of(const Ride& ride)
@@ -124,32 +119,6 @@ void test_height(const VerticalMotion& vertical, const std::string& what, const 
                                      vertical.line_sd_m_s2, vertical.line));
 }
 
-/// Rotation of what is seen against the base's acceleration.
-struct Pitch {
-    bool seen = false;  ///< rotations were measured
-    bool found = false; ///< and they are more than noise
-    double slope = 0;   ///< [rad s2/m]
-    RideFit fit;
-};
-
-Pitch pitch_of(const Prepared& prepared, const DirectThresholds& limits)
-{
-    Pitch pitch;
-    pitch.seen =
-        std::any_of(prepared.rides.begin(), prepared.rides.end(), [](const Ride& r) { return !r.theta.empty(); });
-    if (!pitch.seen)
-        return pitch;
-    pitch.fit = fit_over_runs(
-        prepared.rides, 1,
-        [](const Ride& r, std::size_t i) {
-            return std::pair{sample_of(r.theta, i), r.noise_theta};
-        },
-        [](const Ride& r, std::size_t i, int) { return r.acceleration[i]; });
-    pitch.slope = pitch.fit.size[0];
-    pitch.found = beyond(pitch.slope, pitch.fit.sd[0], limits.pitch_rad_s2_m, limits.sds);
-    return pitch;
-}
-
 /// The file's base motion against what is seen: x = c + gain u + (gain x offset) u' + harmonics - height x pitch
 struct BaseFit {
     double gain = 1, gain_sd = 0;
@@ -157,11 +126,12 @@ struct BaseFit {
     TableDistortion distortion;
 };
 
+/// @param pitch of the table that was found; 0: none [rad s2/m]
 /// @param prepared its rides are shifted by the offset
-BaseFit base_fit(const TrackScales& scales, const Pitch& pitch, Prepared& prepared)
+BaseFit base_fit(const TrackScales& scales, double pitch, Prepared& prepared)
 {
     const auto lean = [&](const Ride& r, std::size_t i) {
-        return pitch.found ? -r.height_m * pitch.slope * r.acceleration[i] : 0;
+        return pitch != 0 ? -r.height_m * pitch * r.acceleration[i] : 0;
     };
     const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.x[i] - lean(r, i), r.noise_x}; };
     BaseFit out;
@@ -214,18 +184,26 @@ void judge_distortion(const TableDistortion& distortion, const DirectThresholds&
     }
 }
 
-void judge_pitch(const Pitch& pitch, const std::string& what, const DirectThresholds& limits, DirectResult& out)
+double pitch_threshold(const PitchFit& pitch, const DirectThresholds& limits)
+{
+    return pitch.apart ? limits.pitch_apart_rad_s2_m : limits.pitch_rad_s2_m;
+}
+
+void judge_pitch(const PitchFit& pitch, bool found, const std::string& what, const DirectThresholds& limits,
+                 DirectResult& out)
 {
     if (!pitch.seen) {
         out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
         return;
     }
+    const double threshold = pitch_threshold(pitch, limits);
     out.base_tests.push_back(
-        told("table_pitch", base_place, pitch.slope, pitch.fit.sd[0], limits.pitch_rad_s2_m, "rad s2/m", pitch.found,
-             fmt::format("{} rotates by {:.2e} rad for each m/s2 of the base.", what, pitch.slope)));
-    if (pitch.found)
-        out.found.push_back(cause_of("table_pitch", base_place, "rotation_rad_s2_m", "rad s2/m", 0, pitch.slope,
-                                     pitch.fit.sd[0], pitch.fit.gain[0]));
+        told("table_pitch", base_place, pitch.slope, pitch.sd, threshold, "rad s2/m", found,
+             fmt::format("{} rotates by {:.2e} rad for each m/s2 of the base{}.", what, pitch.slope,
+                         pitch.apart && what != "the table" ? ", without the lean of soft beds" : "")));
+    if (found)
+        out.found.push_back(
+            cause_of("table_pitch", base_place, "rotation_rad_s2_m", "rad s2/m", 0, pitch.slope, pitch.sd, pitch.gain));
 }
 
 void judge_offset(const BaseFit& base, const std::string& what, double threshold_s, double sds, DirectResult& out)
@@ -267,12 +245,14 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
                                                   "of motion are needed before rocking or sliding begins."));
         return;
     }
-    const Pitch pitch = pitch_of(prepared, limits);
-    const BaseFit base = base_fit(scales, pitch, prepared);
+    const PitchFit pitch = fit_pitch(campaign, scales, prepared);
+    const bool pitches = pitch.seen && beyond(pitch.slope, pitch.sd, pitch_threshold(pitch, limits), limits.sds);
+    const double slope = pitches ? pitch.slope : 0;
+    const BaseFit base = base_fit(scales, slope, prepared);
     const double narrower = prepared.table ? limits.with_table : 1;
     judge_distortion(base.distortion, limits, out);
-    judge_pitch(pitch, prepared.what, limits, out);
-    test_height(vertical_motion(campaign, prepared, scales, pitch.found ? pitch.slope : 0), prepared.what, limits, out);
+    judge_pitch(pitch, pitches, prepared.what, limits, out);
+    test_height(vertical_motion(campaign, prepared, scales, slope), prepared.what, limits, out);
     judge_offset(base, prepared.what, narrower * limits.offset_s, limits.sds, out);
     judge_gain(base, prepared.what, narrower * limits.gain, limits.sds, out);
 }
