@@ -98,6 +98,13 @@ double name_causes(const DirectResult& direct, const std::vector<JudgedCause>& j
         if (j.considered && j.fit.cause.mechanism != first->fit.cause.mechanism &&
             j.surprise > first->surprise - rule.apart && !known_at_rest(direct, j))
             out.in_set.push_back(j);
+    double together = first->probability;
+    for (const JudgedCause& j : out.in_set)
+        together += j.probability;
+    if (together < least_probability) {
+        out.in_set.clear();
+        return 0; // possible, and no more
+    }
     out.named.push_back(*first);
     double explained = first->channel == Channel::balance ? first->fit.gain : 0;
     const std::vector<JudgedCause> rest = again(*first);
@@ -186,6 +193,13 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::
     out.named = named_directly(direct);
     const double explained = name_causes(direct, judged, rule, again, out);
     out.judged = std::move(judged);
+    for (JudgedCause& j : out.judged)
+        if (j.considered && j.probability < least_probability &&
+            std::none_of(out.named.begin(), out.named.end(),
+                         [](const JudgedCause& named) { return named.channel != Channel::direct; })) {
+            j.considered = false;
+            j.why_not = fmt::format("possible, with a probability of {:.2f}", j.probability);
+        }
     out.structure95 = chance.quantile95_of_structures();
     find_unexplained(balance, chance, rule, explained, out);
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;

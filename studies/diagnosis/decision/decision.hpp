@@ -7,6 +7,7 @@
 ///      campaign with nothing hidden, by `clear` nats more than their 95 % quantile, with a probability by chance below
 ///      `chance`, and not by one run alone; and if it is large enough to matter.
 ///   3  The most surprising one is named; others whose surprise is within `apart` nats of it are in the set with it.
+///      If all of these together are less probable than not, they are possible, and none is named.
 ///   4  Beside it the rest is judged again, once: a second cause.
 ///   5  If forces of no known kind explain much more than what is named, or if something is left that nothing explains
 ///      and that chance does not give, the verdict is 'unexplained'.
@@ -19,6 +20,9 @@
 #include <vector>
 
 namespace stylobate {
+
+/// Less probable causes, alone or as a set, are not named.
+inline constexpr double least_probability = 0.5;
 
 struct DecisionRule {
     double clear = 3;            ///< nats beyond the 95 % quantile of chance

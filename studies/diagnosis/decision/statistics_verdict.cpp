@@ -236,6 +236,15 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const JudgedCause& a, const JudgedCause& b) { return a.probability > b.probability; });
+    // where both tests say the same, the balance of forces knows the size best: it is not limited to those simulated
+    for (JudgedCause& j : found)
+        for (const JudgedCause& other : found)
+            if (j.channel == Channel::statistics && other.channel == Channel::balance && same_place(j, other)) {
+                const double probability = j.probability;
+                j = other;
+                j.probability = probability;
+                break;
+            }
     const JudgedCause* first = found.empty() ? nullptr : &found.front();
     for (const JudgedCause& j : found) {
         const bool again = std::any_of(out.named.begin(), out.named.end(), [&](const JudgedCause& other) {

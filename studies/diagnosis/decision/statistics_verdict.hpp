@@ -21,9 +21,6 @@
 
 namespace stylobate {
 
-/// A cause that is less probable is not named.
-inline constexpr double least_probability = 0.5;
-
 Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
                const DecisionRule& rule);
 

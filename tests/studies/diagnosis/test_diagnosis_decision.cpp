@@ -280,5 +280,23 @@ TEST(Decision, WithoutKnownChanceOnlyDirectTestsName)
     EXPECT_EQ(told.decided.judged.front().why_not, "the null distribution is unknown");
 }
 
+TEST(Decision, WhatIsLessProbableThanNotIsPossibleAndNotNamed)
+{
+    // 3 nats beyond chance: considered, with even odds against none, less 1
+    const Told alone = decide_on({fit_of("joint_friction", {3.65, 3.6})});
+    EXPECT_EQ(alone.decided.verdict, Verdict::none);
+    EXPECT_TRUE(alone.decided.named.empty());
+    ASSERT_EQ(alone.decided.judged.size(), 1U);
+    EXPECT_LT(alone.decided.judged.front().probability, 0.5);
+    EXPECT_GT(alone.decided.judged.front().probability, 0.2);
+    EXPECT_EQ(alone.decided.judged.front().why_not.substr(0, 8), "possible");
+    EXPECT_EQ(alone.rounds, 0) << "there is nothing to be judged beside";
+    // two that explain alike: each is less probable than not, one of them is there
+    const Told tied = decide_on({fit_of("joint_friction", {5, 5}), fit_of("stribeck", {5, 5})});
+    EXPECT_EQ(tied.decided.verdict, Verdict::named);
+    EXPECT_EQ(tied.decided.in_set.size(), 1U);
+    EXPECT_LT(tied.decided.named.front().probability, 0.5);
+}
+
 } // namespace
 } // namespace stylobate
