@@ -81,7 +81,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
       "studies/diagnosis/statistics", "studies/diagnosis/tests"}},
     {"studies/diagnosis/decision",
      {"studies", "studies/calibration", "studies/diagnosis/ensemble_fit", "studies/diagnosis/findings",
-      "studies/diagnosis/laws", "studies/diagnosis/tests"}},
+      "studies/diagnosis/laws", "studies/diagnosis/statistics", "studies/diagnosis/tests"}},
     {"studies/app",
      {"studies", "studies/calibration", "studies/diagnosis/decision", "studies/diagnosis/findings",
       "studies/diagnosis/laws", "studies/experiment", "studies/kinds", "studies/reference", "studies/report",

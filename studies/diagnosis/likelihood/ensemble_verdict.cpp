@@ -202,6 +202,21 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
     }
 }
 
+/// A second cause beside the best one.
+void find_second(const Fit& fit, Eigen::Index best, const LeftOut& left_out, const EnsembleRule& rule,
+                 EnsembleVerdict& out)
+{
+    const Fit::Second second = fit.second(out.residual, out.causes[static_cast<std::size_t>(out.best)], best);
+    if (second.model < 0)
+        return;
+    out.second_likelihood = second.cause;
+    out.second_p_value = conformal_p_value(left_out.second_gains, second.cause.gain);
+    // fewer labelled campaigns than it takes for the p-value: beyond all of them
+    const double least = 1 / (1 + static_cast<double>(left_out.second_gains.size()));
+    if (out.second_p_value <= std::max(rule.named, std::min(least, most_second_p)))
+        out.second = fit.causes()[static_cast<std::size_t>(second.model)];
+}
+
 std::vector<bool> finite(const Eigen::VectorXd& values)
 {
     std::vector<bool> out;
@@ -257,14 +272,8 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.labelled_right = left_out.right;
     out.labelled_mechanism_gain = left_out.gains;
 
-    if (const Fit::Second second = fit.second(out.residual, cause, best); out.named && second.model >= 0) {
-        out.second_likelihood = second.cause;
-        out.second_p_value = conformal_p_value(left_out.second_gains, second.cause.gain);
-        // fewer labelled campaigns than it takes for the p-value: beyond all of them
-        const double least = 1 / (1 + static_cast<double>(left_out.second_gains.size()));
-        if (out.second_p_value <= std::max(rule.named, std::min(least, most_second_p)))
-            out.second = fit.causes()[static_cast<std::size_t>(second.model)];
-    }
+    if (out.named)
+        find_second(fit, best, left_out, rule, out);
 
     std::set<int> rivals;
     const int mechanism = fit.mechanism(best);

@@ -20,7 +20,7 @@ namespace stylobate {
 struct DirectThresholds {
     double distortion = 0.02;           ///< of a harmonic, over the fundamental, in acceleration
     double pitch_rad_s2_m = 4e-4;       ///< soft contacts lean by a tenth of it
-    double pitch_apart_rad_s2_m = 6e-5; ///< where their lean is not in it
+    double pitch_apart_rad_s2_m = 1.2e-4; ///< where their lean is not in it
     double vertical = 0.6;              ///< rms of the common vertical motion over the cameras' noise
     double vertical_ratio = 0.02;       ///< of the horizontal motion, over whole runs
     double vertical_line = 12;          ///< power of a line of the table's own over its neighbours'

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t first_angles = 40;
 // A block that leans by more than this part of what counts as open, and than its noise, does not ride.
 constexpr double leans_below = 0.5, leans_noise = 6;
+// Lean of the lowest block on soft beds [rad s2/m], 1 sigma: healthy campaigns show up to 1.7e-4.
+constexpr double most_softness = 1.5e-4;
 
 /// A sample of a series that this run may lack: then NaN.
 double sample_of(const std::vector<double>& series, std::size_t i)
@@ -51,10 +53,11 @@ Rotations rotations_of(const MeasuredRun& run, int blocks, const TrackScales& sc
     return out;
 }
 
-/// Pitch and softness from the blocks' slopes, by weighted least squares; the softness not below 0.
+/// Pitch and softness from the blocks' slopes, by weighted least squares; the softness not below 0, and seldom above
+/// its prior.
 double pitch_of(const std::vector<double>& slope, const std::vector<double>& weight, const std::vector<double>& lean)
 {
-    double w = 0, wl = 0, wll = 0, ws = 0, wls = 0;
+    double w = 0, wl = 0, wll = 1 / (most_softness * most_softness), ws = 0, wls = 0;
     for (std::size_t b = 0; b < slope.size(); ++b) {
         w += weight[b];
         wl += weight[b] * lean[b];

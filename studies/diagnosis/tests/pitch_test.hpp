@@ -9,7 +9,8 @@
 ///                                                     its centre above the bed),  L of the lowest block 1
 ///
 /// for beds of one stiffness (statics of a stack: Newton's law for all blocks above a bed). The slopes of all blocks of
-/// a column tell the two apart; soft beds lean one way alone.
+/// a column tell the two apart; soft beds lean one way alone, and not
+/// much.
 
 #include "studies/diagnosis/laws/ride.hpp"
 

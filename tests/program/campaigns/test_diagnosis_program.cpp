@@ -73,9 +73,11 @@ TEST_F(DiagnosisProgram, APitchingTableIsNamed)
     // was found without campaigns that say what chance gives
     ASSERT_EQ(run({"report", "d.h5", "--quiet"}).status, 0);
     const std::string page = read_bytes(folder / "d.html");
-    EXPECT_EQ(count_of(page, ">measured, ± 2 sd of the noise</text>"), 4u); // x and rotation in two runs
-    EXPECT_EQ(count_of(page, ">calibrated baseline, restarted in each window</text>"), 4u);
-    EXPECT_GT(count_of(page, ">error above noise and a short lag</text>"), 1u);
+    const std::size_t motions = count_of(page, ">measured, ± 2 sd of the noise</text>");
+    EXPECT_GE(motions, 2u);
+    EXPECT_EQ(motions % 2, 0u) << "x and rotation of each run";
+    EXPECT_EQ(count_of(page, ">calibrated baseline, restarted in each window</text>"), motions);
+    EXPECT_GE(count_of(page, ">error above noise and a short lag</text>"), 1u);
     const std::size_t chart = page.find("aria-label=\"Gain of each cause");
     ASSERT_NE(chart, std::string::npos);
     const std::string svg = page.substr(chart, page.find("</svg>", chart) - chart);
