@@ -415,6 +415,10 @@ void Pipeline::write_extended_study()
     extended.excitation.run = measured_.runs.front().name;
     extended.text = study_text(extended);
     d_.extended_study = extended.text;
+    if (std::any_of(decided_.named.begin(), decided_.named.end(),
+                    [](const JudgedCause& j) { return j.fit.cause.persists; }))
+        add_missing(d_, "wear from run to run in the extended study",
+                    "In a study each run begins with a new specimen.");
     if (!left_out.empty())
         d_.missing.push_back({"all of the extended study", "It lacks " + list_words(left_out) + "."});
 }
@@ -446,12 +450,15 @@ void Pipeline::tell_method_and_cost()
             (options_.windows ? ", and the gain of each cause."
                               : ". They are used to test causes only with --windows.")};
     if (ensemble_)
-        d_.method.push_back(
-            "The statistics of the campaign (paths, openings, friction in slides of each joint under each motion) are "
-            "compared with those of simulated campaigns, healthy ones of many contact laws and ones with a known "
-            "cause. A "
-            "cause is named if its gain is among the largest 1.5 % of healthy campaigns that were left out of the fit, "
-            "and if such names are right in more than half of the labelled campaigns that were left out.");
+        d_.method.push_back("Simulated campaigns judge joints and blocks: healthy ones whose contact laws come nearer "
+                            "to the measured one "
+                            "round by round, and ones with a known cause. The largest score of the balance of forces "
+                            "and the largest gain "
+                            "of the statistics of the campaign (paths, openings, friction in slides of each joint) are "
+                            "compared with the "
+                            "same of the healthy campaigns. A cause is named if one of the two is among their largest "
+                            "0.75 %, and if such "
+                            "names are right in more than half of the campaigns with a known cause.");
     if (chance_.campaigns > 0)
         d_.method.push_back(
             fmt::format("Null campaigns (without a hidden effect), simulated with contacts of many kinds, pass through "

@@ -42,6 +42,8 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     c.parameter = cause.parameter;
     if (!cause.side.empty())
         c.why = fmt::format("at the {} end", cause.side);
+    if (cause.persists)
+        c.why = "it goes on from run to run";
     c.unit = cause.unit;
     c.neutral = cause.neutral;
     if (j.fit.gain > 0) {
@@ -159,7 +161,7 @@ std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble, const Decid
         return false;
     };
 
-    constexpr double strong = 0.6, hardly = 0.5; // z; share that is named
+    constexpr double strong = 0.8, hardly = 0.5; // z; share that is named
     std::vector<Missing> out;
     for (std::size_t m = 0; m < ensemble.mechanisms.size(); ++m)
         if (const auto power = ensemble.power(static_cast<int>(m), strong);

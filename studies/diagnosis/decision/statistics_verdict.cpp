@@ -114,9 +114,15 @@ bool beyond_simulation(const CauseFit& fit)
            (fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio");
 }
 
-/// What the named causes of joints and blocks leave of 1 goes to those in the set, by their gains.
+/// What the named causes of joints and blocks leave of 1 goes to those in the set, by their gains. A cause that both
+/// tests put there is there once.
 void share_what_remains(Decided& out)
 {
+    std::vector<JudgedCause> once;
+    for (const JudgedCause& j : out.in_set)
+        if (std::none_of(once.begin(), once.end(), [&](const JudgedCause& other) { return same_place(other, j); }))
+            once.push_back(j);
+    out.in_set = std::move(once);
     double left = 1, sum = 0, most = 0;
     for (const JudgedCause& j : out.named)
         if (j.channel != Channel::direct)
@@ -236,15 +242,6 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const JudgedCause& a, const JudgedCause& b) { return a.probability > b.probability; });
-    // where both tests say the same, the balance of forces knows the size best: it is not limited to those simulated
-    for (JudgedCause& j : found)
-        for (const JudgedCause& other : found)
-            if (j.channel == Channel::statistics && other.channel == Channel::balance && same_place(j, other)) {
-                const double probability = j.probability;
-                j = other;
-                j.probability = probability;
-                break;
-            }
     const JudgedCause* first = found.empty() ? nullptr : &found.front();
     for (const JudgedCause& j : found) {
         const bool again = std::any_of(out.named.begin(), out.named.end(), [&](const JudgedCause& other) {
@@ -260,6 +257,14 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
             return other.fit.cause.mechanism == j.fit.cause.mechanism;
         });
     });
+    // where both tests say the same, the balance of forces knows the size best: it is not limited to those simulated
+    for (JudgedCause& j : out.named)
+        for (const JudgedCause& other : found)
+            if (j.channel == Channel::statistics && other.channel == Channel::balance && same_place(j, other)) {
+                const double probability = j.probability;
+                j = other;
+                j.probability = probability;
+            }
     share_what_remains(out);
     std::erase_if(out.judged, [](const JudgedCause& j) { return !j.considered && j.fit.gain == 0; });
     const bool judged_by_simulation = std::none_of(direct.found.begin(), direct.found.end(), beyond_simulation);

@@ -1,7 +1,6 @@
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 
 #include "io/files/atomic_file.hpp"
-#include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 
 #include <fmt/format.h>
@@ -106,11 +105,7 @@ public:
 
     std::vector<double> distances(const std::vector<SimulatedCampaign>& rows) const
     {
-        std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
-        for (std::uint64_t i = 0; i < plan_.pairs; ++i)
-            pairs.emplace_back(law_numbers(labels_, rows[i].numbers),
-                               law_numbers(labels_, rows[plan_.wide + i].numbers));
-        const LawLikeness likeness(pairs);
+        const LawLikeness likeness = likeness_of(plan_, labels_, rows);
         std::vector<double> out;
         for (const SimulatedCampaign& row : rows)
             out.push_back(likeness.distance(shown_, law_numbers(labels_, row.numbers)));
@@ -164,6 +159,15 @@ std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& ca
     const std::uint64_t sides = c.least < 0 ? 2 : 1, of_a_side = (of_each_cause + sides - 1) / sides;
     const double part = static_cast<double>(place / sides + 1) / static_cast<double>(of_a_side);
     return {static_cast<int>(cause), (place % sides == 0 ? c.most : c.least) * part};
+}
+
+LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,
+                        const std::vector<SimulatedCampaign>& rows)
+{
+    std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
+    for (std::uint64_t i = 0; i < plan.pairs; ++i)
+        pairs.emplace_back(law_numbers(labels, rows[i].numbers), law_numbers(labels, rows[plan.wide + i].numbers));
+    return LawLikeness(pairs);
 }
 
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,

@@ -3,6 +3,7 @@
 /// so that an interrupted diagnosis continues, and the same bits for any number of threads.
 
 #include "studies/diagnosis/ensemble_fit/candidate_causes.hpp"
+#include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
@@ -58,6 +59,10 @@ struct CampaignEnsemble {
     std::uint64_t simulations = 0, block_steps = 0, cached = 0;
     bool complete = false; ///< false: the observer stopped it
 };
+
+/// From the pairs of campaigns of one law.
+LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,
+                        const std::vector<SimulatedCampaign>& rows);
 
 /// @param known    causes that act in every campaign: what direct tests found and no correction takes away
 /// @param shown    of the measured campaign

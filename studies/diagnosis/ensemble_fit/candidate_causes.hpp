@@ -10,7 +10,7 @@
 
 namespace stylobate {
 
-/// What a joint goes through in a run, the mean over the runs of a campaign: wear is in proportion to it.
+/// What joints and blocks go through in a run of a campaign: wear and drag are in proportion to it.
 struct JointPaths {
     std::vector<double> slip_m;       ///< (joints)
     std::vector<double> rotation_rad; ///< (joints)

@@ -1,7 +1,6 @@
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "studies/diagnosis/ensemble_fit/law_likeness.hpp"
 #include "studies/diagnosis/statistics/summaries.hpp"
 
 #include <fmt/format.h>
@@ -133,7 +132,7 @@ void complete_descriptors(EnsembleEvidence& evidence)
 }
 
 /// How much a healthy campaign tells of the measured one: the nearer half of them count in full.
-std::vector<double> likeness_of(const std::vector<double>& distance)
+std::vector<double> weights_of(const std::vector<double>& distance)
 {
     const double middle = upper_median(distance);
     std::vector<double> out;
@@ -219,13 +218,10 @@ double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
 {
     const std::vector<StatisticLabel>& labels = diagnosis.statistics;
     const std::vector<SimulatedCampaign>& rows = diagnosis.ensemble.campaigns;
-    std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
-    for (std::uint64_t i = 0; i < plan.pairs; ++i)
-        pairs.emplace_back(law_numbers(labels, rows[i].numbers), law_numbers(labels, rows[plan.wide + i].numbers));
     std::vector<std::vector<double>> nulls;
     for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
         nulls.push_back(law_numbers(labels, rows[i].numbers));
-    return isolation_p_value(LawLikeness(pairs), nulls, law_numbers(labels, diagnosis.measured));
+    return isolation_p_value(likeness_of(plan, labels, rows), nulls, law_numbers(labels, diagnosis.measured));
 }
 
 } // namespace
@@ -340,7 +336,7 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     const EvidenceRows rows(out.statistics, out.scored);
     out.evidence = rows.labels;
     evidence.nulls = rows.table(nulls);
-    evidence.likeness = likeness_of(distance);
+    evidence.likeness = weights_of(distance);
     evidence.labelled.table = rows.table(labelled);
     evidence.common = common_groups(rows.labels);
     evidence.least_scatter = rows.least_scatter;

@@ -62,7 +62,7 @@ EnsembleDiagnosis what_is_measured(const Campaign& campaign, const TrackScales& 
                                    const std::vector<std::vector<double>>& base_m);
 void judge(const EnsemblePlan& plan, EnsembleDiagnosis& diagnosis);
 
-/// Mean over the runs of the path of each joint, from the smoothed motion.
+/// Paths of the joints, mean over the runs, and speed of the blocks, from the smoothed motion.
 JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
                        const std::vector<std::vector<double>>& base_m);
 

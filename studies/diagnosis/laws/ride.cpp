@@ -74,23 +74,6 @@ Ride seen_ride(const MeasuredRun& run, std::size_t index, const Specimen& s, boo
     return ride;
 }
 
-/// A series with 0 where nothing was seen.
-std::vector<double> filled(std::vector<double> v)
-{
-    for (double& x : v)
-        x = std::isfinite(x) ? x : 0;
-    return v;
-}
-
-/// Median of the first samples: the angle at which it rests. 0 of an empty series.
-double rest_angle_of(const std::vector<double>& angle)
-{
-    if (angle.empty())
-        return 0;
-    const auto first = static_cast<std::ptrdiff_t>(std::min(angle.size(), first_angles));
-    return upper_median({angle.begin(), angle.begin() + first});
-}
-
 /// (samples) whether the base and what is seen are known there, and a block neither slips nor rocks.
 /// @param limit acceleration below which a block rides [m/s2]
 std::vector<char> riding(const Ride& ride, bool table, double limit, const TrackScales& scales)
@@ -123,6 +106,21 @@ std::vector<char> riding(const Ride& ride, bool table, double limit, const Track
 }
 
 } // namespace
+
+std::vector<double> filled(std::vector<double> v)
+{
+    for (double& x : v)
+        x = std::isfinite(x) ? x : 0;
+    return v;
+}
+
+double rest_angle_of(const std::vector<double>& angle)
+{
+    if (angle.empty())
+        return 0;
+    const auto first = static_cast<std::ptrdiff_t>(std::min(angle.size(), first_angles));
+    return upper_median({angle.begin(), angle.begin() + first});
+}
 
 double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to)
 {

@@ -22,6 +22,12 @@ inline constexpr std::size_t shortest_ride = 30; // samples
 /// Mean of v[from] to v[to - 1].
 double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to);
 
+/// A series with 0 where nothing was seen.
+std::vector<double> filled(std::vector<double> v);
+
+/// Median of the first samples: the angle at which it rests. 0 of an empty series.
+double rest_angle_of(const std::vector<double>& angle);
+
 /// Blocks that stand on the table (or on what is fixed to it).
 std::vector<int> lowest_blocks(const Specimen& s);
 

@@ -1,15 +1,11 @@
 #include "studies/diagnosis/tests/pitch_test.hpp"
 
-#include "ensemble/numerics/sample_quantiles.hpp"
-
 #include <map>
 
 namespace stylobate {
 
 namespace {
 
-// Samples from whose median a block's angle at rest is taken.
-constexpr std::size_t first_angles = 40;
 // A block that leans by more than this part of what counts as open, and than its noise, does not ride.
 constexpr double leans_below = 0.5, leans_noise = 6;
 // Lean of the lowest block on soft beds [rad s2/m], 1 sigma: healthy campaigns show up to 1.7e-4.
@@ -37,12 +33,8 @@ Rotations rotations_of(const MeasuredRun& run, int blocks, const TrackScales& sc
         std::vector<double> theta =
             resampled(run.time_s, run.blocks.theta_rad.values.data() + b, static_cast<std::size_t>(blocks),
                       run.time_s.front(), scales.spacing_s, samples);
-        std::vector<double> filled = theta;
-        for (double& value : filled)
-            value = std::isfinite(value) ? value : 0;
-        const auto first = static_cast<std::ptrdiff_t>(std::min(samples, first_angles));
-        const double rest = upper_median({filled.begin(), filled.begin() + first});
-        const std::vector<double> angle = scales.rates.apply(0, filled);
+        const std::vector<double> leaned = filled(theta), angle = scales.rates.apply(0, leaned);
+        const double rest = rest_angle_of(leaned);
         for (std::size_t i = 0; i < samples; ++i) {
             left[i] = left[i] || std::fabs(angle[i] - rest) > most;
             if (left[i])

@@ -12,6 +12,26 @@
 namespace stylobate {
 namespace {
 
+TEST(LocalCubic, ASeriesAndItsSamplesHaveTheSameBits)
+{
+    // longer than several groups of samples that are computed together, and not a multiple of them
+    std::vector<double> series;
+    for (int i = 0; i < 83; ++i)
+        series.push_back(std::sin(0.37 * i) + 1e-7 * i * i);
+    const LocalCubic smoothing(7, 0.01);
+    for (int d = 0; d < 3; ++d) {
+        const std::vector<double> all = smoothing.apply(d, series);
+        ASSERT_EQ(all.size(), series.size());
+        for (std::size_t i = 0; i < series.size(); ++i)
+            EXPECT_EQ(all[i], smoothing.at(d, series, i)) << d << ", " << i;
+        EXPECT_EQ(all[6], 0);
+        EXPECT_NE(all[7], 0);
+        EXPECT_NE(all[75], 0);
+        EXPECT_EQ(all[76], 0);
+    }
+    EXPECT_EQ(LocalCubic(7, 0.01).apply(0, {1, 2, 3}), std::vector<double>(3, 0.0)) << "shorter than the window";
+}
+
 TEST(LocalCubic, IsExactOnCubics)
 {
     const double dt = 0.002;
