@@ -67,7 +67,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     how.nulls = static_cast<std::uint64_t>(wanted.nulls);
     how.windows = wanted.windows;
     how.statistics = wanted.statistics;
-    how.cache = beside / (stem + "_chance.txt");
+    how.cache = beside / (stem + (wanted.statistics ? "_campaigns.txt" : "_chance.txt"));
     how.run = {options.isa(), options.thread_count()};
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) {
@@ -84,7 +84,8 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     } observer(console);
     std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
     if (!diagnosis) {
-        tell("Interrupted. The same command continues: the null distribution is kept in " + how.cache.string() + ".");
+        tell("Interrupted. The same command continues: the simulated campaigns are kept in " + how.cache.string() +
+             ".");
         return exit_interrupted;
     }
     diagnosis->measured_fingerprint = fingerprint(measured);

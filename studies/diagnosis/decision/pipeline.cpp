@@ -119,7 +119,8 @@ void Pipeline::say_what_is_read()
     d_.specimen = measured_.specimen.name;
     d_.code_version = code_version();
     d_.seed = options_.seed;
-    d_.options = {fmt::format("nulls = {}", options_.nulls), fmt::format("threads = {}", options_.run.threads)};
+    d_.options = {options_.statistics ? "statistics" : fmt::format("nulls = {}", options_.nulls),
+                  fmt::format("threads = {}", options_.run.threads)};
     d_.runs = measured_.runs.size();
     d_.runs_used = static_cast<std::uint64_t>(
         std::count_if(measured_.runs.begin(), measured_.runs.end(),
@@ -243,13 +244,10 @@ bool Pipeline::compare_statistics()
 {
     EnsemblePlan plan = options_.plan;
     plan.seed = options_.seed;
-    std::filesystem::path cache = options_.cache;
-    if (!cache.empty())
-        cache.replace_filename(cache.stem().string() + "_campaigns.txt");
     const auto begun = std::chrono::steady_clock::now();
     std::optional<std::uint64_t> cached;
     ensemble_.emplace(ensemble_diagnosis(
-        campaign_, start_, scales_, known_, direct_.base_m, plan, cache, options_.run,
+        campaign_, start_, scales_, known_, direct_.base_m, plan, options_.cache, options_.run,
         [&](std::uint64_t done, std::uint64_t total) {
             if (!cached)
                 cached = done;
@@ -450,15 +448,18 @@ void Pipeline::tell_method_and_cost()
             (options_.windows ? ", and the gain of each cause."
                               : ". They are used to test causes only with --windows.")};
     if (ensemble_)
-        d_.method.push_back("Simulated campaigns judge joints and blocks: healthy ones whose contact laws come nearer "
-                            "to the measured one "
-                            "round by round, and ones with a known cause. The largest score of the balance of forces "
-                            "and the largest gain "
-                            "of the statistics of the campaign (paths, openings, friction in slides of each joint) are "
-                            "compared with the "
-                            "same of the healthy campaigns. A cause is named if one of the two is among their largest "
-                            "0.75 %, and if such "
-                            "names are right in more than half of the campaigns with a known cause.");
+        d_.method.push_back(
+            "Simulated campaigns judge joints and blocks: healthy ones whose contact laws come nearer "
+            "to the measured one "
+            "round by round, and ones with a known cause. The largest score of the balance of forces "
+            "and the largest gain "
+            "of the statistics of the campaign (paths, openings, friction in slides of each joint) are "
+            "compared with the "
+            "same of the healthy campaigns. A cause is named if one of the two is among their largest "
+            "0.75 %, and if such "
+            "names are right in more than half of the campaigns with a known cause. The gain of a score is half its "
+            "square, in units of what it is in healthy campaigns: a number for comparison, and no likelihood of the "
+            "data.");
     if (chance_.campaigns > 0)
         d_.method.push_back(
             fmt::format("Null campaigns (without a hidden effect), simulated with contacts of many kinds, pass through "

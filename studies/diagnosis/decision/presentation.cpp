@@ -132,6 +132,8 @@ DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& n
         "Simulated campaigns of this specimen under these motions, with contact laws like the measured one: "
         "healthy ones (at the neutral size), and ones with the cause at several sizes. The measured "
         "campaign stands at the size that was found.";
+    if (number.hidden > 0)
+        figure.caption += fmt::format(" {} healthy campaigns do not show it and are not drawn.", number.hidden);
     figure.x_label = named.parameter + (named.unit.empty() ? "" : " [" + named.unit + "]");
     figure.y_label = number.text;
     FigureSeries healthy{"healthy", SeriesKind::points, {}, {}, {}, {}},

@@ -48,6 +48,7 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t variant)
     j.channel = Channel::balance;
     j.fit = ensemble.fits[variant];
     j.fit.gain = nats_of_score(verdict.scores[variant]);
+    j.fit.gain_by_run.clear(); // those of the fit are in nats of another kind
     j.chance95 = nats_of_score(quantile95(verdict.cause.nulls));
     j.chance = conformal_p_value(verdict.cause.nulls, verdict.likeness, verdict.scores[variant]);
     j.surprise = j.fit.gain - j.chance95;

@@ -175,6 +175,8 @@ CarryingNumber carrying_number(const EnsembleDiagnosis& diagnosis, const Labelle
     for (const double value : nulls)
         if (std::isfinite(value))
             out.nulls.push_back(value);
+        else
+            ++out.hidden;
     for (std::size_t i = 0; i < labelled.cause.size(); ++i) {
         const CandidateCause& cause = diagnosis.causes[static_cast<std::size_t>(labelled.cause[i])];
         const double value = labelled_numbers(static_cast<Eigen::Index>(i));

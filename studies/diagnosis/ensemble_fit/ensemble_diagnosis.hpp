@@ -18,6 +18,7 @@ struct CarryingNumber {
     std::string text; ///< what it is
     double measured = 0;
     std::vector<double> nulls;                       ///< of healthy campaigns; without those that do not have it
+    std::size_t hidden = 0;                          ///< so many do not
     std::vector<std::pair<double, double>> labelled; ///< size and number of the campaigns with the cause
 };
 
