@@ -9,7 +9,7 @@
 #include "kernels/isa.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/calibration/calibration_windows.hpp"
-#include "studies/diagnosis/decision/statistics_verdict.hpp"
+#include "studies/diagnosis/decision/decision.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -49,7 +49,8 @@ Campaign healthy_campaign(const Campaign& like, const Study& study, const LawFam
     Observer observer;
     HealthyScatter scatter;
     scatter.laws = draw_laws(family, seed, number, 1);
-    VirtualCampaigns made = virtual_campaigns(like, study, seed, number, 1, scatter, {}, run, observer);
+    VirtualCampaigns made =
+        virtual_campaigns(VirtualLaboratory(like), study, seed, number, 1, scatter, {}, run, observer);
     base_m = std::move(made.base_m);
     return std::move(made.campaigns.front());
 }
@@ -75,11 +76,11 @@ int main(int argc, char** argv)
     fmt::print("{}: {} runs, {} blocks; {} campaigns of each part, seed {}\n\n", like.specimen.name, like.runs.size(),
                like.specimen.blocks(), campaigns, seed);
     fmt::print(
-        "| left out | campaigns | named | unexplained | p of the scores at most 0.1 | p of the statistics at most "
+        "| left out | campaigns | named | unexplained | p of unknown forces at most 0.1 | p of the statistics at most "
         "0.1 | law outside | seconds a diagnosis |\n|---|---:|---:|---:|---:|---:|---:|---:|\n");
     std::uint64_t number = 0;
     for (const Part& part : parts_of({})) {
-        int named = 0, unexplained = 0, scores = 0, statistics = 0, outside = 0;
+        int named = 0, unexplained = 0, forces = 0, statistics = 0, outside = 0;
         const auto begin = std::chrono::steady_clock::now();
         for (std::uint64_t i = 0; i < campaigns; ++i) {
             std::vector<std::vector<double>> base_m;
@@ -89,17 +90,17 @@ int main(int argc, char** argv)
             plan.family = part.without;
             const EnsembleDiagnosis found = ensemble_diagnosis(
                 campaign, study, scales, {}, base_m, plan, {}, run, [](std::uint64_t, std::uint64_t) {}, observer);
-            const Decided decided = decide({}, balance_evidence(campaign, scales, base_m), found, {});
+            const Decided decided = decide({}, balance_evidence(campaign, scales, base_m), &found, {});
             named += decided.verdict == Verdict::named ? 1 : 0;
             unexplained += decided.verdict == Verdict::unexplained ? 1 : 0;
-            scores += found.by_scores.cause.p_value <= 0.1 ? 1 : 0;
+            forces += found.forces.unknown.p_value <= 0.1 ? 1 : 0;
             statistics += found.by_statistics.p_value <= 0.1 ? 1 : 0;
             outside += found.by_statistics.contrasts ? 1 : 0;
             for (const JudgedCause& j : decided.named)
                 fmt::print(stderr, "{}: {}, probability {:.2f}\n", part.name, j.fit.cause.label(), j.probability);
         }
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", part.name, campaigns, named, unexplained, scores,
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", part.name, campaigns, named, unexplained, forces,
                    statistics, outside, passed.count() / static_cast<double>(campaigns));
         std::fflush(stdout);
     }

@@ -87,8 +87,7 @@ std::optional<Diagnosis> diagnose(const std::filesystem::path& measured, const D
         inner::demand_double(study, "study", "a diagnosis");
         inner::DiagnosisOptions how;
         how.seed = options.seed;
-        how.nulls = options.nulls;
-        how.windows = options.windows;
+        how.plan = inner::EnsemblePlan::with(options.nulls);
         how.cache = options.cache;
         how.run = run_options(options.threads, options.simd);
         const auto tell = [&](const std::string& line) {

@@ -48,6 +48,12 @@ std::uint64_t random_bits(std::uint64_t seed, std::uint64_t index, Stream stream
 /// 1, exact in double, and so is its complement 1 - u, which is on the same grid.
 double to_uniform01(std::uint64_t bits);
 
+/// The standard normal number below which a part `u` of the distribution lies: algorithm AS 241 (PPND16) of Wichura,
+/// "The percentage points of the normal distribution", Applied Statistics 37 (1988). Relative error below 1e-15; ten
+/// times as fast as the quantile of Boost.Math: for draws by the million, as the noise of cameras.
+/// @pre 0 < u < 1
+double to_normal(double u);
+
 /// Of `random_bits`.
 double uniform01(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element);
 

@@ -55,10 +55,8 @@ struct CalibrateOptions {
 
 /// What `diagnose` is asked for.
 struct DiagnoseOptions {
-    long long nulls = 32;    ///< campaigns with nothing hidden that are simulated for the null distribution
-    long long seed = 1;      ///< of what is drawn in them
-    bool windows = false;    ///< whether free windows of the simulation judge causes too
-    bool statistics = false; ///< whether the statistics of the campaign judge joints and blocks
+    long long nulls = 192; ///< healthy campaigns that are simulated near the measured contact law
+    long long seed = 1;    ///< of what is drawn in them
 };
 
 /// What `new` is asked for, in the words of a study file; empty: the usual one.

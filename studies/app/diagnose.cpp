@@ -64,10 +64,8 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     }
 
     how.seed = static_cast<std::uint64_t>(wanted.seed);
-    how.nulls = static_cast<std::uint64_t>(wanted.nulls);
-    how.windows = wanted.windows;
-    how.statistics = wanted.statistics;
-    how.cache = beside / (stem + (wanted.statistics ? "_campaigns.txt" : "_chance.txt"));
+    how.plan = EnsemblePlan::with(static_cast<std::uint64_t>(wanted.nulls));
+    how.cache = beside / (stem + "_campaigns.txt");
     how.run = {options.isa(), options.thread_count()};
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) {
@@ -94,10 +92,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         diagnosis->command += " --study " + shell_word(study_file);
     for (const std::string& setting : options.set)
         diagnosis->command += " --set " + shell_word(setting);
-    diagnosis->command += fmt::format(" -o {} --nulls {} --seed {}{}", shell_word(output), wanted.nulls, wanted.seed,
-                                      wanted.windows      ? " --windows"
-                                      : wanted.statistics ? " --statistics"
-                                                          : "");
+    diagnosis->command += fmt::format(" -o {} --nulls {} --seed {}", shell_word(output), wanted.nulls, wanted.seed);
     if (!diagnosis->extended_study.empty()) {
         AtomicFile file(how.extension);
         file.write(diagnosis->extended_study);

@@ -1,9 +1,12 @@
 #include "studies/diagnosis/decision/decision.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace stylobate {
 
@@ -11,139 +14,17 @@ namespace {
 
 // A direct test is as sure as its thresholds are far.
 constexpr double direct_probability = 0.97;
-// Two places of one mechanism that explain alike are one finding.
-constexpr double most_surprise = 40;
+constexpr double half_width90 = 1.6449; // of a normal interval of 90 %, in standard deviations
+// A size is that of the balance of forces where this gains so much [nats]: it is not limited to simulated sizes.
+constexpr double sized_by_forces = 8;
 
-JudgedCause judged_cause(const CauseFit& fit, Channel channel, const ChanceGains& chance, const DecisionRule& rule)
+double quantile95(std::vector<double> values)
 {
-    JudgedCause j;
-    j.fit = fit;
-    j.channel = channel;
-    const std::string& mechanism = fit.cause.mechanism;
-    j.chance95 = chance.quantile95(channel, mechanism);
-    j.chance = chance.probability(channel, mechanism, fit.gain);
-    j.surprise = std::min(fit.gain - j.chance95, -std::log(std::max(j.chance, 1e-30)) - 3);
-    const double left = fit.gain_without_best();
-    if (!chance.tell_of(channel, mechanism))
-        j.why_not = "the null distribution is unknown";
-    else if (fit.gain - j.chance95 < rule.clear)
-        j.why_not = fmt::format("gain {:.1f} nats; null distribution up to {:.1f} (95 %)", fit.gain, j.chance95);
-    else if (j.chance > rule.chance)
-        j.why_not = fmt::format("the p-value of the gain is {:.2g}", j.chance);
-    else if (left < rule.without_best * fit.gain && left < j.chance95 + rule.clear)
-        j.why_not =
-            fmt::format("without the run with the largest contribution {:.1f} of {:.1f} nats remain", left, fit.gain);
-    else if (!matters(fit))
-        j.why_not = "its size is within the scatter between specimens";
-    else
-        j.considered = true;
-    return j;
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0 : sorted_quantile(values, 0.95, QuantileDefinition::linear);
 }
 
-void sort_judged(std::vector<JudgedCause>& judged)
-{
-    std::stable_sort(judged.begin(), judged.end(), [](const JudgedCause& a, const JudgedCause& b) {
-        return a.considered != b.considered ? a.considered : a.surprise > b.surprise;
-    });
-}
-
-/// Odds among those considered and 'none of them'.
-void set_probabilities(std::vector<JudgedCause>& judged, const DecisionRule& rule)
-{
-    double sum = std::exp(rule.sure);
-    double first = 0;
-    for (const JudgedCause& j : judged)
-        if (j.considered)
-            first = std::max(first, std::min(j.surprise, most_surprise));
-    sum = std::exp(rule.sure - first);
-    for (JudgedCause& j : judged)
-        if (j.considered)
-            sum += std::exp(std::min(j.surprise, most_surprise) - first);
-    for (JudgedCause& j : judged)
-        j.probability = j.considered ? 0.97 * std::exp(std::min(j.surprise, most_surprise) - first) / sum : 0;
-}
-
-/// A wedge or an offset seen at rest explains what it makes of the motion.
-bool known_at_rest(const DirectResult& direct, const JudgedCause& j)
-{
-    return std::any_of(direct.found.begin(), direct.found.end(), [&](const CauseFit& fit) {
-        const std::string& m = fit.cause.mechanism;
-        return (m == "wedge" || m == "drum_offset") &&
-               (j.fit.cause.mechanism == "eccentricity" || j.fit.cause.mechanism == "corner_loss");
-    });
-}
-
-/// The most surprising one considered whose mechanism is not named yet; null: none.
-const JudgedCause* next_named(const std::vector<JudgedCause>& list, const DirectResult& direct,
-                              const std::vector<JudgedCause>& named)
-{
-    for (const JudgedCause& j : list) {
-        if (!j.considered || known_at_rest(direct, j))
-            continue;
-        if (std::none_of(named.begin(), named.end(),
-                         [&](const JudgedCause& other) { return other.fit.cause.mechanism == j.fit.cause.mechanism; }))
-            return &j;
-    }
-    return nullptr;
-}
-
-/// Rules 3 and 4. @return what the named ones explain by the balance of forces [nats]
-double name_causes(const DirectResult& direct, const std::vector<JudgedCause>& judged, const DecisionRule& rule,
-                   const std::function<std::vector<JudgedCause>(const JudgedCause&)>& again, Decided& out)
-{
-    const JudgedCause* first = next_named(judged, direct, out.named);
-    if (first == nullptr)
-        return 0;
-    for (const JudgedCause& j : judged)
-        if (j.considered && j.fit.cause.mechanism != first->fit.cause.mechanism &&
-            j.surprise > first->surprise - rule.apart && !known_at_rest(direct, j))
-            out.in_set.push_back(j);
-    double together = first->probability;
-    for (const JudgedCause& j : out.in_set)
-        together += j.probability;
-    if (together < least_probability) {
-        out.in_set.clear();
-        return 0; // possible, and no more
-    }
-    out.named.push_back(*first);
-    double explained = first->channel == Channel::balance ? first->fit.gain : 0;
-    const std::vector<JudgedCause> rest = again(*first);
-    if (const JudgedCause* second = next_named(rest, direct, out.named)) {
-        // what is in the first one's set already is no second cause unless it stands by itself
-        out.named.push_back(*second);
-        explained += second->channel == Channel::balance ? second->fit.gain : 0;
-        std::erase_if(out.in_set,
-                      [&](const JudgedCause& j) { return j.fit.cause.mechanism == second->fit.cause.mechanism; });
-    }
-    return explained;
-}
-
-/// Rule 5: forces of no known kind.
-/// @param explained by what is named [nats]
-void find_unexplained(const BalanceEvidence& balance, const ChanceGains& chance, const DecisionRule& rule,
-                      double explained, Decided& out)
-{
-    if (balance.structures.empty())
-        return;
-    const double chance95 = chance.quantile95_of_structures();
-    const StructureFit& best = balance.structures.front();
-    const double left =
-        best.gain_by_run.empty() ? 0 : best.gain - *std::max_element(best.gain_by_run.begin(), best.gain_by_run.end());
-    const bool clear = best.gain > chance95 + rule.structure_clear && best.gain_by_run.size() > 1 &&
-                       (left > rule.without_best * best.gain || left > chance95 + rule.clear);
-    double listed = explained;
-    for (const CauseFit& fit : balance.causes)
-        listed = std::max(listed, fit.gain);
-    if (clear && best.gain > listed + rule.structure_better) {
-        out.unexplained = best;
-        out.unexplained_chance = chance.probability_of_structure(best.gain);
-        std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
-        out.in_set.clear();
-    }
-}
-
-} // namespace
-
+/// What the direct tests of base and sensors found is named (rule 1).
 std::vector<JudgedCause> named_directly(const DirectResult& direct)
 {
     std::vector<JudgedCause> named;
@@ -152,7 +33,6 @@ std::vector<JudgedCause> named_directly(const DirectResult& direct)
         j.fit = fit;
         j.channel = Channel::direct;
         j.considered = true;
-        j.surprise = fit.gain;
         j.chance = 0;
         j.probability = direct_probability;
         named.push_back(std::move(j));
@@ -160,58 +40,232 @@ std::vector<JudgedCause> named_directly(const DirectResult& direct)
     return named;
 }
 
-std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,
-                               const std::vector<std::vector<double>>& windows_by_form, const ChanceGains& chance,
-                               const DecisionRule& rule)
+/// A candidate as the statistics judge it.
+JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, const CauseLikelihood& found)
 {
-    std::vector<JudgedCause> judged;
-    for (const CauseFit& fit : balance.causes)
-        judged.push_back(judged_cause(fit, Channel::balance, chance, rule));
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-        JudgedCause j = judged_cause(windows[i], Channel::windows, chance, rule);
-        if (i < windows_by_form.size())
-            j.gain_by_form = windows_by_form[i];
-        judged.push_back(std::move(j));
-    }
-    // what both ways see at one place is one finding: the more surprising view of it
-    sort_judged(judged);
-    std::vector<JudgedCause> kept;
-    for (JudgedCause& j : judged)
-        if (std::none_of(kept.begin(), kept.end(), [&](const JudgedCause& other) {
-                return other.fit.cause.mechanism == j.fit.cause.mechanism && other.fit.cause.place == j.fit.cause.place;
-            }))
-            kept.push_back(std::move(j));
-    set_probabilities(kept, rule);
-    return kept;
+    const EnsembleVerdict& verdict = ensemble.by_statistics;
+    const CandidateCause& cause = ensemble.causes[candidate];
+    JudgedCause j;
+    j.fit.cause = cause.cause;
+    j.fit.size = cause.size_of(found.size);
+    j.fit.sd = std::fabs(cause.size_of(found.high) - cause.size_of(found.low)) / (2 * half_width90);
+    j.fit.gain = std::max(found.gain, 0.0);
+    j.chance95 = quantile95(verdict.null_gains);
+    j.chance = conformal_p_value(verdict.null_gains, verdict.null_weights, found.gain);
+    return j;
 }
 
-Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::vector<JudgedCause> judged,
-               const ChanceGains& chance, const DecisionRule& rule,
-               const std::function<std::vector<JudgedCause>(const JudgedCause&)>& again)
+/// The size by the balance of forces, where this sees the same cause clearly.
+void take_size_of_forces(const BalanceEvidence& balance, JudgedCause& j)
+{
+    for (const CauseFit& fit : balance.causes)
+        if (fit.cause.mechanism == j.fit.cause.mechanism && fit.cause.place == j.fit.cause.place &&
+            fit.cause.parameter == j.fit.cause.parameter && fit.gain >= sized_by_forces) {
+            const double gain = j.fit.gain;
+            j.fit = fit;
+            j.fit.gain = gain; // that of the statistics: the other is no likelihood of the same data
+            j.fit.gain_by_run.clear();
+            return;
+        }
+}
+
+/// What of the residual stands out most beside the best cause, in words.
+StructureFit left_over(const EnsembleDiagnosis& ensemble)
+{
+    const EnsembleVerdict& verdict = ensemble.by_statistics;
+    const Eigen::VectorXd left = verdict.residual - verdict.shift;
+    Eigen::Index most = 0;
+    left.cwiseAbs().maxCoeff(&most);
+    const StatisticLabel& label =
+        ensemble.evidence[static_cast<std::size_t>(verdict.used[static_cast<std::size_t>(most)])];
+    StructureFit fit;
+    fit.structure.block = label.block >= 0 ? label.block : label.joint;
+    const bool turns =
+        label.name.find("rotation") != std::string::npos || label.name.find("open") != std::string::npos ||
+        label.name.find("turning") != std::string::npos || label.name.find("closure") != std::string::npos;
+    fit.structure.coordinate = turns ? "theta" : "x";
+    fit.structure.depends_on = label.name;
+    const std::string where = label.joint >= 0   ? fmt::format("joint {}", label.joint)
+                              : label.block >= 0 ? fmt::format("block {}", label.block)
+                                                 : std::string("the campaign");
+    fit.structure.text = fmt::format("{} of {} is {:.1f} standard deviations from what the best cause gives",
+                                     label.name, where, left(most));
+    fit.gain = left.squaredNorm() / 2;
+    return fit;
+}
+
+/// The force of no known kind that the scores ask for most, if nothing else explains it.
+std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
+                                          const DecisionRule& rule, double named_at)
+{
+    const ForceTest& scores = ensemble.forces;
+    if (scores.unknown.variant < 0 || scores.unknown.p_value > named_at)
+        return std::nullopt;
+    const double gain = nats_of_score(scores.unknown.score);
+    if (gain <= nats_of_score(quantile95(scores.unknown.nulls)) + rule.structure_clear ||
+        gain <= nats_of_score(scores.cause.score) + rule.structure_better)
+        return std::nullopt;
+    const Structure& wanted =
+        ensemble.scored.structures[static_cast<std::size_t>(scores.unknown.variant) - ensemble.scored.causes.size()];
+    for (const StructureFit& fit : balance.structures) {
+        if (fit.structure.text != wanted.text || fit.gain_by_run.size() < 2)
+            continue;
+        const double most = *std::max_element(fit.gain_by_run.begin(), fit.gain_by_run.end());
+        if (fit.gain - most > rule.without_best * fit.gain)
+            return fit;
+    }
+    return std::nullopt;
+}
+
+/// What the named cause leaves of the set's probability goes to the others in the set, by their gains.
+void share_what_remains(double set_probability, Decided& out)
+{
+    double left = 0, sum = 0, most = 0;
+    for (const JudgedCause& j : out.named)
+        if (j.channel != Channel::direct)
+            left = std::max(left, set_probability - j.probability);
+    for (const JudgedCause& j : out.in_set)
+        most = std::max(most, j.fit.gain);
+    for (const JudgedCause& j : out.in_set)
+        sum += std::exp(j.fit.gain - most);
+    for (JudgedCause& j : out.in_set)
+        j.probability = left * std::exp(j.fit.gain - most) / sum;
+}
+
+bool contains(const std::vector<JudgedCause>& list, const std::string& mechanism)
+{
+    return std::any_of(list.begin(), list.end(),
+                       [&](const JudgedCause& j) { return j.fit.cause.mechanism == mechanism; });
+}
+
+/// The best candidate, if it may be named. Says of it why not.
+bool may_be_named(const EnsembleVerdict& verdict, JudgedCause& best)
+{
+    const bool probable = verdict.named && verdict.set_probability >= least_probability;
+    best.probability = verdict.named ? verdict.probability : 0;
+    if (!verdict.named)
+        best.why_not = fmt::format("the p-value of the gain is {:.2g}", verdict.p_value);
+    else if (!probable)
+        best.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);
+    else if (!matters(best.fit))
+        best.why_not = "its size is within the scatter between specimens";
+    best.considered = best.why_not.empty();
+    return best.considered;
+}
+
+/// Rules 2 to 4: all candidates are listed, the likeliest first; the best one, its rivals and a second cause are
+/// considered if they may be named.
+void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, Decided& out)
+{
+    const EnsembleVerdict& verdict = ensemble.by_statistics;
+    if (verdict.best < 0)
+        return;
+    JudgedCause best = judged(ensemble, static_cast<std::size_t>(verdict.best),
+                              verdict.causes[static_cast<std::size_t>(verdict.best)]);
+    const bool named = may_be_named(verdict, best) && !contains(out.named, best.fit.cause.mechanism);
+    std::vector<std::size_t> order(ensemble.causes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return verdict.causes[a].gain > verdict.causes[b].gain; });
+    for (const std::size_t c : order) {
+        if (static_cast<int>(c) == verdict.best)
+            continue;
+        JudgedCause j = judged(ensemble, c, verdict.causes[c]);
+        const std::string& mechanism = j.fit.cause.mechanism;
+        const bool rival =
+            std::find(verdict.set.begin(), verdict.set.end(), ensemble.mechanism_of(j.fit.cause)) != verdict.set.end();
+        if (named && rival && j.fit.gain > 0 && !contains(out.named, mechanism) && !contains(out.in_set, mechanism)) {
+            j.considered = true;
+            out.in_set.push_back(j);
+        }
+        out.judged.push_back(std::move(j));
+    }
+    std::erase_if(out.judged, [](const JudgedCause& j) { return !j.considered && j.fit.gain == 0; });
+    out.judged.push_back(best);
+    std::stable_sort(out.judged.begin(), out.judged.end(), [](const JudgedCause& a, const JudgedCause& b) {
+        return a.considered != b.considered ? a.considered : a.fit.gain > b.fit.gain;
+    });
+    if (!named)
+        return;
+    take_size_of_forces(balance, best);
+    out.named.push_back(best);
+    if (verdict.second < 0)
+        return;
+    JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
+    second.considered = true;
+    second.chance = verdict.second_p_value;
+    second.probability = std::min(verdict.probability, 1 - verdict.second_p_value);
+    if (contains(out.named, second.fit.cause.mechanism))
+        return;
+    std::erase_if(out.in_set,
+                  [&](const JudgedCause& j) { return j.fit.cause.mechanism == second.fit.cause.mechanism; });
+    take_size_of_forces(balance, second);
+    out.named.push_back(std::move(second));
+}
+
+/// Rule 5.
+void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
+                      Decided& out)
+{
+    out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force);
+    out.unexplained_chance = ensemble.forces.unknown.p_value;
+    if (!out.unexplained && ensemble.by_statistics.unexplained) {
+        out.unexplained = left_over(ensemble);
+        out.unexplained_chance = ensemble.by_statistics.left_p_value;
+    }
+    if (out.unexplained) {
+        std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
+        out.in_set.clear();
+    }
+}
+
+} // namespace
+
+bool beyond_simulation(const DirectResult& direct)
+{
+    return std::any_of(direct.found.begin(), direct.found.end(), [](const CauseFit& fit) {
+        return fit.cause.mechanism == "drum_offset" ||
+               (fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio");
+    });
+}
+
+Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const EnsembleDiagnosis* ensemble,
+               const DecisionRule& rule)
 {
     Decided out;
     out.named = named_directly(direct);
-    const double explained = name_causes(direct, judged, rule, again, out);
-    out.judged = std::move(judged);
-    for (JudgedCause& j : out.judged)
-        if (j.considered && j.probability < least_probability &&
-            std::none_of(out.named.begin(), out.named.end(),
-                         [](const JudgedCause& named) { return named.channel != Channel::direct; })) {
-            j.considered = false;
-            j.why_not = fmt::format("possible, with a probability of {:.2f}", j.probability);
+    if (ensemble) {
+        out.structure95 = nats_of_score(quantile95(ensemble->forces.unknown.nulls));
+        if (!beyond_simulation(direct)) {
+            judge_statistics(balance, *ensemble, out);
+            find_unexplained(balance, *ensemble, rule, out);
+            share_what_remains(ensemble->by_statistics.set_probability, out);
         }
-    out.structure95 = chance.quantile95_of_structures();
-    find_unexplained(balance, chance, rule, explained, out);
+    }
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;
-    // Most probable first. The second cause of the joints was judged with the first one given, among fewer rivals: it
-    // is no surer than that.
-    const auto of_joints = std::find_if(out.named.begin(), out.named.end(),
-                                        [](const JudgedCause& j) { return j.channel != Channel::direct; });
-    for (auto j = of_joints; j != out.named.end(); ++j)
-        j->probability = std::min(j->probability, of_joints->probability);
     std::stable_sort(out.named.begin(), out.named.end(),
                      [](const JudgedCause& a, const JudgedCause& b) { return a.probability > b.probability; });
     return out;
+}
+
+std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
+{
+    std::vector<std::string> lines;
+    const ForceTest& forces = ensemble.forces;
+    if (forces.unknown.variant >= 0)
+        lines.push_back(fmt::format(
+            "forces of no known kind: {}, p = {:.2g}, {:.1f} nats against {:.1f} of causes",
+            ensemble.scored.structures[static_cast<std::size_t>(forces.unknown.variant) - ensemble.scored.causes.size()]
+                .text,
+            forces.unknown.p_value, nats_of_score(forces.unknown.score), nats_of_score(forces.cause.score)));
+    const EnsembleVerdict& statistics = ensemble.by_statistics;
+    if (statistics.best >= 0)
+        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; what is left has "
+                                    "p = {:.2g}; law p = {:.2g}{}",
+                                    ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
+                                    statistics.p_value, statistics.probability, statistics.left_p_value,
+                                    ensemble.law_p_value, statistics.contrasts ? ", contrasts alone" : ""));
+    return lines;
 }
 
 } // namespace stylobate

@@ -2,72 +2,68 @@
 /// From evidence to a verdict. The rule stands here, was fixed before it was assessed, and is explained in
 /// `docs/diagnosis.md`:
 ///
-///   1  What a direct test of base or sensors finds is named: its thresholds are its rule.
-///   2  Of what balance and windows see, a cause is considered if its gain could not be had by chance: more than in any
-///      campaign with nothing hidden, by `clear` nats more than their 95 % quantile, with a probability by chance below
-///      `chance`, and not by one run alone; and if it is large enough to matter.
-///   3  The most surprising one is named; others whose surprise is within `apart` nats of it are in the set with it.
-///      If all of these together are less probable than not, they are possible, and none is named.
-///   4  Beside it the rest is judged again, once: a second cause.
-///   5  If forces of no known kind explain much more than what is named, or if something is left that nothing explains
-///      and that chance does not give, the verdict is 'unexplained'.
+///   1  What a direct test of base or sensors finds is named: its thresholds are its rule. If it is something that the
+///      simulated campaigns cannot contain, joints and blocks are not judged.
+///   2  The largest gain of the campaign's statistics over all simulated causes is one number. Its p-value is its rank
+///      among healthy simulated campaigns whose laws are like the measured one. The cause is named at
+///      `EnsembleRule::named` or less.
+///   3  Its probability is calibrated on simulated campaigns with a known cause. Others that explain nearly as much are
+///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
+///      probability of one half, nothing is named: the cause is called possible.
+///   4  A second cause is judged with the first one given.
+///   5  A force of no known kind whose score is far beyond healthy campaigns' and all causes', and not by one run
+///      alone, makes the verdict 'unexplained'; so does what the best cause leaves of the statistics, beyond 99 % of
+///      healthy and of labelled campaigns.
 
 #include "studies/diagnosis/decision/evidence.hpp"
+#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
 
-/// Less probable causes, alone or as a set, are not named.
+/// Less probable causes are not named.
 inline constexpr double least_probability = 0.5;
 
+/// Of forces of no known kind; that of causes is `EnsembleRule`.
 struct DecisionRule {
-    double clear = 3;            ///< nats beyond the 95 % quantile of chance
-    double chance = 4e-3;        ///< a dozen mechanisms are judged: together 5 % at the most
     double without_best = 0.4;   ///< part of the gain that must be left without the best run
-    double apart = 3;            ///< nats
-    double structure_clear = 12; ///< nats beyond the 95 % quantile of chance, for 'unexplained'
+    double structure_clear = 12; ///< nats beyond the 95 % quantile of healthy campaigns, for 'unexplained'
     double structure_better = 8; ///< nats by which no mechanism may fall short of it
-    double sure = 3;             ///< nats of surprise at which a cause has even odds against 'none', less 1
 };
 
 /// A cause as it was judged.
 struct JudgedCause {
     CauseFit fit;
-    Channel channel = Channel::balance;
+    Channel channel = Channel::statistics;
     double chance95 = 0;
-    double chance = 1;   ///< probability of such a gain by chance
-    double surprise = 0; ///< gain minus chance95, or minus the logarithm of its p-value, whichever is smaller [nats]
+    double chance = 1; ///< probability of such a gain where nothing is hidden
     double probability = 0;
-    bool considered = false; ///< rule 2
+    bool considered = false; ///< named, or in a set with what is named
     std::string why_not;
-    std::vector<double> gain_by_form; ///< windows: under each of the contact forms that judge
 };
-
-/// The decisions on all candidates of balance and windows, the most significant first.
-std::vector<JudgedCause> judge(const BalanceEvidence& balance, const std::vector<CauseFit>& windows,
-                               const std::vector<std::vector<double>>& windows_by_form, const ChanceGains& chance,
-                               const DecisionRule& rule);
 
 struct Decided {
     Verdict verdict = Verdict::none;
     std::vector<JudgedCause> named;  ///< most probable first, direct findings included
     std::vector<JudgedCause> in_set; ///< that these data do not distinguish from a named one
-    std::vector<JudgedCause> judged; ///< all of the first round
+    std::vector<JudgedCause> judged; ///< all
     std::optional<StructureFit> unexplained;
     double unexplained_chance = 1;
-    double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind by chance [nats]
+    double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind in healthy campaigns [nats]
 };
 
-/// What the direct tests of base and sensors found is named (rule 1).
-std::vector<JudgedCause> named_directly(const DirectResult& direct);
+/// Whether a direct test found what simulated campaigns cannot contain (an offset drum, a vertical motion of a
+/// frequency of its own): joints and blocks cannot be judged beside it.
+bool beyond_simulation(const DirectResult& direct);
 
-/// @param again judges what is left beside given causes (a second round)
-Decided decide(const DirectResult& direct, const BalanceEvidence& balance, std::vector<JudgedCause> judged,
-               const ChanceGains& chance, const DecisionRule& rule,
-               const std::function<std::vector<JudgedCause>(const JudgedCause& given)>& again);
+/// @param ensemble null: no campaigns were simulated, and only direct tests name a cause
+Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const EnsembleDiagnosis* ensemble,
+               const DecisionRule& rule);
+
+/// What the tests found, named or not, in one line each.
+std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble);
 
 } // namespace stylobate

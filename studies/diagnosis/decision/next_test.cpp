@@ -155,8 +155,8 @@ std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& s
     scatter.contacts = false;
     std::vector<std::vector<OutcomeSpread>> spread(2); // [rival][motion]
     for (std::size_t rival = 0; rival < 2; ++rival) {
-        const VirtualCampaigns made =
-            virtual_campaigns(proposed, baseline, seed, 0, simulated, scatter, {{rivals[rival]}}, options, observer);
+        const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(proposed), baseline, seed, 0, simulated,
+                                                        scatter, {{rivals[rival]}}, options, observer);
         count.simulations += made.simulations;
         count.block_steps += made.block_steps;
         if (!made.complete)

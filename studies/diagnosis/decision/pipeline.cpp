@@ -1,11 +1,9 @@
 #include "studies/diagnosis/decision/pipeline.hpp"
 
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/decision/chance.hpp"
 #include "studies/diagnosis/decision/next_test.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/decision/presentation.hpp"
-#include "studies/diagnosis/decision/statistics_verdict.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/diagnosis/decision/wrong_windows.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
@@ -61,9 +59,8 @@ private:
     void test_base_and_sensors();
     void balance_forces();
     bool simulate_windows();
-    bool learn_chance();
-    bool compare_statistics();
-    bool reach_verdict();
+    bool simulate_campaigns();
+    void reach_verdict();
     void state_verdict();
     void list_candidates();
     void list_indistinguishable();
@@ -90,8 +87,7 @@ private:
     std::vector<SizedCause> known_;          ///< of the direct tests, for the model
     std::optional<BalanceEvidence> balance_; ///< after its stage
     WindowEvidence windows_;
-    Chance chance_;
-    std::optional<EnsembleDiagnosis> ensemble_; ///< where statistics judge
+    std::optional<EnsembleDiagnosis> ensemble_; ///< nothing where no campaigns are simulated
     Decided decided_;
     SimulationCount count_;
     Diagnosis d_;
@@ -102,7 +98,10 @@ std::optional<Diagnosis> Pipeline::run()
     say_what_is_read();
     test_base_and_sensors();
     balance_forces();
-    if (!simulate_windows() || !(options_.statistics ? compare_statistics() : learn_chance()) || !reach_verdict())
+    if (!simulate_windows() || !simulate_campaigns())
+        return std::nullopt;
+    reach_verdict();
+    if (observer_.stop_requested())
         return std::nullopt;
     find_wrong_windows();
     judge_extension();
@@ -119,8 +118,7 @@ void Pipeline::say_what_is_read()
     d_.specimen = measured_.specimen.name;
     d_.code_version = code_version();
     d_.seed = options_.seed;
-    d_.options = {options_.statistics ? "statistics" : fmt::format("nulls = {}", options_.nulls),
-                  fmt::format("threads = {}", options_.run.threads)};
+    d_.options = {fmt::format("nulls = {}", options_.plan.nulls), fmt::format("threads = {}", options_.run.threads)};
     d_.runs = measured_.runs.size();
     d_.runs_used = static_cast<std::uint64_t>(
         std::count_if(measured_.runs.begin(), measured_.runs.end(),
@@ -186,7 +184,7 @@ bool Pipeline::simulate_windows()
     const bool unmodelled = std::any_of(direct_.found.begin(), direct_.found.end(),
                                         [](const CauseFit& fit) { return unrecorded_vertical(fit.cause); });
     if (!unmodelled)
-        windows_ = window_evidence(campaign_, study_, scales_, known_, options_.windows, options_.run, observer_);
+        windows_ = window_evidence(campaign_, study_, scales_, known_, options_.run, observer_);
     else {
         windows_.complete = true;
         windows_.why_not = "The table has a vertical motion that the base motion does not contain.";
@@ -212,36 +210,18 @@ bool Pipeline::simulate_windows()
     return true;
 }
 
-bool Pipeline::learn_chance()
+bool Pipeline::simulate_campaigns()
 {
-    if (options_.nulls == 0) {
-        add_missing(d_, "the null distribution",
-                    "No null campaigns were simulated (--nulls 0): only direct tests can name a cause, and forces of "
-                    "unknown kind are compared with fixed thresholds only.");
+    if (options_.plan.nulls == 0) {
+        add_missing(d_, "joints and blocks",
+                    "No campaigns were simulated (--nulls 0): only direct tests can name a cause.");
         return true;
     }
-    const ChanceOptions how{options_.nulls, options_.seed, options_.cache, options_.windows && windows_.why_not.empty(),
-                            options_.run};
-    chance_ = chance_of(
-        measured_, start_, how,
-        [&](std::uint64_t done, std::uint64_t cached) {
-            tell_(fmt::format("  null campaigns: {} of {}{}", done, options_.nulls,
-                              done == cached ? " (from an earlier run, in " + options_.cache.string() + ")" : ""));
-        },
-        observer_);
-    count_.simulations += chance_.simulations;
-    count_.window_simulations += chance_.window_simulations;
-    count_.block_steps += chance_.block_steps;
-    if (!chance_.complete)
-        return false;
-    d_.nulls.push_back({"area, two_corner and points", chance_.campaigns,
-                        "contacts (form, stiffness, exponent, damping), friction of the joints, widths, masses and "
-                        "places of the blocks, noise of the cameras"});
-    return true;
-}
-
-bool Pipeline::compare_statistics()
-{
+    if (beyond_simulation(direct_)) {
+        add_missing(d_, "joints and blocks",
+                    "The simulated campaigns by which they are judged cannot contain what was found of base or rest.");
+        return true;
+    }
     EnsemblePlan plan = options_.plan;
     plan.seed = options_.seed;
     const auto begun = std::chrono::steady_clock::now();
@@ -266,26 +246,13 @@ bool Pipeline::compare_statistics()
     return true;
 }
 
-bool Pipeline::reach_verdict()
+void Pipeline::reach_verdict()
 {
-    if (ensemble_) {
+    if (ensemble_)
         for (const std::string& line : tests_in_words(*ensemble_))
             tell_("  " + line);
-        decided_ = decide(direct_, *balance_, *ensemble_, options_.rule);
-        state_verdict();
-        return true;
-    }
-    const auto again = [&](const JudgedCause& given) {
-        const BalanceEvidence left = balance_evidence(measured_, scales_, direct_.base_m, {given.fit.cause});
-        return judge(left, {}, {}, chance_.gains, options_.rule);
-    };
-    decided_ = decide(direct_, *balance_,
-                      judge(*balance_, windows_.causes, windows_.gain_by_form, chance_.gains, options_.rule),
-                      chance_.gains, options_.rule, again);
-    if (observer_.stop_requested())
-        return false;
+    decided_ = decide(direct_, *balance_, ensemble_ ? &*ensemble_ : nullptr, options_.rule);
     state_verdict();
-    return true;
 }
 
 void Pipeline::state_verdict()
@@ -301,16 +268,12 @@ void Pipeline::state_verdict()
         d_.figures.push_back(candidates_figure(d_.candidates));
     if (!ensemble_)
         return;
-    for (std::size_t i = 0; i < decided_.named.size(); ++i) {
-        const Channel channel = decided_.named[i].channel;
-        const Cause& cause = decided_.named[i].fit.cause;
-        const EnsembleVerdict& statistics = ensemble_->by_statistics;
-        if (channel == Channel::balance)
-            d_.figures.push_back(carrying_figure(ensemble_->of_scores, d_.candidates[i]));
-        else if (channel == Channel::statistics &&
-                 ensemble_->causes[static_cast<std::size_t>(statistics.best)].cause.label() == cause.label())
-            d_.figures.push_back(carrying_figure(ensemble_->of_statistics, d_.candidates[i]));
-    }
+    for (std::size_t i = 0; i < decided_.named.size(); ++i)
+        if (const EnsembleVerdict& statistics = ensemble_->by_statistics;
+            decided_.named[i].channel == Channel::statistics &&
+            ensemble_->causes[static_cast<std::size_t>(statistics.best)].cause.mechanism ==
+                decided_.named[i].fit.cause.mechanism)
+            d_.figures.push_back(carrying_figure(ensemble_->carrying, d_.candidates[i]));
     for (const Missing& missing : hardly_shown(*ensemble_, decided_))
         d_.missing.push_back(missing);
 }
@@ -321,8 +284,8 @@ void Pipeline::list_candidates()
     std::set<std::pair<std::string, std::string>> told;
     const auto add = [&](const JudgedCause& j, Decision decision) {
         if (told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
-            d_.candidates.push_back(candidate_of(j, measured_, decision, windows_.baselines,
-                                                 chance_.campaigns > 0 || ensemble_, decided_.unexplained.has_value()));
+            d_.candidates.push_back(
+                candidate_of(j, measured_, decision, ensemble_.has_value(), decided_.unexplained.has_value()));
     };
     for (const JudgedCause& j : decided_.named)
         add(j, Decision::named);
@@ -443,31 +406,17 @@ void Pipeline::tell_method_and_cost()
         "rest.",
         "The forces in the joints follow from the smoothed accelerations of the blocks by Newton's law. Where a joint "
         "slides or rocks, its law is tested without contact stiffness, damping or simulation.",
-        std::string("The simulation is nudged towards the measured motion (an observer). Free windows that start from "
-                    "its states are compared with the measurement: they determine the contacts of the baseline") +
-            (options_.windows ? ", and the gain of each cause."
-                              : ". They are used to test causes only with --windows.")};
+        "The simulation is nudged towards the measured motion (an observer). Free windows that start from its states "
+        "are "
+        "compared with the measurement: they determine the contacts of the baseline."};
     if (ensemble_)
         d_.method.push_back(
-            "Simulated campaigns judge joints and blocks: healthy ones whose contact laws come nearer "
-            "to the measured one "
-            "round by round, and ones with a known cause. The largest score of the balance of forces "
-            "and the largest gain "
-            "of the statistics of the campaign (paths, openings, friction in slides of each joint) are "
-            "compared with the "
-            "same of the healthy campaigns. A cause is named if one of the two is among their largest "
-            "0.75 %, and if such "
-            "names are right in more than half of the campaigns with a known cause. The gain of a score is half its "
-            "square, in units of what it is in healthy campaigns: a number for comparison, and no likelihood of the "
-            "data.");
-    if (chance_.campaigns > 0)
-        d_.method.push_back(
-            fmt::format("Null campaigns (without a hidden effect), simulated with contacts of many kinds, pass through "
-                        "the same stages and give the null distribution. A cause is named only if its gain exceeds the "
-                        "95 % quantile of the null distribution by {:g} nats, its p-value is below {:g}, its gain does "
-                        "not depend on a single run, and its size exceeds the scatter between specimens. A gain "
-                        "slightly above the null distribution is therefore not sufficient.",
-                        options_.rule.clear, options_.rule.chance));
+            "Simulated campaigns judge joints and blocks: healthy ones whose contact laws come nearer to the measured "
+            "one round by round, and ones with a known cause. The statistics of the campaign (paths, openings, losses "
+            "of speed, friction of each joint, scores of the balance of forces) have a likelihood under each cause. "
+            "The largest gain over all causes is compared with the same of the healthy campaigns. A cause is named if "
+            "its p-value is at most 0.015, and if such names are right in more than half of the campaigns with a known "
+            "cause.");
     d_.cost.simulations = count_.simulations;
     d_.cost.window_simulations = count_.window_simulations;
     d_.cost.block_steps = count_.block_steps;

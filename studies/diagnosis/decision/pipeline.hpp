@@ -18,12 +18,9 @@ namespace stylobate {
 
 struct DiagnosisOptions {
     std::uint64_t seed = 1;
-    std::uint64_t nulls = 32; ///< campaigns with nothing hidden
-    bool windows = false;     ///< whether free windows judge causes too: slow, and they depend on the contact form
-    bool statistics =
-        false;         ///< whether simulated campaigns with labels judge joints and blocks (statistics_verdict.hpp)
-    EnsemblePlan plan; ///< of these
-    std::filesystem::path cache;     ///< of the null distribution; empty: none is kept
+    /// Simulated campaigns; no nulls: none are simulated, and only direct tests of base, sensors and rest name a cause.
+    EnsemblePlan plan;
+    std::filesystem::path cache;     ///< of the simulated campaigns; empty: none is kept
     std::filesystem::path extension; ///< where the extended study goes; empty: nowhere
     DecisionRule rule;
     RunOptions run;
@@ -33,7 +30,8 @@ struct DiagnosisOptions {
 using Tell = std::function<void(const std::string&)>;
 
 /// @param study contacts to begin with; its structure is replaced by the specimen's
-/// @return nothing if the observer stopped it: the null distribution is kept in the cache, and the same call continues
+/// @return nothing if the observer stopped it: the simulated campaigns are kept in the cache, and the same call
+/// continues
 /// @throws InputError if the campaign cannot be diagnosed at all
 std::optional<Diagnosis> diagnose(const Campaign& campaign, const Study& study, const DiagnosisOptions& options,
                                   const Tell& tell, Observer& observer);

@@ -17,6 +17,9 @@ namespace stylobate {
 
 namespace {
 
+// Half of the runs size a cause by the balance of forces where this gains so much [nats], else by free windows.
+constexpr double least_force_gain = 3;
+
 // A residual counts at most so many of its scales: an impact that went the other way is one error, not a hundred.
 constexpr double most_residual = 5;
 // Times that the intervals are drawn anew.
@@ -210,9 +213,9 @@ std::optional<std::vector<JudgedCause>> sized_by(const Campaign& training, const
                 return fit.cause.mechanism == cause.mechanism && fit.cause.place == cause.place;
             });
             j.fit.size = again != direct.found.end() ? again->size : cause.neutral;
-        } else if (j.channel == Channel::balance) {
-            const CauseFit again = balance.fit ? balance.fit->fit(cause) : CauseFit{};
-            j.fit.size = balance.fit && possible(again) ? again.size : cause.neutral;
+        } else if (const CauseFit again = balance.fit ? balance.fit->fit(cause) : CauseFit{};
+                   again.gain > least_force_gain && possible(again)) {
+            j.fit.size = again.size;
         } else {
             const std::optional<double> size = size_by_windows(j.fit, corrected(training, direct), simulating);
             if (!size)
@@ -254,8 +257,8 @@ std::vector<double> collapse_shares(const Campaign& of, const std::vector<SizedC
     HealthyScatter scatter;
     scatter.contacts = false;
     std::vector<double> share(of.runs.size(), 0);
-    const VirtualCampaigns made =
-        virtual_campaigns(of, s.baseline, s.seed, 0, collapse_ensemble, scatter, {causes}, s.options, s.observer);
+    const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(of), s.baseline, s.seed, 0, collapse_ensemble,
+                                                    scatter, {causes}, s.options, s.observer);
     s.count.simulations += made.simulations;
     s.count.block_steps += made.block_steps;
     for (const Campaign& c : made.campaigns)

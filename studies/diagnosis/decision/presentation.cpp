@@ -32,8 +32,8 @@ std::string missing_words(const Diagnosis& d)
 
 } // namespace
 
-Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
-                       const std::vector<WindowBaseline>& baselines, bool chance_known, bool unexplained)
+Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
+                       bool unexplained)
 {
     Candidate c;
     const Cause& cause = j.fit.cause;
@@ -63,18 +63,12 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
         if (j.fit.gain_by_run[r] != 0)
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
-    for (std::size_t k = 0; k < j.gain_by_form.size() && k < baselines.size(); ++k) {
-        const std::string form = baselines[k].contacts.substr(0, baselines[k].contacts.find(','));
-        (j.gain_by_form[k] > j.chance95 ? c.forms_agreed : c.forms_disagreed).push_back(form);
-    }
     c.decision = decision;
     const std::string where = c.why.empty() ? "" : c.why + "; ";
     const std::string found = j.channel == Channel::direct
                                   ? "found by a direct test"
-                                  : fmt::format("{}: {:.1f} nats; null distribution {:.1f} (95 %)",
-                                                j.channel == Channel::balance   ? "by the balance of forces"
-                                                : j.channel == Channel::windows ? "by free windows"
-                                                                                : "by the statistics of the campaign",
+                                  : fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
+                                                "{:.1f} (95 %)",
                                                 j.fit.gain, j.chance95);
     c.why = where + (j.why_not.empty() ? found : j.why_not);
     if (decision == Decision::rejected && j.why_not.empty())
@@ -90,7 +84,7 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
     figure.title = "Gain of each cause, and its null distribution";
     figure.caption =
         "Gain in log likelihood over the baseline. The dot is the 95 % quantile of the null distribution from "
-        "simulated campaigns without a hidden effect (for fewer than 20 campaigns: 1.5 times their maximum, plus 1). A "
+        "simulated campaigns without a hidden effect. A "
         "cause without a dot was found by a direct test of base, sensors or rest with a separate threshold.";
     figure.x_label = "cause";
     figure.y_label = "gain [nats]";

@@ -16,8 +16,8 @@ namespace stylobate {
 /// A cause as a row of the table of candidates.
 /// @param chance_known whether campaigns with nothing hidden were simulated
 /// @param unexplained whether that is the verdict
-Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision,
-                       const std::vector<WindowBaseline>& baselines, bool chance_known, bool unexplained);
+Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
+                       bool unexplained);
 
 /// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
 DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);

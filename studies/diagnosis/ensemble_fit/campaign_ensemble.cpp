@@ -18,9 +18,11 @@ namespace stylobate {
 namespace {
 
 /// Campaigns that are simulated together: many bundles with full lanes, and often enough a word on progress.
-constexpr std::uint64_t together = 32;
+constexpr std::uint64_t together = 72;
 // Of the laws near the likest ones (`draw_near`), and by how much less in each further round.
 constexpr double first_spread = 1.0 / 3, narrower = 0.5;
+// Of the numbers of joints by which laws are found that are like the measured one.
+constexpr double numbers_kept = 0.9;
 
 std::string line_of(const SimulatedCampaign& campaign)
 {
@@ -72,7 +74,7 @@ std::string key_of(const Campaign& measured, const Study& study, const std::vect
     for (const DampingKind kind : plan.family.kinds)
         key += fmt::format(" damping {}", to_string(kind));
     for (const CandidateCause& cause : causes)
-        key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.at_one);
+        key += fmt::format(" {} {:.17g} {:g} {:g}", cause.cause.label(), cause.at_one, cause.least, cause.most);
     for (const SizedCause& cause : known)
         key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.size);
     for (const auto* values : {&shown.descriptors, &shown.values}) // the parents' laws depend on them
@@ -85,7 +87,7 @@ std::string key_of(const Campaign& measured, const Study& study, const std::vect
 class LikeLaws {
 public:
     LikeLaws(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels, const CampaignStatistics& shown)
-        : plan_(plan), labels_(labels), shown_(law_numbers(labels, shown))
+        : plan_(plan), labels_(labels), shown_(joint_numbers(labels, shown))
     {
     }
 
@@ -105,10 +107,10 @@ public:
 
     std::vector<double> distances(const std::vector<SimulatedCampaign>& rows) const
     {
-        const LawLikeness likeness = likeness_of(plan_, labels_, rows);
+        const LawLikeness likeness = likeness_of(plan_, labels_, rows, joint_numbers, numbers_kept);
         std::vector<double> out;
         for (const SimulatedCampaign& row : rows)
-            out.push_back(likeness.distance(shown_, law_numbers(labels_, row.numbers)));
+            out.push_back(likeness.distance(shown_, joint_numbers(labels_, row.numbers)));
         return out;
     }
 
@@ -134,6 +136,19 @@ private:
 };
 
 } // namespace
+
+EnsemblePlan EnsemblePlan::with(std::uint64_t nulls)
+{
+    EnsemblePlan plan;
+    const auto part = [&](std::uint64_t of, std::uint64_t least) { return std::max(of * nulls / plan.nulls, least); };
+    const EnsemblePlan all = plan;
+    plan.wide = part(all.wide, 24);
+    plan.pairs = std::min(part(all.pairs, 12), plan.wide);
+    plan.of_each_round = part(all.of_each_round, 12);
+    plan.of_each_cause = part(all.of_each_cause, 3);
+    plan.nulls = nulls;
+    return plan;
+}
 
 std::uint64_t EnsemblePlan::round(std::uint64_t number) const
 {
@@ -162,12 +177,12 @@ std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& ca
 }
 
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,
-                        const std::vector<SimulatedCampaign>& rows)
+                        const std::vector<SimulatedCampaign>& rows, NumbersOf numbers, double kept)
 {
     std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
     for (std::uint64_t i = 0; i < plan.pairs; ++i)
-        pairs.emplace_back(law_numbers(labels, rows[i].numbers), law_numbers(labels, rows[plan.wide + i].numbers));
-    return LawLikeness(pairs);
+        pairs.emplace_back(numbers(labels, rows[i].numbers), numbers(labels, rows[plan.wide + i].numbers));
+    return {pairs, kept};
 }
 
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
@@ -198,6 +213,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
         out.cached = out.campaigns.size();
     }
     LikeLaws laws(plan, labels, shown);
+    const VirtualLaboratory laboratory(measured);
     progress(out.campaigns.size(), total);
     while (out.campaigns.size() < total) {
         const std::uint64_t first = out.campaigns.size(), round = plan.round(first);
@@ -213,7 +229,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
             }
         }
         const VirtualCampaigns made =
-            virtual_campaigns(measured, study, plan.seed, first, count, scatter, acting, options, observer);
+            virtual_campaigns(laboratory, study, plan.seed, first, count, scatter, acting, options, observer);
         out.simulations += made.simulations;
         out.block_steps += made.block_steps;
         if (!made.complete)

@@ -37,8 +37,11 @@ struct EnsemblePlan {
     std::uint64_t of_each_round = 72; ///< healthy ones
     std::uint64_t parents = 12;       ///< so many of the likest laws are those near which is drawn
     std::uint64_t nulls = 192;        ///< healthy ones near the likest laws of all
-    std::uint64_t of_each_cause = 6;  ///< near these too, at sizes spread evenly over the range of z
+    std::uint64_t of_each_cause = 12; ///< near these too, at sizes spread evenly over the range of z
     LawFamily family;
+
+    /// With so many nulls, and of all others in proportion as many as the default plan has.
+    static EnsemblePlan with(std::uint64_t nulls);
 
     std::uint64_t scouts() const { return wide + pairs; }
     std::uint64_t healthy() const { return scouts() + rounds * of_each_round + nulls; }
@@ -60,9 +63,12 @@ struct CampaignEnsemble {
     bool complete = false; ///< false: the observer stopped it
 };
 
+/// Of numbers of a campaign: `law_numbers` or `joint_numbers`.
+using NumbersOf = std::vector<double> (*)(const std::vector<StatisticLabel>& labels,
+                                          const CampaignStatistics& campaign);
 /// From the pairs of campaigns of one law.
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,
-                        const std::vector<SimulatedCampaign>& rows);
+                        const std::vector<SimulatedCampaign>& rows, NumbersOf numbers, double kept);
 
 /// @param known    causes that act in every campaign: what direct tests found and no correction takes away
 /// @param shown    of the measured campaign

@@ -16,11 +16,14 @@ constexpr double less_friction_at_one = 0.5, more_friction_at_one = 1.5; // of a
 constexpr double dynamic_at_one = 0.5;                                   // dynamic over static friction
 constexpr double stribeck_speed = 0.02;                                  // over sqrt(g H): slow slip is of this order
 constexpr double worn_at_one = 0.6;    // of the friction, after the path of a whole run
+constexpr double most_wear = 3;        // z: nothing is left of the friction after half of a run's path
 constexpr double chip_at_one = 0.15;   // over the width of the face
 constexpr double drag_at_one = 0.3;    // of the weight, at the largest speeds of the campaign
 constexpr double centre_at_one = 0.08; // over the width
 constexpr double hold_at_one = 1.0;    // of a dowel or of adhesion, over the friction of the joint at rest
 constexpr double dowel_slip = 0.005;   // at which a dowel yields, over the width
+constexpr double rate_at_one = 10;     // Hunt and Crossley's lambda, over the velocity 0.1 sqrt(g H) of impacts
+constexpr double dashpot_at_one = 0.5; // of critical damping, of the block on the joint
 // Paths shorter than these would make wear of any size possible.
 constexpr double least_slip = 0.02;     // over the width
 constexpr double least_rotation = 0.02; // rad
@@ -53,7 +56,7 @@ double CandidateCause::z_of(double size) const
 }
 
 std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const TrackScales& scales,
-                                             const JointPaths& paths, double friction)
+                                             const JointPaths& paths, double friction, double stiffness_n_m2)
 {
     const double speed = scales.time_s * specimen.gravity_m_s2; // sqrt(g H)
     const std::vector<double> weight = rest_weights(specimen);
@@ -72,7 +75,7 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
         for (const double at_one : {less_friction_at_one, more_friction_at_one})
             all.push_back({at_joint("joint_friction", j, "ratio", "", 1), at_one, true, 0, 1.25});
         all.push_back({at_joint("friction_wear", j, "wear_per_m", "1/m"),
-                       worn_at_one / std::max(paths.slip_m[k], least_slip * width)});
+                       worn_at_one / std::max(paths.slip_m[k], least_slip * width), false, 0, most_wear});
         for (const char* side : {"left", "right"}) {
             CandidateCause chip{at_joint("corner_loss", j, "loss_m", "m"), chip_at_one * width};
             chip.cause.side = side;
@@ -84,6 +87,10 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
         dowel.cause.fixed = dowel_slip * width;
         all.push_back(dowel);
         all.push_back({at_joint("adhesion", j, "adhesion_n_m", "N/m"), held / width});
+        all.push_back({at_joint("rate_damping", j, "rate_s_m", "s/m"), rate_at_one / (0.1 * speed)});
+        const double mass = specimen.mass_kg[static_cast<std::size_t>(upper)];
+        all.push_back({at_joint("face_damping", j, "dashpot_n_s_m", "N s/m"),
+                       dashpot_at_one * 2 * std::sqrt(stiffness_n_m2 * width * mass)});
     }
     const double mass = [&] {
         double sum = 0;

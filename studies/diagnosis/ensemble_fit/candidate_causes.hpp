@@ -29,8 +29,8 @@ struct CandidateCause {
     double z_of(double size) const;
 };
 
-/// @param friction of the joints
+/// @param friction of the joints   @param stiffness_n_m2 K_N of the joints: dashpots are in proportion to critical ones
 std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const TrackScales& scales,
-                                             const JointPaths& paths, double friction);
+                                             const JointPaths& paths, double friction, double stiffness_n_m2);
 
 } // namespace stylobate

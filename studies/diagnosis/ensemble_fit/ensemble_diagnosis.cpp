@@ -149,22 +149,6 @@ Eigen::MatrixXd scores_of(const std::vector<const SimulatedCampaign*>& rows, std
     return out;
 }
 
-/// Whether a size is far from all that labelled campaigns have: nothing could be said of it.
-bool beyond_simulated(const CauseFit& fit, const std::vector<CandidateCause>& candidates)
-{
-    constexpr double far = 1.5; // over the largest z
-    const Cause& cause = fit.cause;
-    bool simulated = false;
-    for (const CandidateCause& c : candidates) {
-        if (c.cause.mechanism != cause.mechanism || c.cause.parameter != cause.parameter)
-            continue;
-        simulated = true;
-        if (const double z = c.z_of(fit.size); z <= far * c.most && z >= far * c.least)
-            return false;
-    }
-    return simulated;
-}
-
 /// @param column of all tables   @param of says whether a candidate's campaigns are the labelled ones
 template <class Of>
 CarryingNumber carrying_number(const EnsembleDiagnosis& diagnosis, const LabelledCampaigns& labelled, double measured,
@@ -186,34 +170,27 @@ CarryingNumber carrying_number(const EnsembleDiagnosis& diagnosis, const Labelle
     return out;
 }
 
-void find_carrying_numbers(const EnsembleEvidence& evidence, const ScoreEvidence& scores, EnsembleDiagnosis& out)
+void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& out)
 {
     if (const EnsembleVerdict& verdict = out.by_statistics; verdict.best >= 0) {
         Eigen::Index most = 0;
         verdict.shift.cwiseProduct(verdict.residual).maxCoeff(&most);
         const Eigen::Index column = verdict.used[static_cast<std::size_t>(most)];
         const Cause& best = out.causes[static_cast<std::size_t>(verdict.best)].cause;
-        out.of_statistics =
+        out.carrying =
             carrying_number(out, evidence.labelled, evidence.statistics(column), evidence.nulls.statistics.col(column),
                             evidence.labelled.table.statistics.col(column), [&](const Cause& c) {
                                 return c.mechanism == best.mechanism && c.place == best.place && c.side == best.side;
                             });
         const StatisticLabel& label = out.evidence[static_cast<std::size_t>(column)];
-        out.of_statistics.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
-                                               : label.joint >= 0 ? fmt::format(" of joint {}", label.joint)
-                                                                  : "");
-    }
-    if (const int best = out.by_scores.cause.variant; best >= 0) {
-        const Cause& cause = out.scored.causes[static_cast<std::size_t>(best)];
-        out.of_scores = carrying_number(out, evidence.labelled, scores.campaign(best), scores.nulls.col(best),
-                                        scores.labelled.col(best), [&](const Cause& c) {
-                                            return c.mechanism == cause.mechanism && c.place == cause.place &&
-                                                   c.parameter == cause.parameter &&
-                                                   (cause.side.empty() || c.side == cause.side);
-                                        });
-        out.of_scores.text = "score of " + cause.label();
+        out.carrying.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
+                                          : label.joint >= 0 ? fmt::format(" of joint {}", label.joint)
+                                                             : "");
     }
 }
+
+// Of the numbers of a law: a cause moves some of them.
+constexpr double law_kept = 0.75;
 
 /// Of the measured law, among those of the healthy campaigns.
 double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
@@ -223,7 +200,8 @@ double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
     std::vector<std::vector<double>> nulls;
     for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
         nulls.push_back(law_numbers(labels, rows[i].numbers));
-    return isolation_p_value(likeness_of(plan, labels, rows), nulls, law_numbers(labels, diagnosis.measured));
+    return isolation_p_value(likeness_of(plan, labels, rows, law_numbers, law_kept), nulls,
+                             law_numbers(labels, diagnosis.measured));
 }
 
 } // namespace
@@ -244,7 +222,7 @@ std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) co
         if (mechanism_of(causes[static_cast<std::size_t>(row.cause)].cause) == mechanism &&
             std::fabs(row.z) >= least_z) {
             all += 1;
-            right += by_statistics.labelled_right[i] || by_scores.labelled_right[i] ? 1 : 0;
+            right += by_statistics.labelled_right[i] ? 1 : 0;
         }
         ++i;
     }
@@ -288,26 +266,20 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
     return paths;
 }
 
-EnsembleDiagnosis what_is_measured(const Campaign& campaign, const TrackScales& scales,
+EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const TrackScales& scales,
                                    const std::vector<std::vector<double>>& base_m)
 {
     EnsembleDiagnosis out;
     const double friction = nominal_friction(campaign.specimen);
-    out.causes = candidate_causes(campaign.specimen, scales, joint_paths(campaign, scales, base_m), friction);
+    out.causes = candidate_causes(campaign.specimen, scales, joint_paths(campaign, scales, base_m), friction,
+                                  study.contact.normal_stiffness_n_m2);
     for (const CandidateCause& cause : out.causes)
         if (std::find(out.mechanisms.begin(), out.mechanisms.end(), cause.cause.mechanism) == out.mechanisms.end())
             out.mechanisms.push_back(cause.cause.mechanism);
     out.statistics = statistic_labels(campaign);
     out.measured = statistics_of(campaign, scales, base_m);
     out.scored = score_plan(campaign.specimen, scales);
-    const std::optional<BalanceFit> balance = fit_balance(campaign, scales, base_m);
-    out.scores = balance_scores(balance, out.scored);
-    for (std::size_t v = 0; v < out.scored.causes.size(); ++v) {
-        out.fits.push_back(balance ? balance->fit(out.scored.causes[v]) : CauseFit());
-        // what only an impossible size would explain is not judged; of healthy campaigns it is: their bar is the higher
-        if (!possible(out.fits.back()) || !matters(out.fits.back()) || beyond_simulated(out.fits.back(), out.causes))
-            out.scores[v] = std::numeric_limits<double>::quiet_NaN();
-    }
+    out.scores = balance_scores(fit_balance(campaign, scales, base_m), out.scored);
     return out;
 }
 
@@ -348,23 +320,17 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
 
-    ScoreEvidence of_scores;
-    for (const Cause& cause : out.scored.causes) {
-        of_scores.variants.mechanism.push_back(out.mechanism_of(cause));
-        of_scores.variants.sign.push_back(sign_of_cause(cause));
-    }
-    of_scores.variants.mechanism.resize(out.scored.size(), -1);
-    of_scores.variants.sign.resize(out.scored.size(), 0);
-    of_scores.nulls = scores_of(nulls, out.scored.size());
-    of_scores.likeness = evidence.likeness;
-    of_scores.labelled = scores_of(labelled, out.scored.size());
-    for (const int cause : evidence.labelled.cause)
-        of_scores.labelled_mechanism.push_back(evidence.mechanism[static_cast<std::size_t>(cause)]);
-    of_scores.campaign = vector_of(out.scores);
-    of_scores.support = out.by_statistics.mechanism_gain;
-    of_scores.labelled_support = out.by_statistics.labelled_mechanism_gain;
-    out.by_scores = score_test(of_scores);
-    find_carrying_numbers(evidence, of_scores, out);
+    ForceEvidence forces;
+    for (const Cause& cause : out.scored.causes)
+        forces.sign.push_back(sign_of_cause(cause));
+    forces.cause.assign(forces.sign.size(), true);
+    forces.cause.resize(out.scored.size(), false);
+    forces.sign.resize(out.scored.size(), 0);
+    forces.nulls = scores_of(nulls, out.scored.size());
+    forces.likeness = evidence.likeness;
+    forces.campaign = vector_of(out.scores);
+    out.forces = force_test(forces);
+    find_carrying_number(evidence, out);
 }
 
 EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
@@ -374,7 +340,7 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
                                      const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                      Observer& observer)
 {
-    EnsembleDiagnosis out = what_is_measured(campaign, scales, base_m);
+    EnsembleDiagnosis out = what_is_measured(campaign, study, scales, base_m);
     out.ensemble =
         simulate_ensemble(campaign, study, out.causes, known, plan, out.measured, cache, options, progress, observer);
     if (out.ensemble.complete)

@@ -2,7 +2,8 @@
 /// What the statistics of a campaign show of its joints and blocks, by campaigns that are simulated for it.
 
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
-#include "studies/diagnosis/likelihood/score_test.hpp"
+#include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
+#include "studies/diagnosis/likelihood/force_test.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
@@ -27,21 +28,19 @@ struct EnsembleDiagnosis {
     std::vector<std::string> mechanisms; ///< names by the numbers of the verdicts' mechanisms
     std::vector<StatisticLabel> statistics;
     CampaignStatistics measured;
-    std::vector<double> scores;           ///< (scored) of the measured campaign; NaN: not shown, or not to be judged
+    std::vector<double> scores;           ///< (scored) of the measured campaign; NaN: not shown
     std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
-    ScorePlan scored;                     ///< what the verdict by scores sees
-    std::vector<CauseFit> fits;           ///< (scored.causes) of the measured campaign
+    ScorePlan scored;                     ///< of which the scores are
     CampaignEnsemble ensemble;
     double law_p_value = 1; ///< of the measured law in the family
     // default where the observer stopped it
     EnsembleVerdict by_statistics;
-    ScoreVerdict by_scores;
+    ForceTest forces;
 
-    /// Share of labelled campaigns of a mechanism, with z of at least this, that either test names rightly: what these
-    /// data can show. Nothing: no campaign has it.
+    /// Share of labelled campaigns of a mechanism, with z of at least this, that are named rightly: what these data can
+    /// show. Nothing: no campaign has it.
     std::optional<double> power(int mechanism, double least_z) const;
-    /// What of the statistics speaks most for their best cause, and the score of the best one.
-    CarryingNumber of_statistics, of_scores;
+    CarryingNumber carrying; ///< what of the statistics speaks most for their best cause
 
     /// Number of a cause's mechanism.
     int mechanism_of(const Cause& cause) const;
@@ -59,7 +58,7 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
                                      Observer& observer);
 
 /// The parts of it: all but the simulated campaigns and the verdicts; the verdicts from these.
-EnsembleDiagnosis what_is_measured(const Campaign& campaign, const TrackScales& scales,
+EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const TrackScales& scales,
                                    const std::vector<std::vector<double>>& base_m);
 void judge(const EnsemblePlan& plan, EnsembleDiagnosis& diagnosis);
 

@@ -12,20 +12,29 @@ namespace stylobate {
 namespace {
 
 constexpr double far = 10;       // beyond it one number tells no more
-constexpr double kept = 0.75;    // part of the numbers that count
 constexpr std::size_t least = 6; // pairs that have a number
+
+std::vector<double> with_descriptors(const CampaignStatistics& campaign, const std::vector<double>& others)
+{
+    std::vector<double> numbers = campaign.descriptors;
+    numbers.insert(numbers.end(), others.begin(), others.end());
+    return numbers;
+}
 
 } // namespace
 
 std::vector<double> law_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign)
 {
-    std::vector<double> numbers = campaign.descriptors;
-    const std::vector<double> common = medians(over_joints(labels), campaign.values);
-    numbers.insert(numbers.end(), common.begin(), common.end());
-    return numbers;
+    return with_descriptors(campaign, medians(over_joints(labels), campaign.values));
 }
 
-LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs)
+std::vector<double> joint_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign)
+{
+    return with_descriptors(campaign, means(over_motions(labels), campaign.values));
+}
+
+LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept)
+    : kept_(kept)
 {
     const std::size_t count = pairs.empty() ? 0 : pairs.front().first.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -50,7 +59,7 @@ double LawLikeness::distance(const std::vector<double>& of, const std::vector<do
     if (squares.empty())
         return 0;
     std::sort(squares.begin(), squares.end());
-    squares.resize(static_cast<std::size_t>(std::ceil(kept * static_cast<double>(squares.size()))));
+    squares.resize(static_cast<std::size_t>(std::ceil(kept_ * static_cast<double>(squares.size()))));
     double sum = 0;
     for (const double square : squares)
         sum += square;

@@ -12,17 +12,23 @@ namespace stylobate {
 /// kind of statistic.
 std::vector<double> law_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign);
 
-/// Differences of law numbers in units of their scatter among specimens of one law.
+/// Its descriptors, and each kind of statistic of each joint, mean over the motions. A healthy law that makes a joint
+/// behave as a cause would is no reason to name the cause: laws like the measured one are found by these numbers.
+std::vector<double> joint_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign);
+
+/// Differences of the numbers of campaigns in units of their scatter among specimens of one law.
 class LawLikeness {
 public:
-    /// @param pairs law numbers of campaigns of one law each, whose specimens differ
-    explicit LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs);
+    /// @param pairs numbers of campaigns of one law each, whose specimens differ
+    /// @param kept  part of the numbers that count, the nearest ones
+    LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept);
 
-    /// Root mean square over the numbers that `of` has, the largest quarter left out: a cause moves some of them. What
-    /// the other one does not have counts as far.
+    /// Root mean square over the numbers that `of` has, the largest ones left out: a cause moves some of them. What the
+    /// other one does not have counts as far.
     double distance(const std::vector<double>& of, const std::vector<double>& other) const;
 
 private:
+    double kept_;
     std::vector<double> scatter_; ///< 0: not known, or none
 };
 

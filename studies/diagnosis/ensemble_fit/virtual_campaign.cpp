@@ -1,7 +1,6 @@
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/sampling/distribution.hpp"
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/keys/words.hpp"
@@ -40,25 +39,16 @@ std::uint32_t crc(const std::vector<double>& values, std::uint32_t before)
 /// Numbers of one campaign, one after the other.
 class Draws {
 public:
-    Draws(std::uint64_t seed, std::uint64_t campaign, Stream stream)
-        : seed_(seed), campaign_(campaign), stream_(stream), standard_(deviation_of_one(), "normal", 0)
+    Draws(std::uint64_t seed, std::uint64_t campaign, Stream stream) : seed_(seed), campaign_(campaign), stream_(stream)
     {
     }
     double uniform() { return uniform01(seed_, campaign_, stream_, next_++); }
-    double normal() { return standard_.value(uniform()); }
+    double normal() { return to_normal(uniform()); }
 
 private:
     std::uint64_t seed_, campaign_;
     Stream stream_;
     std::uint64_t next_ = 0;
-    Distribution standard_;
-
-    static Spread deviation_of_one()
-    {
-        Spread spread;
-        spread.sd = 1;
-        return spread;
-    }
 };
 
 /// One campaign's specimen: all but where its blocks are put.
@@ -236,32 +226,37 @@ std::string campaign_key(const Campaign& campaign, const Study& study, std::uint
     return fmt::format("{} {:08x}", code_version(), sum);
 }
 
-VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
-                                   std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
-                                   const std::vector<std::vector<SizedCause>>& causes, const RunOptions& options,
-                                   Observer& observer)
+VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
+    : measured(campaign), built(build_specimen(campaign.specimen)), base(campaign.runs.size()),
+      times_s(campaign.runs.size()), base_m(campaign.runs.size())
 {
-    VirtualCampaigns out;
-    out.base_m.resize(measured.runs.size());
-    assert((scatter.laws.empty() || scatter.laws.size() == count) && "one law for each campaign");
-    const SpecimenStructure built = build_specimen(measured.specimen);
-    std::vector<FollowJob> jobs;
-    std::vector<std::pair<std::size_t, std::size_t>> job_of; // campaign, run
-    std::vector<std::shared_ptr<const Motion>> base(measured.runs.size());
-    std::vector<std::shared_ptr<const std::vector<double>>> times(measured.runs.size());
-    for (std::size_t i = 0; i < measured.runs.size(); ++i) {
+    tbb::parallel_for(std::size_t{0}, measured.runs.size(), [&](std::size_t i) {
         const MeasuredRun& run = measured.runs[i];
         const bool shaken = !run.base_acceleration_m_s2.empty() || !run.base_displacement_m.empty();
         if (!shaken || run.time_s.size() < 2 || run.blocks.x_m.empty() || run.blocks.y_m.empty() ||
             run.blocks.theta_rad.empty())
-            continue;
+            return;
         base[i] = std::make_shared<const Motion>(base_motion_of(run));
-        out.base_m[i] = displacement_at_samples(run, *base[i]);
+        base_m[i] = displacement_at_samples(run, *base[i]);
         auto seen = std::make_shared<std::vector<double>>();
         for (const double t : run.time_s)
             seen->push_back(t - run.time_s.front());
-        times[i] = seen;
-    }
+        times_s[i] = seen;
+    });
+}
+
+VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const Study& study, std::uint64_t seed,
+                                   std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
+                                   const std::vector<std::vector<SizedCause>>& causes, const RunOptions& options,
+                                   Observer& observer)
+{
+    assert((scatter.laws.empty() || scatter.laws.size() == count) && "one law for each campaign");
+    const Campaign& measured = laboratory.measured;
+    const SpecimenStructure& built = laboratory.built;
+    VirtualCampaigns out;
+    out.base_m = laboratory.base_m;
+    std::vector<FollowJob> jobs;
+    std::vector<std::pair<std::size_t, std::size_t>> job_of; // campaign, run
     for (std::uint64_t c = 0; c < count; ++c) {
         const std::vector<SizedCause> acting =
             causes.empty() ? std::vector<SizedCause>() : causes[causes.size() > 1 ? c : 0];
@@ -284,10 +279,10 @@ VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study,
             for (Block& block : job.realization.blocks)
                 if (!block.fixed)
                     block.x_m += measured.specimen.placement_tolerance_m * put.normal();
-            if (!base[i])
+            if (!laboratory.base[i])
                 continue;
-            job.realization.motion = base[i];
-            job.watched_s = times[i];
+            job.realization.motion = laboratory.base[i];
+            job.watched_s = laboratory.times_s[i];
             jobs.push_back(std::move(job));
             job_of.emplace_back(static_cast<std::size_t>(c), i);
         }

@@ -9,12 +9,15 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
+#include "ensemble/model/motion.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/diagnosis/tests/law_family.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,12 +52,25 @@ struct VirtualCampaigns {
 /// contacts and seed.
 std::string campaign_key(const Campaign& measured, const Study& study, std::uint64_t seed);
 
+/// A measured campaign, ready to be simulated many times: its specimen, and the base motion of each run from all
+/// sensors that saw it.
+struct VirtualLaboratory {
+    explicit VirtualLaboratory(const Campaign& campaign);
+
+    const Campaign& measured;
+    SpecimenStructure built;
+    // (runs) empty: not shaken, or not seen
+    std::vector<std::shared_ptr<const Motion>> base;
+    std::vector<std::shared_ptr<const std::vector<double>>> times_s; ///< the cameras', from the first one
+    std::vector<std::vector<double>> base_m;                         ///< as `VirtualCampaigns::base_m`
+};
+
 /// @param study contacts about which is drawn; its structure is the specimen's
 /// @param scatter with no laws, or one for each campaign
 /// @param causes that act, for campaigns that are to show something; of the base: none. One list for each campaign, or
 ///        one for all of them, or none
 /// @param first number of the first campaign: each is a pure function of (seed, number)
-VirtualCampaigns virtual_campaigns(const Campaign& measured, const Study& study, std::uint64_t seed,
+VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const Study& study, std::uint64_t seed,
                                    std::uint64_t first, std::uint64_t count, const HealthyScatter& scatter,
                                    const std::vector<std::vector<SizedCause>>& causes, const RunOptions& options,
                                    Observer& observer);

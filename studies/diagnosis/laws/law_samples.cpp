@@ -48,6 +48,7 @@ public:
                 joints.push_back(motion(lower, upper, i));
             motion_.push_back(std::move(joints));
         }
+        find_stretches();
         sum_paths(before);
         find_hops();
     }
@@ -137,6 +138,25 @@ private:
         return m;
     }
 
+    int state(std::size_t joint, Law law, std::size_t i) const
+    {
+        return law == Law::sliding ? motion_[i][joint].sliding : motion_[i][joint].rocking;
+    }
+
+    void find_stretches()
+    {
+        const std::size_t n = motion_.size();
+        for (std::size_t j = 0; j < s_.joints.size(); ++j)
+            for (const Law law : {Law::sliding, Law::rocking}) { // in the order of `slot`
+                Stretches same{std::vector<std::size_t>(n), std::vector<std::size_t>(n, n)};
+                for (std::size_t i = 0; i < n; ++i)
+                    same.begin[i] = i > 0 && state(j, law, i) == state(j, law, i - 1) ? same.begin[i - 1] : i;
+                for (std::size_t i = n; i-- > 1;)
+                    same.end[i - 1] = state(j, law, i) == state(j, law, i - 1) ? same.end[i] : i;
+                same_.push_back(std::move(same));
+            }
+    }
+
     void sum_paths(PathsBefore& before)
     {
         const std::size_t joints = s_.joints.size();
@@ -166,6 +186,11 @@ private:
         }
     }
 
+    /// Of each sample, the stretch [begin, end) in which a joint does what it does there.
+    struct Stretches {
+        std::vector<std::size_t> begin, end;
+    };
+
     /// Whether a joint does the same thing all through a window.
     bool steady(std::size_t joint, Law law, std::size_t i, std::size_t half) const
     {
@@ -174,15 +199,11 @@ private:
             half + static_cast<std::size_t>(scales_.rates.half_width()) / (law == Law::rocking ? 2 : 1);
         if (!track_.usable(i, static_cast<int>(margin)))
             return false;
-        const auto state = [&](std::size_t k) {
-            return law == Law::sliding ? motion_[k][joint].sliding : motion_[k][joint].rocking;
-        };
-        const int now = state(i);
-        if (now == 0)
+        if (state(joint, law, i) == 0)
             return false;
-        for (std::size_t k = i - margin; k <= i + margin; ++k)
-            if (state(k) != now)
-                return false;
+        const Stretches& same = same_[slot(static_cast<int>(joint), law)];
+        if (same.begin[i] > i - margin || same.end[i] <= i + margin)
+            return false;
         return law == Law::rocking || !hops(s_.joints[joint].second, i, half);
     }
 
@@ -398,6 +419,7 @@ private:
     double friction_;
     std::vector<double> weights_;
     std::vector<std::vector<JointMotion>> motion_; ///< [sample][joint]
+    std::vector<Stretches> same_;                  ///< (slots)
     std::vector<std::vector<LawTerm>> paths_;      ///< [sample][joint]: slip and rotation so far
     std::vector<std::vector<int>> hopping_;        ///< [block][n + 1] samples before in which it hops
 };

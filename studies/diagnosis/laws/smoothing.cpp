@@ -6,7 +6,31 @@
 #include <array>
 #include <cmath>
 
+// The instruction set is chosen where the program runs. The bits are the same: no sum changes its order, and products
+// are not fused with sums.
+#if defined(__x86_64__) && defined(__ELF__)
+#define STYLOBATE_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define STYLOBATE_CLONES
+#endif
+
 namespace stylobate {
+
+namespace {
+
+constexpr std::size_t together = 16;
+
+/// Sums of `count` products for several samples side by side, each in the order of `LocalCubic::at`.
+STYLOBATE_CLONES void sums_side_by_side(const double* coefficients, std::size_t count, const double* from, double* out)
+{
+    std::array<double, together> sums{};
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t j = 0; j < together; ++j)
+            sums[j] += coefficients[k] * from[k + j];
+    std::copy(sums.begin(), sums.end(), out);
+}
+
+} // namespace
 
 LocalCubic::LocalCubic(int half_width, double dt_s) : half_width_(half_width)
 {
@@ -36,20 +60,12 @@ LocalCubic::LocalCubic(int half_width, double dt_s) : half_width_(half_width)
 
 std::vector<double> LocalCubic::apply(int derivative, const std::vector<double>& series) const
 {
-    // several samples side by side, each summed in the order of `at`: the same bits, in registers
-    constexpr std::size_t together = 16;
     const std::vector<double>& c = coefficients_[derivative];
     const auto half = static_cast<std::size_t>(half_width_);
     std::vector<double> smooth(series.size(), 0.0);
     std::size_t i = half;
-    for (; i + half + together <= series.size(); i += together) {
-        const double* from = series.data() + (i - half);
-        std::array<double, together> sums{};
-        for (std::size_t k = 0; k < c.size(); ++k)
-            for (std::size_t j = 0; j < together; ++j)
-                sums[j] += c[k] * from[k + j];
-        std::copy(sums.begin(), sums.end(), smooth.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+    for (; i + half + together <= series.size(); i += together)
+        sums_side_by_side(c.data(), c.size(), series.data() + (i - half), smooth.data() + i);
     for (; i < series.size(); ++i)
         smooth[i] = at(derivative, series, i);
     return smooth;

@@ -1,5 +1,7 @@
 #include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -81,24 +83,40 @@ public:
         return mechanism_[static_cast<std::size_t>(causes_[static_cast<std::size_t>(model)])];
     }
 
-    /// Largest gain of each mechanism; of one without a model none: as if it explained nothing.
-    Eigen::VectorXd of_mechanisms(const std::vector<CauseLikelihood>& found) const
+    /// Mechanisms by their largest gain, the best first; none of gain 0.
+    std::vector<std::pair<double, int>> ranking(const std::vector<CauseLikelihood>& found) const
     {
-        constexpr double none = -1e3;
-        Eigen::VectorXd out =
-            Eigen::VectorXd::Constant(1 + *std::max_element(mechanism_.begin(), mechanism_.end()), none);
-        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m)
-            out(mechanism(m)) = std::max(out(mechanism(m)), found[static_cast<std::size_t>(m)].gain);
-        return out;
+        std::map<int, double> most;
+        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m) {
+            double& gain = most.try_emplace(mechanism(m), 0).first->second;
+            gain = std::max(gain, found[static_cast<std::size_t>(m)].gain);
+        }
+        std::vector<std::pair<double, int>> order;
+        for (const auto& [mechanism, gain] : most)
+            if (gain > 0)
+                order.emplace_back(gain, mechanism);
+        std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+        return order;
     }
-    /// How far the best mechanism is before all others together [nats].
-    double lead(const std::vector<CauseLikelihood>& found, Eigen::Index best) const
+    /// How far these mechanisms are before all others together [nats].
+    double lead(const std::vector<CauseLikelihood>& found, const std::set<int>& of) const
     {
-        double sum = 1; // none of them
+        constexpr double most = 300;
+        double sum = 0, others = 1; // none of them
         for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m)
-            if (mechanism(m) != mechanism(best))
-                sum += std::exp(std::min(found[static_cast<std::size_t>(m)].gain, 300.0));
-        return found[static_cast<std::size_t>(best)].gain - std::log(sum);
+            (of.contains(mechanism(m)) ? sum : others) +=
+                std::exp(std::min(found[static_cast<std::size_t>(m)].gain, most));
+        return std::log(sum) - std::log(others);
+    }
+    /// The best mechanism and those that are hardly behind it.
+    std::set<int> nearest(const std::vector<CauseLikelihood>& found, const EnsembleRule& rule) const
+    {
+        const auto order = ranking(found);
+        std::set<int> out;
+        for (const auto& [gain, mechanism] : order)
+            if (out.size() <= static_cast<std::size_t>(rule.rivals) && gain > order.front().first - rule.apart)
+                out.insert(mechanism);
+        return out;
     }
     struct Second {
         Eigen::Index model = -1; ///< -1: there is no other mechanism
@@ -152,8 +170,8 @@ private:
 struct LeftOut {
     std::vector<double> null_gains, null_left, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
+    std::vector<CalibratedProbability::Case> near;  ///< the same of the best and its nearest rivals together
     std::vector<bool> right;                        ///< (labelled) named, with the right mechanism
-    Eigen::MatrixXd gains;                          ///< (labelled x mechanisms)
     std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;              ///< mechanism: in all
     std::vector<double> labelled_left;              ///< distance beside the best cause
@@ -161,8 +179,8 @@ struct LeftOut {
 };
 
 /// @param gain_needed a labelled campaign of less gain is not named
-void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold, LeftOut& out,
-                      const std::function<bool(double)>& is_named)
+void look_at_left_out(const EnsembleEvidence& evidence, const EnsembleRule& rule, const Fit& fit, int fold,
+                      LeftOut& out, const std::function<bool(double)>& is_named)
 {
     for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i) {
         if (evidence.null_fold[static_cast<std::size_t>(i)] != fold)
@@ -190,10 +208,11 @@ void look_at_left_out(const EnsembleEvidence& evidence, const Fit& fit, int fold
         const bool named = is_named(cause.gain);
         const bool right = fit.mechanism(best) == truth;
         out.right[i] = named && right;
-        out.gains.row(static_cast<Eigen::Index>(i)) = fit.of_mechanisms(found).transpose();
         if (!named)
             continue;
-        out.named.push_back({fit.lead(found, best), right});
+        out.named.push_back({fit.lead(found, {fit.mechanism(best)}), right});
+        const std::set<int> near = fit.nearest(found, rule);
+        out.near.push_back({fit.lead(found, near), near.contains(truth)});
         out.taken[{truth, fit.mechanism(best)}] += 1;
         out.labelled_of[truth] += 1;
         out.labelled_left.push_back(fit.left(residual, cause, best));
@@ -251,44 +270,42 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     std::vector<std::unique_ptr<Fit>> folds;
     LeftOut left_out;
     left_out.right.assign(evidence.labelled.cause.size(), false);
-    out.mechanism_gain = fit.of_mechanisms(found);
-    left_out.gains.resize(static_cast<Eigen::Index>(evidence.labelled.cause.size()), out.mechanism_gain.size());
-    for (int fold = 0; fold < count; ++fold) {
-        folds.push_back(std::make_unique<Fit>(evidence, wanted, out.contrasts, fold));
-        look_at_left_out(evidence, *folds.back(), fold, left_out, {});
-    }
+    folds.resize(static_cast<std::size_t>(count));
+    tbb::parallel_for(0, count, [&](int fold) {
+        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, out.contrasts, fold);
+    });
+    for (int fold = 0; fold < count; ++fold)
+        look_at_left_out(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, {});
     const auto chance = [&](double gain) {
         return conformal_p_value(left_out.null_gains, left_out.null_weights, gain);
     };
     const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
-        look_at_left_out(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
+        look_at_left_out(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
     out.null_weights = left_out.null_weights;
     out.p_value = chance(cause.gain);
     out.named = is_named(cause.gain);
-    out.probability = CalibratedProbability(left_out.named)(fit.lead(found, best));
+    out.probability = CalibratedProbability(left_out.named)(fit.lead(found, {fit.mechanism(best)}));
+    out.set_probability =
+        std::max(out.probability, CalibratedProbability(left_out.near)(fit.lead(found, fit.nearest(found, rule))));
     out.labelled_right = left_out.right;
-    out.labelled_mechanism_gain = left_out.gains;
 
     if (out.named)
         find_second(fit, best, left_out, rule, out);
 
-    std::set<int> rivals;
     const int mechanism = fit.mechanism(best);
-    for (std::size_t m = 0; m < found.size(); ++m) {
-        const int other = fit.mechanism(static_cast<Eigen::Index>(m));
+    for (const auto& [gain, other] : fit.ranking(found)) {
         if (other == mechanism)
             continue;
         const auto taken = left_out.taken.find({other, mechanism});
         const bool confused = taken != left_out.taken.end() &&
                               taken->second > rule.confused * left_out.labelled_of.at(other) &&
-                              found[m].gain > cause.gain - 3 * rule.apart;
-        if (found[m].gain > cause.gain - rule.apart || confused)
-            rivals.insert(other);
+                              gain > cause.gain - 3 * rule.apart;
+        if (gain > cause.gain - rule.apart || confused)
+            out.set.push_back(other);
     }
-    out.set.assign(rivals.begin(), rivals.end());
 
     // what is left is compared with both: healthy campaigns beside the cause that suits them best, and labelled ones
     const double left = fit.left(out.residual, cause, best);

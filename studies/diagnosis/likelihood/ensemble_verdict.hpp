@@ -15,11 +15,11 @@ namespace stylobate {
 
 /// The fixed numbers of the rule.
 struct EnsembleRule {
-    /// Largest p-value at which a cause is named: of each of two tests, of the statistics and of the balance's scores,
-    /// so that they give no more than 1.5 % false alarms together.
-    double named = 0.0075;
+    double named = 0.015;      ///< largest p-value at which a cause is named
+    double force = 0.0075;     ///< the same of a force of no known kind
     double outside = 0.01;     ///< p-value of the law below which it is outside the family
     double apart = 3;          ///< nats within which rivals are in the set with the best
+    int rivals = 2;            ///< most of them that are named with the best: more would be no answer
     double confused = 0.2;     ///< share of a rival's left-out campaigns that are called by the best's name
     double unexplained = 0.01; ///< p-value of what is left beside the best cause
 };
@@ -54,19 +54,17 @@ struct EnsembleVerdict {
     /// A second cause of another mechanism, judged with the best one given; -1: none is named.
     int second = -1;
     CauseLikelihood second_likelihood;
-    double second_p_value = 1; ///< among labelled campaigns, in which there is one cause alone
-    std::vector<int> set;      ///< mechanisms that these data do not distinguish from the best
-    bool contrasts = false;    ///< the law is outside the family: only contrasts between joints were used
-    double left_p_value = 1;   ///< of what is left beside the best cause
+    double second_p_value = 1;  ///< among labelled campaigns, in which there is one cause alone
+    std::vector<int> set;       ///< mechanisms that these data do not distinguish from the best, the likeliest first
+    double set_probability = 0; ///< that the best or one of the first `EnsembleRule::rivals` of the set is right
+    bool contrasts = false;     ///< the law is outside the family: only contrasts between joints were used
+    double left_p_value = 1;    ///< of what is left beside the best cause
     bool unexplained = false;
     Eigen::VectorXd residual;                     ///< (used) of the measured campaign
     Eigen::VectorXd shift;                        ///< (used) what the best cause makes of it
     std::vector<Eigen::Index> used;               ///< columns of the statistics
     std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out
     std::vector<bool> labelled_right;             ///< (labelled) named with the right mechanism, left out
-    /// Largest gain of each mechanism: of the measured campaign, and of labelled ones that were left out.
-    Eigen::VectorXd mechanism_gain;          ///< (mechanisms)
-    Eigen::MatrixXd labelled_mechanism_gain; ///< (labelled x mechanisms)
 };
 
 EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const EnsembleRule& rule = {});

@@ -1,5 +1,7 @@
 #include "studies/diagnosis/likelihood/synthetic_likelihood.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +13,9 @@ constexpr int sizes = 9; // of a cause, over the range that was simulated
 // Variance along a common pattern, in units of a statistic's own: as good as unknown.
 constexpr double unknown = 1e4;
 
-double half_log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor)
+double half_log_determinant(const Eigen::VectorXd& variances)
 {
-    return factor.matrixLLT().diagonal().array().log().sum();
+    return 0.5 * variances.array().log().sum();
 }
 
 /// Sizes of equal prior weight, both ends included, without the neutral one.
@@ -55,41 +57,40 @@ SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::ve
     Eigen::MatrixXd covariance = law.scale() * law.correlation();
     if (common.rows() > 0)
         covariance += unknown * common.transpose() * common;
-    factor_.compute(covariance);
-    log_determinant_ = half_log_determinant(factor_);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+    axes_ = solver.eigenvectors();
+    variances_ = solver.eigenvalues().cwiseMax(1e-9);
+    log_determinant_ = half_log_determinant(variances_);
     for (const ShiftModel& cause : causes) {
         std::vector<Point> points;
         for (const double size : grid(cause)) {
             Point point;
             point.size = size;
-            point.mean = cause.mean(size);
-            Eigen::MatrixXd wider = covariance;
-            wider.diagonal().array() += cause.variance(size);
-            point.factor.compute(wider);
-            point.log_determinant = half_log_determinant(point.factor);
+            point.mean = axes_.transpose() * cause.mean(size);
+            point.variance = cause.variance(size);
+            point.log_determinant = half_log_determinant((variances_.array() + point.variance).matrix());
             points.push_back(std::move(point));
         }
         points_.push_back(std::move(points));
     }
 }
 
-double SyntheticLikelihood::log_density(const Eigen::LLT<Eigen::MatrixXd>& factor, double log_determinant,
-                                        const Eigen::VectorXd& residual) const
+double SyntheticLikelihood::log_density(double variance, double log_determinant, const Eigen::VectorXd& along) const
 {
-    const double distance = factor.matrixL().solve(residual).squaredNorm();
-    return student_kernel(distance, static_cast<double>(residual.size()), freedom_) - log_determinant;
+    const double distance = (along.array().square() / (variances_.array() + variance)).sum();
+    return student_kernel(distance, static_cast<double>(along.size()), freedom_) - log_determinant;
 }
 
 std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual,
                                                      const Eigen::VectorXd& given) const
 {
-    const Eigen::VectorXd left = given.size() > 0 ? Eigen::VectorXd(residual - given) : residual;
-    const double nothing = log_density(factor_, log_determinant_, left);
+    const Eigen::VectorXd left = axes_.transpose() * (given.size() > 0 ? Eigen::VectorXd(residual - given) : residual);
+    const double nothing = log_density(0, log_determinant_, left);
     std::vector<CauseLikelihood> out;
     for (const std::vector<Point>& points : points_) {
         std::vector<double> gain, size, weight;
         for (const Point& point : points) {
-            gain.push_back(log_density(point.factor, point.log_determinant, left - point.mean) - nothing);
+            gain.push_back(log_density(point.variance, point.log_determinant, left - point.mean) - nothing);
             size.push_back(point.size);
         }
         const double best = *std::max_element(gain.begin(), gain.end());
@@ -113,12 +114,7 @@ std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& resi
 
 double SyntheticLikelihood::distance2(const Eigen::VectorXd& residual) const
 {
-    return factor_.matrixL().solve(residual).squaredNorm();
-}
-
-Eigen::VectorXd SyntheticLikelihood::whitened(const Eigen::VectorXd& residual) const
-{
-    return factor_.matrixL().solve(residual);
+    return ((axes_.transpose() * residual).array().square() / variances_.array()).sum();
 }
 
 } // namespace stylobate

@@ -6,7 +6,6 @@
 #include "studies/diagnosis/likelihood/law_adjustment.hpp"
 #include "studies/diagnosis/likelihood/shift_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <vector>
@@ -35,22 +34,22 @@ public:
 
     /// Squared Mahalanobis distance of the residual, over the scale of the tails.
     double distance2(const Eigen::VectorXd& residual) const;
-    /// (used) the residual in directions that are independent and of scatter 1.
-    Eigen::VectorXd whitened(const Eigen::VectorXd& residual) const;
 
 private:
-    /// One size of one cause: the log likelihood needs its mean and the factor of its covariance.
+    /// One size of one cause. Its covariance is that of healthy campaigns with more on the diagonal: both have the same
+    /// principal axes, along which all is counted.
     struct Point {
         double size = 0;
-        Eigen::VectorXd mean;
-        Eigen::LLT<Eigen::MatrixXd> factor;
+        Eigen::VectorXd mean; ///< along the principal axes
+        double variance = 0;  ///< more on the diagonal
         double log_determinant = 0;
     };
-    double log_density(const Eigen::LLT<Eigen::MatrixXd>& factor, double log_determinant,
-                       const Eigen::VectorXd& residual) const;
+    /// @param along the principal axes
+    double log_density(double variance, double log_determinant, const Eigen::VectorXd& along) const;
 
     double freedom_;
-    Eigen::LLT<Eigen::MatrixXd> factor_;
+    Eigen::MatrixXd axes_;      ///< (used x used) columns: principal axes of the covariance
+    Eigen::VectorXd variances_; ///< (used) along them
     double log_determinant_ = 0;
     std::vector<std::vector<Point>> points_; ///< [cause][size]
 };

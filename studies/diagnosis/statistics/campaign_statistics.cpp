@@ -20,7 +20,9 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_path = 1e-3;
 // A closure that leaves less of the square of the speed counts as having left so much.
 constexpr double least_left = 1e-3;
-constexpr double fewest_closures = 2, fewest_bins = 20, fewest_slides = 3, fewest_excursions = 2;
+constexpr double fewest_closures = 2, fewest_bins = 20, fewest_excursions = 2;
+// Slip path over the half width, and mean normal force over the weight, below which there is no friction to be seen.
+constexpr double least_slipped = 0.01, least_pressed = 0.1;
 
 /// Of one joint; what it is over: half width and slenderness.
 struct JointView {
@@ -50,9 +52,18 @@ double turning_offset(const JointView& v, std::size_t side)
     return -(rz / n - r / n * (z / n) + v.half_width_m * noise) / variance / v.half_width_m;
 }
 
-double friction(const JointView& v, std::size_t kind)
+/// Work of friction over that of the normal force along the same slips, of the classes from `first` to before `end`.
+double friction(const JointView& v, std::size_t first, std::size_t end)
 {
-    return v.has_slip && v.sums.slides[kind] >= fewest_slides ? v.sums.tangential[kind] / v.sums.normal[kind] : missing;
+    double tangential = 0, normal = 0, slipped = 0;
+    for (std::size_t k = first; k < end; ++k) {
+        tangential += v.sums.tangential[k];
+        normal += v.sums.normal[k];
+        slipped += v.sums.slipped[k];
+    }
+    return v.has_slip && slipped >= least_slipped * v.half_width_m && normal > least_pressed * slipped
+               ? tangential / normal
+               : missing;
 }
 
 struct Kind {
@@ -95,9 +106,10 @@ constexpr std::array kinds = {
     Kind{"open_time", 1, false, false, [](const JointView& v) { return v.sums.open_s[1] / v.sums.seen_s; }},
     Kind{"turning_offset", -1, false, false, [](const JointView& v) { return turning_offset(v, 0); }},
     Kind{"turning_offset", 1, false, false, [](const JointView& v) { return turning_offset(v, 1); }},
-    Kind{"friction_slow", 0, true, true, [](const JointView& v) { return friction(v, 0); }},
-    Kind{"friction_medium", 0, true, true, [](const JointView& v) { return friction(v, 1); }},
-    Kind{"friction_fast", 0, true, true, [](const JointView& v) { return friction(v, 2); }},
+    Kind{"friction", 0, true, true, [](const JointView& v) { return friction(v, 0, slip_classes); }},
+    Kind{"friction_slow", 0, true, true, [](const JointView& v) { return friction(v, 0, 1); }},
+    Kind{"friction_medium", 0, true, true, [](const JointView& v) { return friction(v, 1, 2); }},
+    Kind{"friction_fast", 0, true, true, [](const JointView& v) { return friction(v, 2, 3); }},
 };
 
 /// What is computed of a campaign: a function of its plan.
@@ -262,7 +274,7 @@ constexpr std::array descriptor_names = {
     "common_rotation_path",  // likewise
     "common_half_ratio",     // likewise
     "common_turning_offset", // over joints and sides
-    "common_friction",       // T / N in slides that last, of all joints together
+    "common_friction",       // work of friction over that of the normal force, of all joints together
     "decay_slow",            // ln of the rotation speed after a closure over that before, slow closures of all joints
     "decay_fast",            // fast ones
     "period_low",            // mean ln of the duration of an excursion over the rigid block's, low ones
@@ -302,9 +314,8 @@ std::vector<double> descriptors_of(const Campaign& campaign, const Plan& plan, c
         spread += repeats.path_square;
         freedom += repeats.freedom;
     }
-    double slides = 0, tangential = 0, normal = 0;
+    double tangential = 0, normal = 0;
     for (std::size_t k = 0; k < slip_classes; ++k) {
-        slides += total.slides[k];
         tangential += total.tangential[k];
         normal += total.normal[k];
     }
@@ -319,7 +330,7 @@ std::vector<double> descriptors_of(const Campaign& campaign, const Plan& plan, c
             common["rotation_path"].value(),
             common["half_ratio"].value(),
             turning.value(),
-            slides >= fewest_slides ? tangential / normal : missing,
+            normal > 0 ? tangential / normal : missing,
             decay(0),
             decay(1),
             period(0),

@@ -16,7 +16,10 @@
 ///   range_over_path    range of the slip over its path
 ///   open_time          part of the time, by side
 ///   turning_offset     how far inside the corner the joint turns, over the half width, by side
-///   friction_slow, _medium, _fast   T / N in slides that last, by slip speed (columns alone)
+///   friction           sum of -T ds over sum of N |ds| of all slips ds; also friction_slow, _medium, _fast by slip
+///   speed
+///                      (columns alone). Most slip happens in impacts, so that this is the joint's friction in part
+///                      only
 /// of each joint        order_slope: change of ln slip path with the number of runs before, within motions
 /// of each joint, and so of the block on it: drag_score, eccentricity_score of all that the joint carries, from the
 ///                      balance of moments about its corners (columns alone)

@@ -126,7 +126,7 @@ void JointForces::add(std::size_t joint, const JointFaces& faces, const JointSer
     const std::array<double, slip_classes> speeds = slip_class_speeds(specimen_);
     const double h = 2 * run.spacing_s, weight = weight_n_[joint], g = specimen_.gravity_m_s2;
     const double half_width = std::min(faces.narrower_m(), faces.upper_half_width_m);
-    const double least = std::max(speeds[0], slip_noise * series.slip_noise_m / h);
+    const double least = slip_noise * series.slip_noise_m;
     const auto slip = [&](std::size_t i) { return (series.slip_m[i] + series.slip_m[i + 1]) / 2; };
     for (std::size_t i = 2; i + 3 < run.bins; i += 2) {
         const bool usable =
@@ -134,9 +134,8 @@ void JointForces::add(std::size_t joint, const JointFaces& faces, const JointSer
                         run.usable.begin() + static_cast<std::ptrdiff_t>(i + 4), [](char u) { return u; });
         if (!usable)
             continue;
-        const double before = (slip(i) - slip(i - 2)) / h, after = (slip(i + 2) - slip(i)) / h;
-        const bool slides =
-            series.has_slip && std::min(std::fabs(before), std::fabs(after)) > least && before * after > 0;
+        const double moved = slip(i + 2) - slip(i - 2); // in 2 h
+        const bool slides = series.has_slip && std::fabs(moved) > least;
         int open = 0;
         for (std::size_t k = i - 2; k < i + 4; ++k)
             open += series.rotation_rad[k] > open_rad ? 1 : series.rotation_rad[k] < -open_rad ? -1 : 0;
@@ -171,16 +170,14 @@ void JointForces::add(std::size_t joint, const JointFaces& faces, const JointSer
         const Motion face = owner < 0 ? Motion{} : motion_at(run, i, static_cast<std::size_t>(owner));
         const double normal = (force_y * face.cosine - force_x * face.sine) / weight;
         const double tangential = (force_x * face.cosine + force_y * face.sine) / weight;
-        if (normal < least_normal)
-            continue;
         if (slides) {
-            const double speed = std::fabs(before + after) / 2;
+            const double speed = std::fabs(moved) / (2 * h);
             const std::size_t kind = speed < speeds[1] ? 0 : speed < speeds[2] ? 1 : 2;
-            sums.slides[kind] += 1;
-            sums.tangential[kind] -= (before > 0 ? 1 : -1) * tangential;
-            sums.normal[kind] += normal;
+            sums.slipped[kind] += std::fabs(moved) / 2;
+            sums.tangential[kind] -= moved / 2 * tangential;
+            sums.normal[kind] += std::fabs(moved) / 2 * normal;
         }
-        if (rocks) {
+        if (rocks && normal >= least_normal) {
             sample.value = sign * moment / (weight * half_width);
             sample.normal = normal;
             samples_[joint].push_back(std::move(sample));

@@ -1,5 +1,5 @@
 #pragma once
-/// What Newton's law says of the joints at intervals of 0.08 sqrt(height / g): friction in slides that last, and the
+/// What Newton's law says of the joints at intervals of 0.08 sqrt(height / g): the work of friction, and the
 /// moment about the corner on which a joint rocks, with what drag and eccentricities would make of it.
 ///
 /// A joint's force follows from the accelerations of the blocks that it carries, where each block stands on one other
@@ -26,7 +26,7 @@ public:
     /// @pre carried_blocks(specimen) is not empty
     explicit JointForces(const Specimen& specimen);
 
-    /// Adds the slides of a joint in a run to its sums, and its rocking samples to those it has.
+    /// Adds the work of friction of a joint in a run to its sums, and its rocking samples to those it has.
     /// @param open_rad beyond which the joint is open
     void add(std::size_t joint, const JointFaces& faces, const JointSeries& series, const CoarseRun& run,
              double open_rad, JointSums& sums);

@@ -254,7 +254,7 @@ JointSums& JointSums::operator+=(const JointSums& o)
         for (std::size_t k = 0; k < turning[side].size(); ++k)
             turning[side][k] += o.turning[side][k];
     for (std::size_t k = 0; k < slip_classes; ++k) {
-        slides[k] += o.slides[k];
+        slipped[k] += o.slipped[k];
         tangential[k] += o.tangential[k];
         normal[k] += o.normal[k];
     }
@@ -275,7 +275,7 @@ void JointSums::scale(double factor)
     for (auto& side : turning)
         for (double& value : side)
             value *= factor;
-    for (const auto member : {&JointSums::slides, &JointSums::tangential, &JointSums::normal})
+    for (const auto member : {&JointSums::slipped, &JointSums::tangential, &JointSums::normal})
         for (double& value : this->*member)
             value *= factor;
 }

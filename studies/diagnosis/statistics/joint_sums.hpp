@@ -31,6 +31,7 @@ struct RigidRocking {
 /// @param above the blocks that the joint carries, as one
 RigidRocking rigid_rocking(const Specimen& specimen, std::size_t joint, const std::vector<int>& above);
 
+/// Classes of slip speed.
 inline constexpr std::size_t slip_classes = 3;
 
 struct JointSums {
@@ -54,14 +55,15 @@ struct JointSums {
     /// Regression of the lift on |rotation|, by side: n, sum r, sum z, sum r2, sum r z.
     std::array<std::array<double, 5>, 2> turning{};
     double rotation_variance = 0; ///< of the rotations' noise, mean over the runs
-    /// By class of slip speed: number, -sign T, N in sustained slides, over the weight that the joint carries at rest.
-    std::array<double, slip_classes> slides{}, tangential{}, normal{};
+    /// By class of slip speed: sums over slips of their length times -sign T, and times N, over the weight that the
+    /// joint carries at rest [m]; length of these slips.
+    std::array<double, slip_classes> tangential{}, normal{}, slipped{};
 
     JointSums& operator+=(const JointSums& other);
     void scale(double factor);
 };
 
-/// All but the slides.
+/// All but the work of friction.
 /// @param open_rad beyond which the joint is open   @param time_s time scale of the specimen
 JointSums joint_sums(const JointFaces& faces, const JointSeries& series, const CoarseRun& run,
                      const RigidRocking& rigid, double open_rad, double time_s);

@@ -83,6 +83,13 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             e.corner_wear_m_rad = size;
         else if (m == "wedge")
             e.wedge_rad = size;
+        else if (m == "rate_damping")
+            e.rate_s_m += size;
+        else if (m == "face_damping") { // beside the joint's own dashpot, at the ends of the face
+            const double own = joint.normal_damping_n_s_m;
+            e.face_damping = (e.face_damping * own + size) / (own + size);
+            joint.normal_damping_n_s_m = own + size;
+        }
     }
     for (std::size_t b = 0; b < built.block.size(); ++b) {
         if (cause.block >= 0 && static_cast<std::size_t>(cause.block) != b)
@@ -116,6 +123,9 @@ void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Stud
     case Mechanism::corner_loss:
         set(spec, "left", cause.side == "right" ? 0 : size);
         set(spec, "right", cause.side == "left" ? 0 : size);
+        break;
+    case Mechanism::face_damping: // a study has no dashpot of one joint alone: that of the joint, at the ends
+        set(spec, "share", 1);
         break;
     case Mechanism::dowel:
         set(spec, "stiffness", yields(cause) ? size / cause.fixed : size);

@@ -242,8 +242,9 @@ void apply_law(const HealthyLaw& law, const Specimen& specimen, const SpecimenSt
     const double impact = impact_part * std::sqrt(specimen.gravity_m_s2 * height);
     r.extended = true;
     for (Joint& joint : r.joints) {
-        joint.extension.face_damping = law.face_share;
-        joint.extension.rate_s_m = law.rate / impact;
+        JointExtension& e = joint.extension;
+        e.face_damping += (1 - e.face_damping) * law.face_share;
+        e.rate_s_m += law.rate / impact;
     }
     const std::vector<double> weights = rest_weights(specimen);
     for (std::size_t j = 0; j < built.bed.size(); ++j) {

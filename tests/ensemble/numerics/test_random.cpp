@@ -368,3 +368,19 @@ TEST(Distribution, RefusesLimitsThatLeaveNothing)
     p.min = 2;
     EXPECT_THROW(Distribution(p, 0.5), InputError);
 }
+
+TEST(NormalDraw, IsTheQuantileOfTheNormalDistribution)
+{
+    // tables: Abramowitz and Stegun, Handbook of Mathematical Functions, 26.5
+    EXPECT_NEAR(to_normal(0.975), 1.959963984540054, 1e-14);
+    EXPECT_NEAR(to_normal(0.999), 3.090232306167813, 1e-14);
+    EXPECT_EQ(to_normal(0.5), 0);
+    // the inverse of the distribution function, by the error function of the C library
+    for (double u = 0x1p-53; u < 0.5; u = u < 0.01 ? 3 * u : u + 0.0071) {
+        const double z = to_normal(u);
+        EXPECT_NEAR(0.5 * std::erfc(-z / std::sqrt(2.0)) / u, 1, 1e-14 * (1 + z * z)) << u;
+        if (u > 1e-3) {
+            EXPECT_NEAR(to_normal(1 - u), -z, 1e-12 * std::fabs(z)) << u;
+        }
+    }
+}

@@ -56,7 +56,7 @@ double true_friction(const hidden::VirtualCampaign& made)
 void expect_the_same(const Campaign& campaign, const FittedParameter& friction)
 {
     DiagnosisOptions options;
-    options.nulls = 0;
+    options.plan = EnsemblePlan::with(0);
     options.run = {best_isa(), threads};
     Observer observer;
     const std::optional<Diagnosis> d = diagnose(

@@ -235,7 +235,7 @@ TEST(ExtendedStudy, HasWhatTheBaseDoesAndRuns)
     campaign.source = (folder / "campaign.h5").string();
     write_campaign(campaign, campaign.source);
     DiagnosisOptions options;
-    options.nulls = 0; // only direct tests name causes
+    options.plan = EnsemblePlan::with(0); // only direct tests name causes
     options.run = {best_isa(), 1};
     Observer observer;
     const std::optional<Diagnosis> d = diagnose(

@@ -95,7 +95,8 @@ TEST(LawFamily, EveryLawStands)
     HealthyScatter scatter;
     scatter.laws = draw_laws({}, 5, 0, 24);
     Observer observer;
-    const VirtualCampaigns made = virtual_campaigns(campaign, study, 5, 0, 24, scatter, {}, {best_isa(), 1}, observer);
+    const VirtualCampaigns made =
+        virtual_campaigns(VirtualLaboratory(campaign), study, 5, 0, 24, scatter, {}, {best_isa(), 1}, observer);
     ASSERT_TRUE(made.complete);
     EXPECT_EQ(made.laws, scatter.laws);
     const auto moved = [](const Series& series, std::size_t blocks) {
@@ -131,8 +132,8 @@ TEST(LawFamily, ASofteningLawOfPointsIsSteppedSafely)
     for (std::size_t i = 0; i < run.time_s.size(); ++i) // a jolt
         run.base_displacement_m.values[i] = 0.002 * std::sin(std::min(30 * run.time_s[i], std::numbers::pi));
     run.base_acceleration_m_s2.values.clear();
-    const VirtualCampaigns made =
-        virtual_campaigns(campaign, default_study(campaign), 1, 0, 1, scatter, {}, {best_isa(), 1}, observer);
+    const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(campaign), default_study(campaign), 1, 0, 1,
+                                                    scatter, {}, {best_isa(), 1}, observer);
     EXPECT_FALSE(made.campaigns[0].runs[0].collapsed.value_or(true));
 }
 
@@ -185,7 +186,8 @@ TEST(LawFamily, CampaignsAreTheSameForEveryNumberOfThreads)
     Observer observer;
     const auto seen = [&](std::uint64_t first, std::uint64_t count, const HealthyScatter& how, RunOptions run) {
         std::vector<double> all;
-        for (const Campaign& c : virtual_campaigns(campaign, study, 1, first, count, how, {}, run, observer).campaigns)
+        for (const Campaign& c :
+             virtual_campaigns(VirtualLaboratory(campaign), study, 1, first, count, how, {}, run, observer).campaigns)
             for (const MeasuredRun& r : c.runs)
                 for (const double x : r.blocks.x_m.values)
                     all.push_back(std::isfinite(x) ? x : 1e9); // after a collapse
