@@ -46,13 +46,14 @@ Rows rows_of(const Campaign& measured, const Study& study, std::uint64_t seed, s
     Rows rows;
     Observer observer;
     const TrackScales scales = track_scales(measured);
+    const VirtualLaboratory laboratory(measured);
     for (std::size_t k = 0; k < laws.size(); k += together) {
         HealthyScatter scatter;
         scatter.laws.assign(laws.begin() + static_cast<std::ptrdiff_t>(k),
                             laws.begin() + static_cast<std::ptrdiff_t>(std::min(k + together, laws.size())));
         const auto begin = std::chrono::steady_clock::now();
-        const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(measured), study, seed, first + k,
-                                                        scatter.laws.size(), scatter, {}, run, observer);
+        const VirtualCampaigns made =
+            virtual_campaigns(laboratory, study, seed, first + k, scatter.laws.size(), scatter, {}, run, observer);
         rows.simulated_s += seconds_since(begin);
         for (const Campaign& campaign : made.campaigns) {
             // nothing is hidden in the base: the file's motion is right, and needs no tests

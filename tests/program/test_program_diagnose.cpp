@@ -120,7 +120,7 @@ TEST_F(Diagnose, ItSaysWhatItCouldNotJudge)
     const JsonValue json = json_of(ended);
     EXPECT_EQ(json["verdict"].text, "none");
     EXPECT_NE(json["text"].text.find("Not tested: "), std::string::npos) << json["text"].text;
-    for (const char* part : {"balance of forces", "the null distribution"})
+    for (const char* part : {"balance of forces", "joints and blocks"})
         EXPECT_NE(json["text"].text.find(part), std::string::npos) << json["text"].text;
     EXPECT_EQ(names(), (Words{"campaign.h5", "d.h5"}));
 

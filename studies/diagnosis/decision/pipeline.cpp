@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t most_wrong = 20;
 constexpr std::size_t most_features = 8;
+constexpr std::size_t most_candidates = 12;
 
 /// Whether a cause is a vertical motion that does not follow the horizontal one: no model has its record.
 bool unrecorded_vertical(const Cause& cause)
@@ -278,12 +279,14 @@ void Pipeline::state_verdict()
         d_.missing.push_back(missing);
 }
 
-/// One for each mechanism and place: as it was named first, else as it is in the set, else as it was judged.
+/// One for each mechanism and place: as it was named first, else as it is in the set, else as it was judged. Of those
+/// that are rejected the likeliest.
 void Pipeline::list_candidates()
 {
     std::set<std::pair<std::string, std::string>> told;
     const auto add = [&](const JudgedCause& j, Decision decision) {
-        if (told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
+        const bool listed = decision != Decision::rejected || d_.candidates.size() < most_candidates;
+        if (listed && told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
             d_.candidates.push_back(
                 candidate_of(j, measured_, decision, ensemble_.has_value(), decided_.unexplained.has_value()));
     };

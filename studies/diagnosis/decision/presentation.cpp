@@ -64,16 +64,14 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         if (j.fit.gain_by_run[r] != 0)
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
     c.decision = decision;
-    const std::string where = c.why.empty() ? "" : c.why + "; ";
-    const std::string found = j.channel == Channel::direct
-                                  ? "found by a direct test"
-                                  : fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
+    const std::string found = j.channel == Channel::direct ? "found by a direct test"
+                              : decision != Decision::rejected
+                                  ? fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
                                                 "{:.1f} (95 %)",
-                                                j.fit.gain, j.chance95);
-    c.why = where + (j.why_not.empty() ? found : j.why_not);
-    if (decision == Decision::rejected && j.why_not.empty())
-        c.why += unexplained ? "; a force of unknown kind has a significantly larger gain"
-                             : "; the named cause explains the same data better";
+                                                j.fit.gain, j.chance95)
+                              : unexplained ? "a force of unknown kind has a significantly larger gain"
+                                            : "another cause explains the same data better";
+    c.why += (c.why.empty() ? "" : "; ") + (j.why_not.empty() ? found : j.why_not);
     return c;
 }
 

@@ -88,14 +88,12 @@ struct Candidate {
     MaybeReal size;        ///< best fit
     MaybeReal low;         ///< 95 % interval
     MaybeReal high;
-    MaybeReal neutral;     ///< value at which the baseline is recovered
-    MaybeReal gain_nats;   ///< log likelihood gained over the calibrated baseline
-    MaybeReal null95;      ///< 95 % quantile of that gain where the mechanism is absent [nats]
-    MaybeReal p;           ///< probability of such a gain where it is absent
-    MaybeReal probability; ///< of being the cause, among the candidates judged, given that one of them is
-    std::vector<std::string> forms_agreed;    ///< contact forms under which it was found too: "area", "two_corner"
-    std::vector<std::string> forms_disagreed; ///< contact forms under which it was not
-    std::vector<Evidence> evidence;           ///< by run
+    MaybeReal neutral;              ///< value at which the baseline is recovered
+    MaybeReal gain_nats;            ///< log likelihood gained over the calibrated baseline
+    MaybeReal null95;               ///< 95 % quantile of that gain where the mechanism is absent [nats]
+    MaybeReal p;                    ///< probability of such a gain where it is absent
+    MaybeReal probability;          ///< of being the cause, among the candidates judged, given that one of them is
+    std::vector<Evidence> evidence; ///< by run
     Decision decision = Decision::not_judged;
     std::string why; ///< of the decision
     friend bool operator==(const Candidate&, const Candidate&) = default;

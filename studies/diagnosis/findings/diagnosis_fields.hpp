@@ -70,8 +70,6 @@ void visit_fields(std::type_identity<Candidate>, F f)
     f("probability", &Candidate::probability);
     f("decision", &Candidate::decision);
     f("why", &Candidate::why);
-    f("forms_agreed", &Candidate::forms_agreed);
-    f("forms_disagreed", &Candidate::forms_disagreed);
     f("evidence", &Candidate::evidence);
 }
 

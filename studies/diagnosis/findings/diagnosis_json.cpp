@@ -69,8 +69,6 @@ Json candidate(const Candidate& c)
         .member("p", known(c.p))
         .member("decision", to_string(c.decision))
         .member("why", c.why)
-        .member("forms_agreed", texts(c.forms_agreed))
-        .member("forms_disagreed", texts(c.forms_disagreed))
         .member("evidence", objects(c.evidence, evidence));
 }
 

@@ -190,16 +190,10 @@ private:
     {
         std::vector<Html> reasons;
         for (const Candidate& c : d_.candidates) {
-            std::string text = c.why;
-            if (!c.forms_agreed.empty())
-                text += (text.empty() ? "" : " ") + ("Found with contact form " + list_words(c.forms_agreed)) + ".";
-            if (!c.forms_disagreed.empty())
-                text +=
-                    (text.empty() ? "" : " ") + ("Not found with contact form " + list_words(c.forms_disagreed)) + ".";
-            if (text.empty())
+            if (c.why.empty())
                 continue;
             Html line = Html::ready("<b>" + html_escaped(c.mechanism + ", " + c.place) + ":</b> ");
-            line += text;
+            line += c.why;
             reasons.push_back(line);
         }
         if (reasons.empty())

@@ -77,8 +77,6 @@ inline Diagnosis filled_diagnosis()
                     4.4,
                     0.0005,
                     0.83,
-                    {"area", "two_corner"},
-                    {"points"},
                     {},
                     Decision::named,
                     "It explains every run that slides."};
@@ -95,13 +93,11 @@ inline Diagnosis filled_diagnosis()
                        5.1,
                        0.002,
                        0.17,
-                       {"area"},
-                       {},
                        {{"004", 28.1, ""}},
                        Decision::in_set,
                        "It slips as fast in these runs."};
-    Candidate drag{"drag", "block 6", "drag", "N s2/m2",          0.002, {}, 0.02, 0.0, 0.3, 4.1, 0.44, 0.0,
-                   {},     {},        {},     Decision::rejected, ""};
+    Candidate drag{"drag", "block 6", "drag", "N s2/m2",          0.002, {}, 0.02, 0.0, 0.3, 4.1,
+                   0.44,   0.0,       {},     Decision::rejected, ""};
     Candidate vertical{"vertical_motion",
                        "base",
                        "ratio",
@@ -110,8 +106,6 @@ inline Diagnosis filled_diagnosis()
                        {},
                        {},
                        0.0,
-                       {},
-                       {},
                        {},
                        {},
                        {},
