@@ -3,6 +3,8 @@
 # the diagnoses. An interrupted run continues: existing campaigns and diagnoses are reused.
 #
 #   scripts/hidden.sh A..B                    seeds A to B, in results/hidden/A..B; minutes for each campaign
+#   scripts/hidden.sh each SEED               one campaign with each effect, from this seed on, in the order of
+#                                             `hidden_campaigns effects`; in results/hidden/each_SEED
 #   scripts/hidden.sh A..B -- OPTION...       options for every `stylobate diagnose`
 #
 # The tables go to the terminal and to results/hidden/A..B/score.md. Exit status: that of the score; a failed
@@ -10,8 +12,12 @@
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
-if [[ $# -lt 1 || ! $1 =~ ^[0-9]+(\.\.[0-9]+)?$ ]]; then
-    echo "scripts/hidden.sh: give the seeds as A..B, for example 1000..1059" >&2
+each=
+if [[ ${1:-} == each && ${2:-} =~ ^[0-9]+$ ]]; then
+    each=$2
+    shift
+elif [[ $# -lt 1 || ! $1 =~ ^[0-9]+(\.\.[0-9]+)?$ ]]; then
+    echo "scripts/hidden.sh: give the seeds as A..B, for example 1000..1059, or each SEED" >&2
     exit 2
 fi
 seeds=$1
@@ -23,9 +29,17 @@ cmake --build build/release --target stylobate hidden_campaigns --parallel "$(np
 hidden=build/release/tests/hidden/hidden_campaigns
 stylobate=build/release/studies/stylobate
 
-place=results/hidden/$seeds
+place=results/hidden/${each:+each_}$seeds
 mkdir -p "$place/diagnoses"
-"$hidden" generate --seeds "$seeds" --out "$place"
+if [[ -n $each ]]; then
+    mapfile -t effects < <("$hidden" effects)
+    seeds=$each..$((each + ${#effects[@]} - 1))
+    for k in "${!effects[@]}"; do
+        "$hidden" generate --seeds $((each + k)) --effect "${effects[k]}" --out "$place"
+    done
+else
+    "$hidden" generate --seeds "$seeds" --out "$place"
+fi
 for ((seed = ${seeds%%..*}; seed <= ${seeds##*..}; ++seed)); do
     said=$place/diagnoses/$seed
     [[ -e $said.json ]] && continue

@@ -122,6 +122,10 @@ void LaneSet::clear(int lane)
     BaseMotion{}.store(parameters_, lane);
     // an empty lane must not divide by a rate of zero
     parameters_.cycles_per_step[lane] = 1;
+    for (int k = 0; k < topology_.blocks; ++k)
+        bundle_.at(OfBlock::half_width, k, lane) = empty_half_width;
+    for (int k = 0; k < topology_.joints; ++k)
+        bundle_.at(OfJoint::depth_limit, k, lane) = empty_depth_limit;
     first_step_[lane] = 0;
     if (single_)
         single_->take(lane);

@@ -32,6 +32,11 @@ public:
     ///         model
     LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);
 
+    /// What an empty lane has in place of blocks: faces of this half width, that may touch so deep [m]. The closed form
+    /// of every contact form holds for them, so that the bundle does not take the general overlap, which is many times
+    /// slower. Without stiffness they carry no force.
+    static constexpr double empty_half_width = 1, empty_depth_limit = 1;
+
     int lanes() const { return static_cast<int>(lanes_); }
     int active() const { return active_; }
     bool free(int lane) const { return !places_[static_cast<std::size_t>(lane)].busy; }

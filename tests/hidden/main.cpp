@@ -189,6 +189,8 @@ int main(int argc, char** argv)
         ->required();
     judge_them->add_option("--markdown", page, "file for a copy of the tables");
 
+    auto* list = app.add_subcommand("effects", "prints the names of all effects, those outside the list last");
+
     std::string calibrations;
     auto* cover = app.add_subcommand("coverage", "coverage of the intervals of the friction in calibrations");
     cover->add_option("--answers", answers, "folder of SEED.toml")->required();
@@ -219,6 +221,10 @@ int main(int argc, char** argv)
             if (nothing || !effects.empty())
                 wish.effects = effects;
             generate(parse_seeds(seeds), out, wish);
+        } else if (list->parsed()) {
+            for (const auto* names : {&listed_names(), &outside_names()})
+                for (const std::string& name : *names)
+                    fmt::print("{}\n", name);
         } else if (cover->parsed()) {
             coverage_of_folder(answers, calibrations, page);
         } else {

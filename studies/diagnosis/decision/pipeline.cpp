@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -240,6 +241,14 @@ bool Pipeline::simulate_campaigns()
     count_.block_steps += ensemble_->ensemble.block_steps;
     if (!ensemble_->ensemble.complete)
         return false;
+    const std::vector<double>& likeness = ensemble_->by_statistics.null_weights;
+    const double least_p = 1 / (1 + std::accumulate(likeness.begin(), likeness.end(), 0.0));
+    if (least_p > EnsembleRule{}.named)
+        add_missing(
+            d_, "joints and blocks",
+            fmt::format("Too few healthy campaigns were simulated (--nulls {}): the smallest p-value that a cause "
+                        "can have is {:.2g}, and {} or less is needed.",
+                        plan.nulls, least_p, EnsembleRule{}.named));
     d_.nulls.push_back({"area, two_corner and points", plan.healthy() - plan.scouts(),
                         "healthy contact laws of a wide family that are like the measured one, friction of the joints, "
                         "widths, masses and places of the "

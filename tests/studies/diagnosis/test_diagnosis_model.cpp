@@ -84,6 +84,7 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
     Cause yielding{"dowel", "joint 1", "yield_n", "N", 0, 1};
     yielding.fixed = 2e-4; // the slip at which it yields
     causes.push_back(yielding);
+    causes.push_back({"rate_damping", "joint 1", "rate_s_m", "s/m", 0, 1});
     for (const Cause& cause : causes) {
         SCOPED_TRACE(cause.label());
         mechanisms.insert(cause.mechanism);
@@ -113,6 +114,7 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
             EXPECT_EQ(a.chip_left_m, b.chip_left_m) << j;
             EXPECT_EQ(a.chip_right_m, b.chip_right_m) << j;
             EXPECT_EQ(a.corner_wear_m_rad, b.corner_wear_m_rad) << j;
+            EXPECT_EQ(a.rate_s_m, b.rate_s_m) << j;
             changed =
                 changed || !(a == plain.joints[j].extension) || applied.joints[j].friction != plain.joints[j].friction;
         }
@@ -226,6 +228,27 @@ Campaign riding(double second, double vertical)
         campaign.runs.push_back(std::move(run));
     }
     return campaign;
+}
+
+TEST_P(CauseModel, ADashpotOfOneJointIsAtTheEndsOfItsFaceInAStudy)
+{
+    const SpecimenStructure built = build_specimen(GetParam() ? small_colonnade() : sample_specimen());
+    const Cause dashpot{"face_damping", "joint 1", "dashpot_n_s_m", "N s/m", 0, 1};
+    const Study baseline = study_of(built);
+    const Realization plain = Sampler(baseline, nullptr).realization(0);
+    Realization applied = plain;
+    apply_cause({dashpot, 40}, built, applied);
+    Study extended = baseline;
+    add_mechanism({dashpot, 40}, built, extended);
+    // a study has one damping ratio: the strength is that of all joints
+    const Realization sampled = Sampler(parse_study(study_text(extended), "extended.toml"), nullptr).realization(0);
+    const auto here = static_cast<std::size_t>(built.bed[1]);
+    for (std::size_t j = 0; j < plain.joints.size(); ++j) {
+        EXPECT_EQ(sampled.joints[j].extension.face_damping, j == here ? 1 : 0) << j;
+        EXPECT_EQ(applied.joints[j].normal_damping_n_s_m, plain.joints[j].normal_damping_n_s_m + (j == here ? 40 : 0))
+            << j;
+    }
+    EXPECT_DOUBLE_EQ(applied.joints[here].extension.face_damping, 40 / applied.joints[here].normal_damping_n_s_m);
 }
 
 TEST(ExtendedStudy, HasWhatTheBaseDoesAndRuns)
