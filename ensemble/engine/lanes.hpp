@@ -35,7 +35,7 @@ public:
     /// What an empty lane has in place of blocks: faces of this half width, that may touch so deep [m]. The closed form
     /// of every contact form holds for them, so that the bundle does not take the general overlap, which is many times
     /// slower. Without stiffness they carry no force.
-    static constexpr double empty_half_width = 1, empty_depth_limit = 1;
+    static constexpr double empty_half_width = 0.01, empty_depth_limit = 1;
 
     int lanes() const { return static_cast<int>(lanes_); }
     int active() const { return active_; }

@@ -133,7 +133,7 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
             EXPECT_EQ(dowel.dowel_yield_n, sized.size);
         }
     }
-    EXPECT_EQ(mechanisms.size(), 11u); // the eight of the balance and three more
+    EXPECT_EQ(mechanisms.size(), 12u); // the eight of the balance and four more
 }
 
 /// The distortion as `TableDistortion` defines it, of a sine of unit amplitude at a phase.
@@ -241,7 +241,7 @@ TEST_P(CauseModel, ADashpotOfOneJointIsAtTheEndsOfItsFaceInAStudy)
     Study extended = baseline;
     add_mechanism({dashpot, 40}, built, extended);
     // a study has one damping ratio: the strength is that of all joints
-    const Realization sampled = Sampler(parse_study(study_text(extended), "extended.toml"), nullptr).realization(0);
+    const Realization sampled = Sampler(extended, nullptr).realization(0);
     const auto here = static_cast<std::size_t>(built.bed[1]);
     for (std::size_t j = 0; j < plain.joints.size(); ++j) {
         EXPECT_EQ(sampled.joints[j].extension.face_damping, j == here ? 1 : 0) << j;
