@@ -101,17 +101,18 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
     const ForceTest& scores = ensemble.forces;
     if (scores.unknown.variant < 0 || scores.unknown.p_value > named_at)
         return std::nullopt;
-    const double gain = nats_of_score(scores.unknown.score);
-    if (gain <= nats_of_score(quantile95(scores.unknown.nulls)) + rule.structure_clear ||
-        gain <= nats_of_score(scores.cause.score) + rule.structure_better)
+    if (nats_of_score(scores.unknown.score) <= nats_of_score(quantile95(scores.unknown.nulls)) + rule.structure_clear)
         return std::nullopt;
+    double listed = 0; // what a known cause explains of the same samples
+    for (const CauseFit& fit : balance.causes)
+        listed = std::max(listed, fit.gain);
     const Structure& wanted =
         ensemble.scored.structures[static_cast<std::size_t>(scores.unknown.variant) - ensemble.scored.causes.size()];
     for (const StructureFit& fit : balance.structures) {
         if (fit.structure.text != wanted.text || fit.gain_by_run.size() < 2)
             continue;
         const double most = *std::max_element(fit.gain_by_run.begin(), fit.gain_by_run.end());
-        if (fit.gain - most > rule.without_best * fit.gain)
+        if (fit.gain > listed + rule.structure_better && fit.gain - most > rule.without_best * fit.gain)
             return fit;
     }
     return std::nullopt;

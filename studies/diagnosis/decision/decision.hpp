@@ -11,9 +11,10 @@
 ///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
 ///      probability of one half, nothing is named: the cause is called possible.
 ///   4  A second cause is judged with the first one given.
-///   5  A force of no known kind whose score is far beyond healthy campaigns' and all causes', and not by one run
-///      alone, makes the verdict 'unexplained'; so does what the best cause leaves of the statistics, beyond 99 % of
-///      healthy and of labelled campaigns.
+///   5  A force of no known kind whose score is far beyond healthy campaigns', that explains much more of the balance
+///   of
+///      forces than any cause, and not by one run alone, makes the verdict 'unexplained'; so does what the best cause
+///      leaves of the statistics, beyond 99 % of healthy and of labelled campaigns.
 
 #include "studies/diagnosis/decision/evidence.hpp"
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
@@ -31,7 +32,7 @@ inline constexpr double least_probability = 0.5;
 struct DecisionRule {
     double without_best = 0.4;   ///< part of the gain that must be left without the best run
     double structure_clear = 12; ///< nats beyond the 95 % quantile of healthy campaigns, for 'unexplained'
-    double structure_better = 8; ///< nats by which no mechanism may fall short of it
+    double structure_better = 8; ///< nats by which it must explain more of the balance of forces than every cause
 };
 
 /// A cause as it was judged.

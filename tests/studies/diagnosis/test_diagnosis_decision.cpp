@@ -176,7 +176,7 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     EXPECT_EQ(verdict(with_force(5, {60, 0, 0})), Verdict::none);
     EXPECT_EQ(verdict(with_force(2, {20, 20, 20})), Verdict::none);
     auto rival = with_force(5, {20, 20, 20});
-    rival.second.forces.cause.score = 4.8;
+    rival.first.causes = {fit_of("joint_friction", 55)}; // of 60 nats
     EXPECT_EQ(verdict(rival), Verdict::none);
     auto usual = with_force(5, {20, 20, 20});
     usual.second.forces.unknown.p_value = 0.05;
