@@ -118,13 +118,11 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
     return std::nullopt;
 }
 
-/// What the named cause leaves of the set's probability goes to the others in the set, by their gains.
-void share_what_remains(double set_probability, Decided& out)
+/// What the best cause leaves of the set's probability goes to the others in the set, by their gains.
+void share_what_remains(const EnsembleVerdict& verdict, Decided& out)
 {
-    double left = 0, sum = 0, most = 0;
-    for (const JudgedCause& j : out.named)
-        if (j.channel != Channel::direct)
-            left = std::max(left, set_probability - j.probability);
+    const double left = verdict.set_probability - verdict.probability;
+    double sum = 0, most = 0;
     for (const JudgedCause& j : out.in_set)
         most = std::max(most, j.fit.gain);
     for (const JudgedCause& j : out.in_set)
@@ -163,7 +161,7 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         return;
     JudgedCause best = judged(ensemble, static_cast<std::size_t>(verdict.best),
                               verdict.causes[static_cast<std::size_t>(verdict.best)]);
-    const bool named = may_be_named(verdict, best) && !contains(out.named, best.fit.cause.mechanism);
+    const bool named = may_be_named(verdict, best);
     std::vector<std::size_t> order(ensemble.causes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -172,10 +170,9 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         if (static_cast<int>(c) == verdict.best)
             continue;
         JudgedCause j = judged(ensemble, c, verdict.causes[c]);
-        const std::string& mechanism = j.fit.cause.mechanism;
         const bool rival =
             std::find(verdict.set.begin(), verdict.set.end(), ensemble.mechanism_of(j.fit.cause)) != verdict.set.end();
-        if (named && rival && j.fit.gain > 0 && !contains(out.named, mechanism) && !contains(out.in_set, mechanism)) {
+        if (named && rival && j.fit.gain > 0 && !contains(out.in_set, j.fit.cause.mechanism)) {
             j.considered = true;
             out.in_set.push_back(j);
         }
@@ -196,8 +193,6 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     second.considered = true;
     second.chance = verdict.second_p_value;
     second.probability = std::min(verdict.probability, 1 - verdict.second_p_value);
-    if (contains(out.named, second.fit.cause.mechanism))
-        return;
     std::erase_if(out.in_set,
                   [&](const JudgedCause& j) { return j.fit.cause.mechanism == second.fit.cause.mechanism; });
     take_size_of_forces(balance, second);
@@ -240,7 +235,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             find_unexplained(balance, *ensemble, rule, out);
-            share_what_remains(ensemble->by_statistics.set_probability, out);
+            share_what_remains(ensemble->by_statistics, out);
         }
     }
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;

@@ -139,9 +139,9 @@ private:
 
 EnsemblePlan EnsemblePlan::with(std::uint64_t nulls)
 {
+    const EnsemblePlan all;
+    const auto part = [&](std::uint64_t of, std::uint64_t least) { return std::max(of * nulls / all.nulls, least); };
     EnsemblePlan plan;
-    const auto part = [&](std::uint64_t of, std::uint64_t least) { return std::max(of * nulls / plan.nulls, least); };
-    const EnsemblePlan all = plan;
     plan.wide = part(all.wide, 24);
     plan.pairs = std::min(part(all.pairs, 12), plan.wide);
     plan.of_each_round = part(all.of_each_round, 12);

@@ -178,9 +178,7 @@ struct LeftOut {
     std::vector<double> second_gains;               ///< of the best other mechanism, with the best cause given
 };
 
-/// @param gain_needed a labelled campaign of less gain is not named
-void look_at_left_out(const EnsembleEvidence& evidence, const EnsembleRule& rule, const Fit& fit, int fold,
-                      LeftOut& out, const std::function<bool(double)>& is_named)
+void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, LeftOut& out)
 {
     for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i) {
         if (evidence.null_fold[static_cast<std::size_t>(i)] != fold)
@@ -188,14 +186,16 @@ void look_at_left_out(const EnsembleEvidence& evidence, const EnsembleRule& rule
         const Eigen::VectorXd residual = fit.residual(evidence.nulls, i);
         const auto found = fit.likelihood().of(residual);
         const Eigen::Index best = largest(found);
-        if (!is_named) {
-            out.null_gains.push_back(found[static_cast<std::size_t>(best)].gain);
-            out.null_left.push_back(fit.left(residual, found[static_cast<std::size_t>(best)], best));
-            out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
-        }
+        out.null_gains.push_back(found[static_cast<std::size_t>(best)].gain);
+        out.null_left.push_back(fit.left(residual, found[static_cast<std::size_t>(best)], best));
+        out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
     }
-    if (!is_named)
-        return;
+}
+
+/// @param is_named says of a largest gain whether its cause is named
+void look_at_labelled(const EnsembleEvidence& evidence, const EnsembleRule& rule, const Fit& fit, int fold,
+                      LeftOut& out, const std::function<bool(double)>& is_named)
+{
     const LabelledCampaigns& labelled = evidence.labelled;
     for (std::size_t i = 0; i < labelled.cause.size(); ++i) {
         if (evidence.labelled_fold[i] != fold)
@@ -275,13 +275,13 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
         folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, out.contrasts, fold);
     });
     for (int fold = 0; fold < count; ++fold)
-        look_at_left_out(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, {});
+        look_at_nulls(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out);
     const auto chance = [&](double gain) {
         return conformal_p_value(left_out.null_gains, left_out.null_weights, gain);
     };
     const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
-        look_at_left_out(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
+        look_at_labelled(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
     out.null_weights = left_out.null_weights;

@@ -158,6 +158,15 @@ TEST(Decision, ASecondCauseStandsBehindTheFirst)
     EXPECT_TRUE(decided.in_set.empty()) << "what stands by itself is no rival";
     EXPECT_LE(decided.named[1].probability, decided.named[0].probability);
     EXPECT_EQ(decided.named[1].chance, 0.01);
+    // a second cause that is less sure leaves nothing more to the first one's rivals
+    e.by_statistics.set = {2};
+    e.by_statistics.probability = 0.6;
+    e.by_statistics.set_probability = 0.7;
+    e.by_statistics.second_p_value = 0.6;
+    const Decided unsure = decide({}, {}, &e, {});
+    EXPECT_NEAR(unsure.named[1].probability, 0.4, 1e-12);
+    ASSERT_EQ(names(unsure.in_set), Names{"dowel"});
+    EXPECT_NEAR(unsure.in_set.front().probability, 0.1, 1e-12);
 }
 
 TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
