@@ -172,7 +172,8 @@ std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& ca
     const CandidateCause& c = causes[cause];
     // from weak to strong, each side where there are two; the neutral size is that of the nulls
     const std::uint64_t sides = c.least < 0 ? 2 : 1, of_a_side = (of_each_cause + sides - 1) / sides;
-    const double part = static_cast<double>(place / sides + 1) / static_cast<double>(of_a_side);
+    const std::uint64_t rank = place / sides + 1;
+    const double part = static_cast<double>(rank) / static_cast<double>(of_a_side);
     return {static_cast<int>(cause), (place % sides == 0 ? c.most : c.least) * part};
 }
 

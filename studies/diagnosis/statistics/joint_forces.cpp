@@ -180,7 +180,7 @@ void JointForces::add(std::size_t joint, const JointFaces& faces, const JointSer
         if (rocks && normal >= least_normal) {
             sample.value = sign * moment / (weight * half_width);
             sample.normal = normal;
-            samples_[joint].push_back(std::move(sample));
+            samples_[joint].push_back(sample);
         }
     }
 }

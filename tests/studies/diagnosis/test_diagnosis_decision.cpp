@@ -62,7 +62,7 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
 }
 
 /// With a force of no known kind, of this score in units of healthy campaigns.
-std::pair<BalanceEvidence, EnsembleDiagnosis> with_force(double score, std::vector<double> by_run)
+std::pair<BalanceEvidence, EnsembleDiagnosis> with_force(double score, const std::vector<double>& by_run)
 {
     EnsembleDiagnosis e = ensemble_of(2, 1, 1);
     e.forces.unknown.variant = 0;

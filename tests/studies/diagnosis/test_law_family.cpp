@@ -184,7 +184,7 @@ TEST(LawFamily, CampaignsAreTheSameForEveryNumberOfThreads)
     HealthyScatter scatter;
     scatter.laws = draw_laws({}, 1, 0, 4);
     Observer observer;
-    const auto seen = [&](std::uint64_t first, std::uint64_t count, const HealthyScatter& how, RunOptions run) {
+    const auto seen = [&](std::uint64_t first, std::uint64_t count, const HealthyScatter& how, const RunOptions& run) {
         std::vector<double> all;
         for (const Campaign& c :
              virtual_campaigns(VirtualLaboratory(campaign), study, 1, first, count, how, {}, run, observer).campaigns)
