@@ -192,7 +192,7 @@ TEST(SyntheticLikelihoodStatistics, PValuesOfNullsAreUniform)
     }
     EXPECT_LE(alarms, 0.015 * n + 5 * std::sqrt(0.015 * n) + 5);
     for (const int count : tenths) // the held-out nulls scatter too: standard deviation 13
-        EXPECT_NEAR(count, n / 10, 60);
+        EXPECT_NEAR(count, 0.1 * n, 60);
 }
 
 TEST(SyntheticLikelihood, AShiftCommonToAllIsNoCause)
