@@ -162,6 +162,83 @@ struct OfRealizationExtension {
     };
 };
 
+/// Additional fields of a block of the rigid form (`rigid_step.hpp`).
+struct OfRigidBlock {
+    enum Field : int {
+        change_x,        ///< change of the increment by the last step [m]; step
+        change_y,        ///< [m] step
+        change_theta,    ///< [rad] step
+        mass_per_dt2,    ///< m / dt2 [kg/s2]
+        inertia_per_dt2, ///< I / dt2 [kg m2/s2]
+        free_x,          ///< increment of this step without the contacts' forces [m]; step
+        free_y,          ///< [m] step
+        free_theta,      ///< [rad] step
+        next_x,          ///< increment of this step with them [m]; step
+        next_y,          ///< [m] step
+        next_theta,      ///< [rad] step
+        count
+    };
+};
+
+/// The same of a joint, in the frame of its lower block: its ends are those of the faces' common part, left and right.
+struct OfRigidJoint {
+    enum Field : int {
+        left,        ///< 1 where the left end carries, else 0; step
+        right,       ///< the same of the right end; step
+        slips,       ///< 1 or -1: friction at its limit, on the upper block this way along the face; 0: it holds. step
+        restitution, ///< of an end's closing velocity
+        // of this step alone
+        left_x,              ///< of the left end from the lower block's centre [m]
+        right_x,             ///< of the right end [m]
+        left_arm,            ///< the same from the upper block's centre [m]
+        right_arm,           ///< [m]
+        upper_arm,           ///< of the upper block's centre above the face [m]
+        left_gap,            ///< of the faces at the left end [m]
+        right_gap,           ///< [m]
+        left_rate,           ///< what the last increments add to the gap [m]
+        right_rate,          ///< [m]
+        sliding,             ///< what they move the upper face along the lower one [m]
+        bend,                ///< second-order change of the gaps in a step [m]
+        bend_sliding,        ///< and of the sliding, at the nearer end [m]
+        usable,              ///< 1 where the faces have a common part
+        left_goal,           ///< gap that the increments with the contacts' forces are to add [m]
+        right_goal,          ///< [m]
+        sliding_goal,        ///< [m]
+        left_force,          ///< [N]
+        right_force,         ///< [N]
+        shear_force,         ///< on the upper block, along the face [N]
+        next_left,           ///< what the next increments add to the gap [m]
+        next_right,          ///< [m]
+        next_sliding,        ///< [m]
+        own,                 ///< response of the three rows to their own forces (6: 00 01 02 11 12 22) [m/N]
+        inverse = own + 6,   ///< of the pivot (9)
+        pivot = inverse + 9, ///< while it is made (9)
+        wanted = pivot + 9,  ///< right-hand side (3)
+        count = wanted + 3
+    };
+};
+
+/// Two joints that share a free block, or become related while others are eliminated.
+struct OfRigidEdge {
+    enum Field : int {
+        response,               ///< rows of the earlier joint to the forces of the later one (9) [m/N]
+        earlier = response + 9, ///< of the factor: the earlier joint's rows (9)
+        later = earlier + 9,    ///< and the later one's (9)
+        count = later + 9
+    };
+};
+
+/// Additional fields of a realization of the rigid form.
+struct OfRigid {
+    enum Field : int {
+        struck,    ///< 1 if an end met its face within the last step; step
+        share,     ///< part of this step before an end meets its face
+        passes,    ///< solutions in all; step
+        left_over, ///< steps whose contacts were found by relaxation; step
+        count
+    };
+};
+
 /// Values of one step in the table of the base's rotation.
 struct OfPitch {
     enum Field : int {
@@ -207,6 +284,11 @@ struct BundleOf {
     Number* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
     Number* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
     Number* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
+    // with the rigid form:
+    Number* rigid_blocks = nullptr; ///< (blocks x OfRigidBlock::count x lanes)
+    Number* rigid_joints = nullptr; ///< (joints x OfRigidJoint::count x lanes)
+    Number* rigid_edges = nullptr;  ///< (Topology::rigid_edges x OfRigidEdge::count x lanes)
+    Number* rigid = nullptr;        ///< (OfRigid::count x lanes)
 
     constexpr Number& at(OfBlock::Field field, int block, int lane) const
     {
@@ -233,6 +315,15 @@ struct BundleOf {
     {
         return realization_extensions[field * lanes + lane];
     }
+    constexpr Number& at(OfRigidBlock::Field field, int block, int lane) const
+    {
+        return rigid_blocks[(block * OfRigidBlock::count + field) * lanes + lane];
+    }
+    constexpr Number& at(OfRigidJoint::Field field, int joint, int lane) const
+    {
+        return rigid_joints[(joint * OfRigidJoint::count + field) * lanes + lane];
+    }
+    constexpr Number& at(OfRigid::Field field, int lane) const { return rigid[field * lanes + lane]; }
     constexpr Number& at(OfPitch::Field field, int step, int lane) const
     {
         return pitch_table[(step * OfPitch::count + field) * lanes + lane];
@@ -256,9 +347,13 @@ std::size_t bundle_registers(const Topology& topology)
                                ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
                                      OfRealizationExtension::count
                                : 0;
+    const int rigid = topology.model.rigid()
+                          ? topology.blocks * OfRigidBlock::count + topology.joints * OfRigidJoint::count +
+                                topology.rigid_edges * OfRigidEdge::count + OfRigid::count
+                          : 0;
     const int remainders = compensated<Number> ? topology.blocks * OfRemainder::count : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + neighbourhood + extensions + remainders) +
+                                    OfRealization::count + neighbourhood + extensions + rigid + remainders) +
            table_registers(topology);
 }
 
@@ -298,6 +393,12 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
         b.joint_extensions = take(topology.joints * OfJointExtension::count);
         b.realization_extensions = take(OfRealizationExtension::count);
     }
+    if (topology.model.rigid()) {
+        b.rigid_blocks = take(topology.blocks * OfRigidBlock::count);
+        b.rigid_joints = take(topology.joints * OfRigidJoint::count);
+        b.rigid_edges = take(topology.rigid_edges * OfRigidEdge::count);
+        b.rigid = take(OfRigid::count);
+    }
     if constexpr (compensated<Number>)
         b.remainders = take(topology.blocks * OfRemainder::count);
     bind_tables(topology, b, memory);
@@ -321,6 +422,10 @@ constexpr Bundle lane_of(Bundle b, int lane)
     move(b.realization_extensions);
     move(b.vertical_table);
     move(b.pitch_table);
+    move(b.rigid_blocks);
+    move(b.rigid_joints);
+    move(b.rigid_edges);
+    move(b.rigid);
     return b;
 }
 

@@ -9,14 +9,19 @@ namespace stylobate {
 enum class ContactForm : std::uint8_t {
     area,       ///< the paper's: overlap area, at its centroid
     two_corner, ///< springs at the two ends of the face
-    points      ///< Hertz-like springs at points along the face
+    points,     ///< Hertz-like springs at points along the face
+    rigid       ///< no springs: the ends of the face may not enter it (`rigid_step.hpp`)
 };
 
 struct Model {
     bool mechanisms = false; ///< an extension of a joint, a block or the base may be other than neutral
     ContactForm form = ContactForm::area;
+    constexpr bool rigid() const { return form == ContactForm::rigid; }
     /// Whether the bundle has the rows of the extensions: some belong to the forms.
-    constexpr bool extended() const { return mechanisms || form != ContactForm::area; }
+    constexpr bool extended() const
+    {
+        return mechanisms || form == ContactForm::two_corner || form == ContactForm::points;
+    }
     friend bool operator==(const Model&, const Model&) = default;
 };
 

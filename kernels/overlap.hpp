@@ -30,6 +30,25 @@ struct Overlap {
     Real elastic; ///< elastic energy over K_N [m3]: of the Winkler bed that the area law represents
 };
 
+/// Of a bed, from relative displacements and versines, without cancellation of large numbers.
+/// @param x, rise upper centre - lower centre, frame of the base; upwards less the height at rest [m]
+/// @param height of the centres at rest: the sum of the half heights [m]
+template <class Real>
+STYLOBATE_INLINE Placement<Real> bed_placement(Real lower_sine, Real lower_versine, Real upper_sine, Real upper_versine,
+                                               Real x, Real rise, Real height, Real upper_half_height)
+{
+    const Real sl = lower_sine, vl = lower_versine, su = upper_sine, vu = upper_versine, hu = upper_half_height;
+    const Real one(1.0);
+    const Real cl = one - vl, cu = one - vu;
+    const Real versine = fnma(su, sl, fnma(vl, vu, vl + vu));
+    Placement<Real> place;
+    place.sine = fms(su, cl, cu * sl);
+    place.cosine = one - versine;
+    place.x = fma(x, cl, fma(rise + height, sl, hu * place.sine));
+    place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
+    return place;
+}
+
 /// Half sizes of the two blocks [m].
 template <class Real>
 struct PairSizes {

@@ -60,6 +60,20 @@ public:
     {
         return L::load(&b_.remainders[row(i, OfRemainder::count, f)]);
     }
+    STYLOBATE_INLINE Real get(OfRigidBlock::Field f, int i) const
+    {
+        return L::load(&b_.rigid_blocks[row(i, OfRigidBlock::count, f)]);
+    }
+    /// @param k of the fields that are several numbers
+    STYLOBATE_INLINE Real get(OfRigidJoint::Field f, int i, int k = 0) const
+    {
+        return L::load(&b_.rigid_joints[row(i, OfRigidJoint::count, f + k)]);
+    }
+    STYLOBATE_INLINE Real get(OfRigidEdge::Field f, int i, int k) const
+    {
+        return L::load(&b_.rigid_edges[row(i, OfRigidEdge::count, f + k)]);
+    }
+    STYLOBATE_INLINE Real get(OfRigid::Field f) const { return L::load(&b_.rigid[f * stride()]); }
     STYLOBATE_INLINE Real base(int step) const { return L::load(&b_.base_table[step * stride()]); }
     STYLOBATE_INLINE Real vertical(int step) const { return L::load(&b_.vertical_table[step * stride()]); }
 
@@ -84,6 +98,19 @@ public:
     {
         L::store(&b_.realization_extensions[f * stride()], v);
     }
+    STYLOBATE_INLINE void put(OfRigidBlock::Field f, int i, Real v) const
+    {
+        L::store(&b_.rigid_blocks[row(i, OfRigidBlock::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfRigidJoint::Field f, int i, Real v, int k = 0) const
+    {
+        L::store(&b_.rigid_joints[row(i, OfRigidJoint::count, f + k)], v);
+    }
+    STYLOBATE_INLINE void put(OfRigidEdge::Field f, int i, Real v, int k) const
+    {
+        L::store(&b_.rigid_edges[row(i, OfRigidEdge::count, f + k)], v);
+    }
+    STYLOBATE_INLINE void put(OfRigid::Field f, Real v) const { L::store(&b_.rigid[f * stride()], v); }
     STYLOBATE_INLINE void put(OfRemainder::Field f, int i, Real v) const
     {
         L::store(&b_.remainders[row(i, OfRemainder::count, f)], v);

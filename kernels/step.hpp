@@ -132,7 +132,6 @@ private:
     {
         const Real sl = lower.sine, vl = lower.versine, su = upper.sine, vu = upper.versine;
         const Real one(1.0);
-        const Real cl = one - vl, cu = one - vu;
         const auto [below, above] = ends<Kind>(joint);
         x = get(OfJoint::reference_x, joint) + (upper.x - lower.x);
         Real rise = upper.y - lower.y;
@@ -141,15 +140,9 @@ private:
         const Real height = get(OfJoint::height, joint);
         y = rise + height;
         const Real hu = get(OfBlock::half_height, above);
-        const Real versine = fnma(su, sl, fnma(vl, vu, vl + vu));
-        Placement<Real> place;
-        place.sine = fms(su, cl, cu * sl);
-        place.cosine = one - versine;
-        place.x = fma(x, cl, fma(y, sl, hu * place.sine));
-        if constexpr (Kind::at_rest)
-            place.depth = fma(x, sl, fms(height, vl, fma(hu, versine, rise * cl)));
-        else
-            place.depth = fma(x, sl, fnma(y, cl, fma(hu, place.cosine, get(OfBlock::half_height, below))));
+        Placement<Real> place = bed_placement(sl, vl, su, vu, x, rise, height, hu);
+        if constexpr (!Kind::at_rest)
+            place.depth = fma(x, sl, fnma(y, one - vl, fma(hu, place.cosine, get(OfBlock::half_height, below))));
         return place;
     }
 

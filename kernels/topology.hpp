@@ -26,6 +26,8 @@ struct Topology {
     Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
     const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes
     bool stack = false;                   ///< the beds are those of one column: bed j has block j below, j + 1 above
+    const int* rigid_order = nullptr;     ///< of the rigid form: what `rigid_order` makes (`rigid_order.hpp`)
+    int rigid_edges = 0;                  ///< and the pairs of beds in it
     constexpr int beds() const { return joints - watched; }
     constexpr int free_blocks() const { return blocks - fixed; }
 };

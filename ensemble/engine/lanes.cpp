@@ -91,6 +91,12 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     bed_lists_.resize(static_cast<std::size_t>(bed_lists_size(topology_)));
     list_beds(topology_, bed_lists_.data());
 
+    if (topology_.model.rigid()) {
+        rigid_order_ = rigid_order(topology_);
+        topology_.rigid_order = rigid_order_.list.data();
+        topology_.rigid_edges = rigid_order_.edges;
+    }
+
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
@@ -165,7 +171,8 @@ void LaneSet::store_state(int lane, const Realization& r)
         bundle_.at(OfJoint::depth_limit, k, lane) = 0.1 * std::min(lower.half_height_m, upper.half_height_m);
         bundle_.at(OfJoint::K_n, k, lane) = joint.normal_stiffness_n_m2;
         bundle_.at(OfJoint::K_t, k, lane) = joint.tangential_stiffness_n_m;
-        bundle_.at(OfJoint::per_K_t, k, lane) = 1 / joint.tangential_stiffness_n_m;
+        bundle_.at(OfJoint::per_K_t, k, lane) =
+            joint.tangential_stiffness_n_m > 0 ? 1 / joint.tangential_stiffness_n_m : 0;
         bundle_.at(OfJoint::C_n_per_dt, k, lane) = per_chord ? 0 : joint.normal_damping_n_s_m / dt;
         bundle_.at(OfJoint::C_t_per_dt, k, lane) = per_chord ? 0 : joint.tangential_damping_n_s_m / dt;
         bundle_.at(OfJoint::C_n_chord, k, lane) =
@@ -178,9 +185,31 @@ void LaneSet::store_state(int lane, const Realization& r)
     }
     if (topology_.model.extended())
         store_extension(r, order_, bundle_, lane);
+    if (topology_.model.rigid())
+        store_rigid(lane, r);
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
     bundle_.at(OfRealization::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
     bundle_.at(OfRealization::skin, lane) = skin_part * places_[static_cast<std::size_t>(lane)].scales.least_size_m;
+}
+
+/// What the rigid form needs beside.
+void LaneSet::store_rigid(int lane, const Realization& r)
+{
+    const double per_dt2 = 1 / (r.step_s * r.step_s);
+    for (int k = topology_.fixed; k < topology_.blocks; ++k) {
+        const Block& block = r.blocks[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])];
+        bundle_.at(OfRigidBlock::mass_per_dt2, k, lane) = block.mass_kg * per_dt2;
+        bundle_.at(OfRigidBlock::inertia_per_dt2, k, lane) = block.inertia_kg_m2 * per_dt2;
+    }
+    for (int k = 0; k < topology_.joints; ++k) {
+        // the ends that carry at first: of a bed whose upper block leans, the one that it leans over
+        const double lean = bundle_.at(OfBlock::theta, topology_.joint[k].upper, lane) -
+                            bundle_.at(OfBlock::theta, topology_.joint[k].lower, lane);
+        const bool bed = k < topology_.beds();
+        bundle_.at(OfRigidJoint::left, k, lane) = bed && lean >= 0 ? 1 : 0;
+        bundle_.at(OfRigidJoint::right, k, lane) = bed && lean <= 0 ? 1 : 0;
+        bundle_.at(OfRigidJoint::restitution, k, lane) = r.joints[static_cast<std::size_t>(k)].restitution;
+    }
 }
 
 /// The increments before the first step: U(-dt) = U0 + a0 dt2 / 2 for a start from rest, a0 by one trial step of the

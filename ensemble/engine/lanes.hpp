@@ -2,6 +2,7 @@
 /// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
 
 #include "ensemble/engine/limit_states.hpp"
+#include "ensemble/engine/rigid_order.hpp"
 #include "ensemble/engine/single_bundle.hpp"
 #include "ensemble/engine/watch.hpp"
 #include "ensemble/model/outcome.hpp"
@@ -79,6 +80,7 @@ public:
     // ---- a realization that a device steps (`slots.hpp`): what it needs, and what comes back ----
 
     const Topology& topology() const { return topology_; }
+    std::size_t rigid_order_size() const { return rigid_order_.list.size(); }
     /// All of a realization's numbers, in the order of a slot's column (`slot_tasks.hpp`).
     /// @param column (column_rows)
     void write_column(int lane, double* column) const;
@@ -121,6 +123,7 @@ private:
 
     /// Parameters and static rest of a realization into its lane.
     void store_state(int lane, const Realization& r);
+    void store_rigid(int lane, const Realization& r);
     void first_increments(int lane);
     void run(int first, int last);
     void begin_followed(int lane, int phase, std::uint64_t step);
@@ -152,6 +155,7 @@ private:
     std::vector<TopologyJoint> joints_;
     std::vector<int> close_; ///< for the kernel
     std::vector<int> bed_lists_;
+    RigidOrder rigid_order_;
     Topology topology_;
     AlignedArray<double> memory_;
     Bundle bundle_;

@@ -142,7 +142,10 @@ struct AdvanceSlot {
             const Bundle b = lane_of(all, slot);
             if (!m.tables_given)
                 fill_base_rows<double>(m.motion, mine, static_cast<double>(w.steps), b.base_table, m.slots);
-            Stepper<double, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
+            if constexpr (Mechanism::form == ContactForm::rigid)
+                RigidStepper<double, Mechanism, Strided>(m.topology, b).run(0, chunk_steps);
+            else
+                Stepper<double, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
             Watch next = w;
             if (detail::asks(m, slot, next)) {
                 m.state[slot] = SlotState::asks;
@@ -216,6 +219,8 @@ void with_model(const SlotMemory& m, int chunks, F&& f)
         return of_form.template operator()<ContactForm::two_corner>();
     case ContactForm::points:
         return of_form.template operator()<ContactForm::points>();
+    case ContactForm::rigid:
+        return f(AdvanceSlot<OfFile<Here, Plain<ContactForm::rigid>>, false, false>{m, chunks});
     }
 }
 

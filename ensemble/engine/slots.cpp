@@ -14,11 +14,13 @@ struct SlotSet::Memory {
     using Ints = DeviceArray<int>;
     using States = DeviceArray<SlotState>;
 
-    Memory(Device& device, std::size_t slots, std::size_t rows, std::size_t table_rows, const Topology& topology)
+    /// @param rigid_numbers of the rigid form's order
+    Memory(Device& device, std::size_t slots, std::size_t rows, std::size_t table_rows, const Topology& topology,
+           std::size_t rigid_numbers)
         : columns(device, rows * slots), close(device, static_cast<std::size_t>(topology.watched) * slots),
           state(device, slots), tables(device, chunks_per_launch * table_rows * slots),
           joints(device, static_cast<std::size_t>(topology.joints)),
-          bed_lists(device, static_cast<std::size_t>(bed_lists_size(topology))),
+          bed_lists(device, static_cast<std::size_t>(bed_lists_size(topology))), rigid_order(device, rigid_numbers),
           seats(device, static_cast<std::size_t>(topology.beds())), packed(device, rows * slots), list(device, slots),
           host_packed(device, rows * slots, Doubles::Where::host), host_list(device, slots, Ints::Where::host),
           host_state(device, slots, States::Where::host)
@@ -29,7 +31,7 @@ struct SlotSet::Memory {
     States state;
     Doubles tables;
     DeviceArray<TopologyJoint> joints;
-    Ints bed_lists, seats;
+    Ints bed_lists, rigid_order, seats;
     Doubles packed; ///< columns on their way, one after the other
     Ints list;
     Doubles host_packed;
@@ -62,7 +64,7 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     slots_.resize(static_cast<std::size_t>(slots));
 
     own_ = std::make_unique<Memory>(device, static_cast<std::size_t>(slots), static_cast<std::size_t>(rows_),
-                                    static_cast<std::size_t>(tables_), host);
+                                    static_cast<std::size_t>(tables_), host, first.rigid_order_size());
     Memory& own = *own_;
     std::vector<int> seats;
     for (int j = 0; j < host.beds(); ++j)
@@ -75,11 +77,13 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     };
     upload(own.joints, host.joint, static_cast<std::size_t>(host.joints));
     upload(own.bed_lists, host.bed_lists, static_cast<std::size_t>(bed_lists_size(host)));
+    upload(own.rigid_order, host.rigid_order, first.rigid_order_size());
     upload(own.seats, seats.data(), seats.size());
 
     memory_.slots = slots;
     memory_.topology.joint = own.joints.data();
     memory_.topology.bed_lists = own.bed_lists.data();
+    memory_.topology.rigid_order = own.rigid_order.data();
     memory_.bundle = bind_bundle(memory_.topology, slots, own.columns.data(), own.close.data());
     const auto stride = static_cast<std::ptrdiff_t>(slots);
     double* at =

@@ -89,6 +89,7 @@ struct Joint {
     double tangential_damping_n_s_m = 0;
     double damping_chord_m = 0; ///< contact length at which the dashpots have these coefficients; 0: at any length
     double friction = 0;
+    double restitution = 0; ///< of the rigid form: part of an end's closing velocity with which it parts again
     JointExtension extension{};
 };
 

@@ -54,7 +54,8 @@ struct ContactSpec {
     std::optional<double> tangential_damping_n_s_m; ///< C_T itself, instead of the ratio
     DampingAt damping = DampingAt::centroid;
     DampingPer damping_per = DampingPer::contact;
-    double friction = 0; ///< mu
+    double friction = 0;    ///< mu
+    double restitution = 0; ///< of the rigid form, which has no stiffness and no dashpot: those are then 0
 };
 
 enum class ExcitationKind {

@@ -126,6 +126,8 @@ Finding check_pga(const Subject& s)
 /// Beds into which blocks sink by a considerable part of their size are too soft for stone.
 Finding check_sinkage(const Subject& s)
 {
+    if (s.study.contact.form == ContactForm::rigid)
+        return std::nullopt;
     constexpr double much = 2e-3, absurd = 2e-2;
     const Layout layout = lay_out(s.study.structure);
     const std::vector<double> sinkage = static_sinkage_m(s.study);
@@ -153,6 +155,8 @@ Finding check_sinkage(const Subject& s)
 
 Finding check_first_frequency(const Subject& s)
 {
+    if (s.study.contact.form == ContactForm::rigid)
+        return std::nullopt;
     const double first = first_frequency_hz(s.study);
     if (std::isnan(first))
         return std::nullopt;
@@ -232,6 +236,8 @@ Finding check_friction(const Subject& s)
 
 Finding check_damping(const Subject& s)
 {
+    if (s.study.contact.form == ContactForm::rigid)
+        return std::nullopt;
     constexpr double most = 0.7;
     const ContactSpec& c = s.study.contact;
     double width = 0, mass = std::numeric_limits<double>::infinity();
@@ -257,6 +263,8 @@ Finding check_damping(const Subject& s)
 
 Finding check_stiffness(const Subject& s)
 {
+    if (s.study.contact.form == ContactForm::rigid)
+        return std::nullopt;
     constexpr double softest = 1e7, stiffest = 1e13;
     const double depth = s.study.structure.depth_m;
     double worst = s.study.contact.normal_stiffness_n_m2 / depth;

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"
+#include "ensemble/statics/rigid_step.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>
@@ -73,6 +74,8 @@ Study in_form(Study study, ContactForm form)
 {
     study.twins.reset();
     study.contact.form = form;
+    if (form == ContactForm::rigid)
+        study.run.step_s.reset(); // it is another kind of step
     return study;
 }
 
@@ -103,7 +106,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
                                          [](const PlacedBed& bed) { return bed.lower < 0; });
-    if (watches)
+    if (watches && study.contact.form != ContactForm::rigid) // whose contacts are beds alone
         watch_pairs();
     for (int q = 0; q < quantity_count; ++q)
         nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study, layout_, static_cast<Quantity>(q));
@@ -390,6 +393,7 @@ Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int
         2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass));
     joint.tangential_damping_n_s_m = contact.tangential_damping_n_s_m.value_or(
         2 * ratio.tangential * std::sqrt(joint.tangential_stiffness_n_m * mass));
+    joint.restitution = contact.restitution;
     joint.damping_chord_m = contact.damping_per == DampingPer::chord ? chord_m : 0;
     return joint;
 }
@@ -442,8 +446,23 @@ void Sampler::watch(const Values& values, Realization& realization) const
     realization.watched = static_cast<int>(watched_.size());
 }
 
+double Sampler::rigid_step(const Realization& realization) const
+{
+    constexpr double least_of_period = 20;
+    const std::optional<double>& step_s = study_->run.step_s;
+    const double f = realization.frequency_hz;
+    if (step_s && *step_s * f * least_of_period > 1)
+        throw InputError(fmt::format("run.step_s = {:g} is too long for the shaking of realization {}, {:.4g} Hz: a "
+                                     "period has less than {:g} steps.\n  Give at most {:.3g}, or omit it: the step is "
+                                     "then chosen by accuracy.",
+                                     *step_s, realization.index, f, least_of_period, 1 / (least_of_period * f)));
+    return step_s.value_or(rigid_step_s(realization));
+}
+
 double Sampler::step(const Realization& realization) const
 {
+    if (realization.form == ContactForm::rigid)
+        return rigid_step(realization);
     StepBound bound =
         study_->outcome.follow == Follow::rest ? step_bound_to_rest(realization) : step_bound(realization);
     if (study_->run.step_bound == StepBasis::structure)

@@ -97,6 +97,7 @@ private:
     void join(const Values& values, Realization& realization) const;
     void watch(const Values& values, Realization& realization) const;
     double step(const Realization& realization) const;
+    double rigid_step(const Realization& realization) const;
     std::string name(int block) const;
 
     const Study* study_;

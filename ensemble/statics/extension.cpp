@@ -46,7 +46,7 @@ bool is_extended(const Realization& r)
 
 bool rests_otherwise(const Realization& r)
 {
-    return r.form != ContactForm::area ||
+    return (r.form != ContactForm::area && r.form != ContactForm::rigid) ||
            std::any_of(r.blocks.begin(), r.blocks.end(),
                        [](const Block& block) { return block.extension.eccentricity_m != 0; }) ||
            std::any_of(r.joints.begin(), r.joints.end(), [](const Joint& joint) {

@@ -247,6 +247,7 @@ Overlap<double> bed_overlap_of(const Realization& r, int bed, const BedLaw& law,
     case ContactForm::points:
         return bed_overlap<ContactForm::points>(place, law.faces, false, five, general);
     case ContactForm::area:
+    case ContactForm::rigid: // has no such law
         break;
     }
     return bed_overlap<ContactForm::area>(place, law.faces, false, none, general);

@@ -109,7 +109,8 @@ void lean(const Realization& r, std::vector<Pose>& poses)
             poses[i].y = about.y + sine * dx + cosine * dy;
             poses[i].theta += r.initial_tilt_rad;
         }
-        sink(r, poses, moved, bed_load_n(r, bed), foot.half_height_m);
+        if (r.form != ContactForm::rigid)
+            sink(r, poses, moved, bed_load_n(r, bed), foot.half_height_m);
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
         if (r.blocks[i].role != BlockRole::epistyle)
@@ -131,8 +132,9 @@ void lean(const Realization& r, std::vector<Pose>& poses)
         poses[i].y += y / seats;
         std::vector<bool> moved(poses.size(), false);
         moved[i] = true;
-        sink(r, poses, moved, r.blocks[i].mass_kg * r.gravity_m_s2 * std::cos(r.base_tilt_rad),
-             r.blocks[i].half_height_m);
+        if (r.form != ContactForm::rigid)
+            sink(r, poses, moved, r.blocks[i].mass_kg * r.gravity_m_s2 * std::cos(r.base_tilt_rad),
+                 r.blocks[i].half_height_m);
     }
 }
 
@@ -231,7 +233,9 @@ StaticState static_state(const Realization& r)
     for (const Block& block : r.blocks)
         poses.push_back({block.x_m, block.y_m, 0});
     StaticState state;
-    if (is_one_column(r))
+    if (r.form == ContactForm::rigid)
+        ; // faces just touch: the reference stack itself
+    else if (is_one_column(r))
         rests_otherwise(r) ? stack_up_extended(r, poses, state) : stack_up(r, poses, state);
     else
         settle(r, poses, state.spring_n);

@@ -20,6 +20,8 @@ struct StaticState {
 /// not: there the equilibrium of the contact forces themselves is found (`settle`), friction counted from the reference
 /// stack on. Starting from the reference stack instead would make the structure bounce.
 ///
+/// The rigid form rests in the reference stack itself.
+///
 /// With extensions a column's loads act at its blocks' centres of mass, in their tilted state of rest.
 ///
 /// With `initial_tilt_rad` each column, from `initial_tilt_block` up, then turns as one rigid body about the lower

@@ -32,6 +32,11 @@ inline Condition not_in_studies(std::initializer_list<StudyKind> kinds)
     return condition;
 }
 
+inline Condition with_forms(std::initializer_list<ContactForm> forms)
+{
+    return where("contact.form", contact_form_names, forms);
+}
+
 inline Condition for_motions(std::initializer_list<ExcitationKind> kinds)
 {
     return where("excitation.kind", excitation_kind_names, kinds);

@@ -45,9 +45,9 @@ inline constexpr std::array pga_of_names = {Name<PgaOf>{"realization", PgaOf::re
                                             Name<PgaOf>{"mean", PgaOf::mean}};
 inline constexpr std::array damping_at_names = {Name<DampingAt>{"centroid", DampingAt::centroid},
                                                 Name<DampingAt>{"ends", DampingAt::ends}};
-inline constexpr std::array contact_form_names = {Name<ContactForm>{"area", ContactForm::area},
-                                                  Name<ContactForm>{"two_corner", ContactForm::two_corner},
-                                                  Name<ContactForm>{"points", ContactForm::points}};
+inline constexpr std::array contact_form_names = {
+    Name<ContactForm>{"area", ContactForm::area}, Name<ContactForm>{"two_corner", ContactForm::two_corner},
+    Name<ContactForm>{"points", ContactForm::points}, Name<ContactForm>{"rigid", ContactForm::rigid}};
 inline constexpr std::array damping_per_names = {Name<DampingPer>{"contact", DampingPer::contact},
                                                  Name<DampingPer>{"chord", DampingPer::chord}};
 inline constexpr std::array step_basis_names = {Name<StepBasis>{"block", StepBasis::block},

@@ -50,6 +50,15 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
 {
     using namespace contact_keys;
     ContactSpec c;
+    c.form = keys.read(form);
+    const char* word = word_for(contact_form_names, c.form);
+    keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
+    c.friction = keys.read(friction);
+    if (c.form == ContactForm::rigid) {
+        c.normal_damping_ratio = c.tangential_damping_ratio = 0;
+        c.restitution = keys.read(restitution);
+        return c;
+    }
     c.normal_stiffness_n_m2 = keys.read(normal_stiffness);
     double widest = 0;
     for (const DrumSpec& drum : structure.columns[0].drums)
@@ -59,10 +68,8 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
     read_damping(keys, normal_damping_ratio, normal_damping, c.normal_damping_ratio, c.normal_damping_n_s_m);
     read_damping(keys, tangential_damping_ratio, tangential_damping, c.tangential_damping_ratio,
                  c.tangential_damping_n_s_m);
-    c.form = keys.read(form);
     c.damping = keys.read(damping);
     c.damping_per = keys.read(damping_per);
-    c.friction = keys.read(friction);
     return c;
 }
 
@@ -199,6 +206,59 @@ void check_precision(const KeyReader& keys, const Study& study)
         refuse("contact.damping = \"ends\"", "it");
 }
 
+/// What needs a contact that yields, and what the step of the rigid form leaves out.
+void check_rigid(const KeyReader& top, const Study& study)
+{
+    const std::string form = "contact.form = \"rigid\"";
+    for (const MechanismSpec& spec : study.mechanisms)
+        if (spec.mechanism != Mechanism::drum_offset && spec.mechanism != Mechanism::sensor_gain &&
+            spec.mechanism != Mechanism::time_offset && spec.mechanism != Mechanism::harmonic_distortion)
+            top.table(mechanisms_table())
+                .refuse(to_string(spec.mechanism), "is not available with " + form,
+                        "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
+                        "it, or give contact.form = \"two_corner\" with a high stiffness.");
+    for (const Perturbation& p : study.perturbations)
+        if (p.quantity == Quantity::normal_stiffness || p.quantity == Quantity::tangential_stiffness ||
+            p.quantity == Quantity::damping_ratio)
+            top.table(perturbation_table())
+                .refuse(to_string(p.quantity), "is not used by " + form, "Rigid contacts have none. Remove it.");
+    const auto stiff = [](const BedSpec& bed) { return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m; };
+    for (const ColumnSpec& column : study.structure.columns)
+        for (const DrumSpec& drum : column.drums)
+            if (stiff(drum.bed))
+                top.table(structure_keys::table)
+                    .refuse("drums", "gives a bed a stiffness, which is not used by " + form, "Remove it.");
+    for (const EpistyleSpec& epistyle : study.structure.epistyles)
+        if (stiff(epistyle.bed))
+            top.table(structure_keys::table)
+                .refuse("epistyles", "gives a seat a stiffness, which is not used by " + form, "Remove it.");
+    const KeyReader run = top.table(run_keys::table);
+    for (const TomlKey* key :
+         {static_cast<const TomlKey*>(&run_keys::step_fraction), static_cast<const TomlKey*>(&run_keys::step_bound),
+          static_cast<const TomlKey*>(&run_keys::allow_step_above_bound)})
+        if (run.has(*key))
+            run.refuse(key->name, "is not used by " + form,
+                       "Its step has no stability bound: omit the key, and the step is chosen by accuracy, or give "
+                       "step_s.");
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        for (std::size_t k = i + 1; k < blocks.size(); ++k) {
+            const PlacedBlock &a = blocks[i], &b = blocks[k];
+            const double beside = std::max(a.left(), b.left()) - std::min(a.right(), b.right());
+            const double over = std::max(a.bottom(), b.bottom()) - std::min(a.top(), b.top());
+            if (over < -1e-9 && beside < 1e-9)
+                top.refuse(contact_keys::table.name,
+                           fmt::format("form = \"rigid\" has contacts at beds alone, and {} stands against {}", b.name,
+                                       a.name),
+                           "Leave a gap between them, or give contact.form = \"two_corner\".");
+        }
+    if (study.outcome.follow == Follow::rest)
+        top.table(outcome_keys::table)
+            .refuse(outcome_keys::follow.name, "= \"rest\" is not available with " + form,
+                    "The rigid form has contacts at beds alone, so that what has fallen would go through what lies "
+                    "there. Give follow = \"collapse\" in [outcome], or contact.form = \"two_corner\".");
+}
+
 /// What belongs to one base motion does not go with many.
 void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
 {
@@ -324,6 +384,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     read_output(top.table(output_keys::table), study);
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
     study.run = read_run(top.table(run_keys::table));
+    if (study.contact.form == ContactForm::rigid)
+        check_rigid(top, study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
     if (top.has("twins")) {

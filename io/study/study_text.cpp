@@ -186,6 +186,12 @@ Entries entries_of(const ContactSpec& contact)
 {
     using namespace contact_keys;
     Entries out;
+    if (contact.form == ContactForm::rigid) {
+        out.add(form, contact.form);
+        out.add(friction, contact.friction);
+        out.add(restitution, contact.restitution);
+        return out;
+    }
     out.add(normal_stiffness, contact.normal_stiffness_n_m2);
     out.add(tangential_stiffness, contact.tangential_stiffness_n_m);
     if (contact.normal_damping_n_s_m)
@@ -446,17 +452,20 @@ Entries entries_of(const OutcomeSpec& outcome)
     return out;
 }
 
-Entries entries_of(const RunSpec& run)
+Entries entries_of(const RunSpec& run, ContactForm form)
 {
     using namespace run_keys;
     Entries out;
     out.add(precision, run.precision);
+    const bool bounded = form != ContactForm::rigid; // else the step is chosen by accuracy
     if (run.step_s)
         out.add(step, run.step_s);
-    else
+    else if (bounded)
         out.add(step_fraction, run.step_fraction);
-    out.add(step_bound, run.step_bound);
-    out.add(allow_step_above_bound, run.allow_step_above_bound);
+    if (bounded) {
+        out.add(step_bound, run.step_bound);
+        out.add(allow_step_above_bound, run.allow_step_above_bound);
+    }
     out.add(max_invalid, run.max_invalid_fraction);
     return out;
 }
@@ -506,7 +515,7 @@ std::string study_text(const Study& study)
     table(initial_keys::table.name, entries_of(study.initial));
     table(output_keys::table.name, entries_of_output(study));
     table(outcome_keys::table.name, entries_of(study.outcome));
-    table(run_keys::table.name, entries_of(study.run));
+    table(run_keys::table.name, entries_of(study.run, study.contact.form));
     return text;
 }
 

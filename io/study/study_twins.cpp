@@ -45,6 +45,13 @@ bool knows_single(const Study& study)
            study.contact.damping == DampingAt::centroid;
 }
 
+/// Rigid blocks have no stiffness that another form could take, no mechanisms, and cannot be followed to rest.
+bool is_form_of_twins(const Study& study, ContactForm form)
+{
+    return study.contact.form != ContactForm::rigid &&
+           (form != ContactForm::rigid || (study.mechanisms.empty() && study.outcome.follow == Follow::collapse));
+}
+
 } // namespace
 
 TwinsSpec read_twins(const KeyReader& keys, const Study& study)
@@ -89,7 +96,7 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
     }
     if (keys.read(twins_keys::forms))
         for (const auto& name : contact_form_names)
-            if (name.value != study.contact.form)
+            if (name.value != study.contact.form && is_form_of_twins(study, name.value))
                 twins.kinds.push_back({TwinBy::form, 0, name.value});
     twins.followed = keys.has(twins_keys::followed) ? keys.read_up_to(twins_keys::followed, study.realizations)
                                                     : std::min(twins.followed, study.realizations);

@@ -3,6 +3,7 @@
 /// compiled for one instruction set must not leak into functions that others share.
 
 #include "kernels/isa.hpp"
+#include "kernels/rigid_step.hpp"
 #include "kernels/step.hpp"
 
 namespace stylobate {
@@ -60,6 +61,8 @@ void run_model(const Topology& topology, const Bundle& bundle, int first, int la
         return run_form<Real, Here, ContactForm::two_corner>(topology, bundle, first, last);
     case ContactForm::points:
         return run_form<Real, Here, ContactForm::points>(topology, bundle, first, last);
+    case ContactForm::rigid:
+        return run_rigid<Real, Here>(topology, bundle, first, last);
     }
 }
 

@@ -59,6 +59,9 @@ std::string structure_text(const Study& study, const Layout& layout)
 
 std::string contact_text(const ContactSpec& contact)
 {
+    if (contact.form == ContactForm::rigid)
+        return fmt::format("rigid contacts, friction {:.3g}, restitution {:.3g}", contact.friction,
+                           contact.restitution);
     std::string text =
         fmt::format("{} contacts, friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
                     word_for(contact_form_names, contact.form), contact.friction, contact.normal_stiffness_n_m2,

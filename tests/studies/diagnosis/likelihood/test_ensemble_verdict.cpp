@@ -106,7 +106,7 @@ TEST_F(EnsembleVerdictStatistics, CausesAreNamedWithProbabilitiesThatHold)
     double stated = 0;
     for (int i = 0; i < 80; ++i) {
         const Eigen::VectorXd law = world_.law();
-        const Eigen::VectorXd campaign = world_.campaign(law, i % causes, 0.3 + 0.7 * (i / causes) / 10.0);
+        const Eigen::VectorXd campaign = world_.campaign(law, i % causes, 0.3 + 0.07 * (i / causes));
         possible += oracle.names(law, campaign) ? 1 : 0;
         const EnsembleVerdict verdict = judge(law, campaign);
         if (!verdict.named)
