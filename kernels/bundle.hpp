@@ -188,33 +188,32 @@ struct OfRigidJoint {
         slips,       ///< 1 or -1: friction at its limit, on the upper block this way along the face; 0: it holds. step
         restitution, ///< of an end's closing velocity
         // of this step alone
-        left_x,              ///< of the left end from the lower block's centre [m]
-        right_x,             ///< of the right end [m]
-        left_arm,            ///< the same from the upper block's centre [m]
-        right_arm,           ///< [m]
-        upper_arm,           ///< of the upper block's centre above the face [m]
-        left_gap,            ///< of the faces at the left end [m]
-        right_gap,           ///< [m]
-        left_rate,           ///< what the last increments add to the gap [m]
-        right_rate,          ///< [m]
-        sliding,             ///< what they move the upper face along the lower one [m]
-        bend,                ///< second-order change of the gaps in a step [m]
-        bend_sliding,        ///< and of the sliding, at the nearer end [m]
-        usable,              ///< 1 where the faces have a common part
-        left_goal,           ///< gap that the increments with the contacts' forces are to add [m]
-        right_goal,          ///< [m]
-        sliding_goal,        ///< [m]
-        left_force,          ///< [N]
-        right_force,         ///< [N]
-        shear_force,         ///< on the upper block, along the face [N]
+        left_x,       ///< of the left end from the lower block's centre [m]
+        right_x,      ///< of the right end [m]
+        left_arm,     ///< the same from the upper block's centre [m]
+        right_arm,    ///< [m]
+        upper_arm,    ///< of the upper block's centre above the face [m]
+        left_gap,     ///< of the faces at the left end [m]
+        right_gap,    ///< [m]
+        left_rate,    ///< what the last increments add to the gap [m]
+        right_rate,   ///< [m]
+        sliding,      ///< what they move the upper face along the lower one [m]
+        bend,         ///< second-order change of the gaps in a step [m]
+        bend_sliding, ///< and of the sliding, at the nearer end [m]
+        usable,       ///< 1 where the faces have a common part
+        left_goal,    ///< gap that the increments with the contacts' forces are to add [m]
+        right_goal,   ///< [m]
+        sliding_goal, ///< [m]
+
         next_left,           ///< what the next increments add to the gap [m]
         next_right,          ///< [m]
         next_sliding,        ///< [m]
         own,                 ///< response of the three rows to their own forces (6: 00 01 02 11 12 22) [m/N]
         inverse = own + 6,   ///< of the pivot (9)
         pivot = inverse + 9, ///< while it is made (9)
-        wanted = pivot + 9,  ///< right-hand side (3)
-        count = wanted + 3
+        force = pivot + 9,   ///< at the left and right end and, on the upper block, along the face (3) [N]
+        closing = force + 3, ///< the same of what closes the gaps (3) [N]
+        count = closing + 3
     };
 };
 

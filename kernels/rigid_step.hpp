@@ -32,8 +32,8 @@ namespace detail {
 
 /// Solutions of a step in which all beds may change; as many more in which the lowest of those that would change does.
 inline constexpr int passes_of_all = 12, passes_of_one = 12;
-/// Sweeps of the relaxation for what is then left.
-inline constexpr int relaxation_sweeps = 30;
+/// Sweeps of the relaxation for what is then left, and how often both are tried.
+inline constexpr int relaxation_sweeps = 30, rounds = 2;
 /// Faces that are turned more than this against each other are no bed: cosine.
 inline constexpr double least_bed_cosine = 0.2;
 /// Of rigid columns under an epistyle the forces are not unique. The diagonal of the system is larger by this part, as
@@ -205,22 +205,23 @@ private:
     STYLOBATE_INLINE void strike() const
     {
         const Real zero(0.0), half(0.5), one(1.0);
-        Real fastest(0.0), share(0.0);
+        Real fastest(0.0), its_gap(0.0);
         for (int j = 0; j < topology_.beds(); ++j) {
-            const auto look_at = [&](J::Field carries, J::Field its_rate, J::Field its_gap) {
-                const Real rate = get(its_rate, j), gap = get(its_gap, j);
-                const auto open = (get(carries, j) < half) & (get(J::usable, j) > half);
-                const auto hits = open & (rate < zero) & (gap < zero - half * rate) & (rate < fastest);
-                const Real when = clamp(half - gap / select(rate < zero, rate, one), zero, one);
-                share = select(hits, when, share);
+            const auto usable = get(J::usable, j) > half;
+            const auto look_at = [&](J::Field carries, J::Field rates, J::Field gaps) {
+                const Real rate = get(rates, j), gap = get(gaps, j);
+                // (`fastest` is never above 0)
+                const auto hits = usable & (get(carries, j) < half) & (gap < zero - half * rate) & (rate < fastest);
+                its_gap = select(hits, gap, its_gap);
                 fastest = select(hits, rate, fastest);
             };
             look_at(J::left, J::left_rate, J::left_gap);
             look_at(J::right, J::right_rate, J::right_gap);
         }
         const auto struck = (get(OfRigid::struck) < half) & (fastest < zero);
+        const Real when = clamp(half - its_gap / select(struck, fastest, one), zero, one);
         put(OfRigid::struck, select(struck, one, zero));
-        put(OfRigid::share, select(struck, share, zero));
+        put(OfRigid::share, select(struck, when, zero));
     }
 
     /// The increments without the forces of the beds, and what these have to achieve.
@@ -367,35 +368,52 @@ private:
         for (int k = 0; k < 9; ++k)
             put(f, i, m.m[k / 3][k % 3], k);
     }
-    STYLOBATE_INLINE V load(int j) const
-    {
-        return {{get(J::wanted, j, 0), get(J::wanted, j, 1), get(J::wanted, j, 2)}};
-    }
-    STYLOBATE_INLINE void store(int j, const V& v) const
+    STYLOBATE_INLINE V load_three(J::Field f, int j) const { return {{get(f, j, 0), get(f, j, 1), get(f, j, 2)}}; }
+    STYLOBATE_INLINE void store_three(J::Field f, int j, const V& v) const
     {
         for (int k = 0; k < 3; ++k)
-            put(J::wanted, j, v.v[k], k);
+            put(f, j, v.v[k], k);
     }
 
-    /// Block elimination in the order of the topology.
-    STYLOBATE_INLINE void factorise() const
+    /// The rows of a bed and its two right-hand sides: what its forces are to achieve, and the gaps to be closed.
+    STYLOBATE_INLINE void put_equations(int j, Real late) const
     {
-        for (int j = 0; j < topology_.beds(); ++j)
-            store(J::pivot, j, own_rows(j, rule(j)));
-        for (int e = 0; e < topology_.rigid_edges; ++e) {
-            const int* const edge = topology_.rigid_order + 5 * e;
-            if (edge[2] < 0) {
-                const M none{};
-                store(E::earlier, e, none);
-                store(E::later, e, none);
-                continue;
-            }
-            M m = load(E::response, e), t = transposed(m);
+        const Real zero(0.0), half(0.5);
+        const Rule r = rule(j);
+        store(J::pivot, j, own_rows(j, r));
+        const auto left = r.left > half, right = r.right > half;
+        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
+        store_three(J::force, j,
+                    V{{select(left, get(J::left_goal, j), zero), select(right, get(J::right_goal, j), zero),
+                       select(holds, get(J::sliding_goal, j), zero)}});
+        // until an end meets its face the blocks go on with their old increments
+        store_three(J::closing, j,
+                    V{{select(left, zero - fma(late, get(J::left_rate, j), get(J::left_gap, j)), zero),
+                       select(right, zero - fma(late, get(J::right_rate, j), get(J::right_gap, j)), zero), zero}});
+    }
+    STYLOBATE_INLINE void put_couplings(int e) const
+    {
+        const int* const edge = topology_.rigid_order + 5 * e;
+        M m{}, t{};
+        if (edge[2] >= 0) {
+            m = load(E::response, e);
+            t = transposed(m);
             keep_rows(rule(edge[0]), m);
             keep_rows(rule(edge[1]), t);
-            store(E::earlier, e, m);
-            store(E::later, e, t);
         }
+        store(E::earlier, e, m);
+        store(E::later, e, t);
+    }
+
+    /// Solves for both right-hand sides, in their place: block elimination in the order of the topology. Beds that are
+    /// not related come one after another there, so that the processor works on two at once.
+    STYLOBATE_INLINE void solve_equations() const
+    {
+        const Real late = part_late();
+        for (int j = 0; j < topology_.beds(); ++j)
+            put_equations(j, late);
+        for (int e = 0; e < topology_.rigid_edges; ++e)
+            put_couplings(e);
         const int* at = topology_.rigid_order + 5 * topology_.rigid_edges;
         for (int pivot = 0; pivot < topology_.beds(); ++pivot) {
             const int j = *at++, count = *at++;
@@ -403,14 +421,21 @@ private:
             const int* const targets = at + 2 * count;
             at = targets + count * count;
             const M inverse = inverse_of(load(J::pivot, j));
+            const V force = inverse * load_three(J::force, j), closing = inverse * load_three(J::closing, j);
             store(J::inverse, j, inverse);
+            store_three(J::force, j, force);
+            store_three(J::closing, j, closing);
             for (int row = 0; row < count; ++row) {
-                const M factor = load(E::later, related[2 * row + 1]) * inverse;
+                const int other = related[2 * row];
+                const M rows = load(E::later, related[2 * row + 1]);
+                store_three(J::force, other, load_three(J::force, other) - rows * force);
+                store_three(J::closing, other, load_three(J::closing, other) - rows * closing);
+                const M factor = rows * inverse;
                 for (int column = 0; column < count; ++column) {
                     const M less = factor * load(E::earlier, related[2 * column + 1]);
                     const int target = targets[row * count + column];
                     if (target < 0)
-                        store(J::pivot, related[2 * row], load(J::pivot, related[2 * row]) - less);
+                        store(J::pivot, other, load(J::pivot, other) - less);
                     else if (target & 1)
                         store(E::later, target >> 1, load(E::later, target >> 1) - less);
                     else
@@ -418,51 +443,57 @@ private:
                 }
             }
         }
+        substitute_back(at);
     }
-    /// From right-hand sides in `J::wanted` to solutions there.
-    STYLOBATE_INLINE void substitute() const
+    /// @param begins of the pivots in the order's list, the last one first
+    STYLOBATE_INLINE void substitute_back(const int* begins) const
     {
-        const int* at = topology_.rigid_order + 5 * topology_.rigid_edges;
         for (int pivot = 0; pivot < topology_.beds(); ++pivot) {
-            const int j = *at++, count = *at++;
-            const V part = load(J::inverse, j) * load(j);
-            store(j, part);
-            for (int row = 0; row < count; ++row) {
-                const int other = at[2 * row];
-                store(other, load(other) - load(E::later, at[2 * row + 1]) * part);
-            }
-            at += 2 * count + count * count;
-        }
-        const int* const back = at; // behind the last pivot: where each begins, the last one first
-        for (int pivot = 0; pivot < topology_.beds(); ++pivot) {
-            const int* const begin = topology_.rigid_order + back[pivot];
+            const int* const begin = topology_.rigid_order + begins[pivot];
             const int j = begin[0], count = begin[1];
             if (count == 0)
                 continue;
-            V sum{{Real(0.0), Real(0.0), Real(0.0)}};
-            for (int column = 0; column < count; ++column)
-                sum = sum + load(E::earlier, begin[3 + 2 * column]) * load(begin[2 + 2 * column]);
-            store(j, load(j) - load(J::inverse, j) * sum);
+            const V none{{Real(0.0), Real(0.0), Real(0.0)}};
+            V force = none, closing = none;
+            for (int column = 0; column < count; ++column) {
+                const M rows = load(E::earlier, begin[3 + 2 * column]);
+                force = force + rows * load_three(J::force, begin[2 + 2 * column]);
+                closing = closing + rows * load_three(J::closing, begin[2 + 2 * column]);
+            }
+            const M inverse = load(J::inverse, j);
+            store_three(J::force, j, load_three(J::force, j) - inverse * force);
+            store_three(J::closing, j, load_three(J::closing, j) - inverse * closing);
         }
+    }
+    /// Part of a step by which the end that meets its face does so after the middle of the step.
+    STYLOBATE_INLINE Real part_late() const
+    {
+        const Real half(0.5);
+        return select(get(OfRigid::struck) > half, get(OfRigid::share) - half, Real(0.0));
     }
 
     // ---- which ends carry ----
 
     STYLOBATE_INLINE void solve() const
     {
+        const Real half(0.5);
+        for (int round = 0; round < detail::rounds; ++round) {
+            const Real open = find_contacts();
+            if (!any(open > half))
+                return;
+            relax(open > half);
+        }
+    }
+
+    /// Solutions with other ends that carry, until none contradicts itself.
+    /// @return 1 where they have not been found
+    STYLOBATE_INLINE Real find_contacts() const
+    {
         const Real zero(0.0), half(0.5), one(1.0);
         const Real still = zero - abs_of(get(OfRealization::gravity_dy)) * Real(detail::still_rate<NumberOf<Real>>);
-        Real open(1.0); // 1 while contacts change
+        Real open(1.0);
         for (int pass = 0; pass < detail::passes_of_all + detail::passes_of_one; ++pass) {
-            factorise();
-            for (int j = 0; j < topology_.beds(); ++j) {
-                const Rule r = rule(j);
-                const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
-                store(j, V{{select(r.left > half, get(J::left_goal, j), zero),
-                            select(r.right > half, get(J::right_goal, j), zero),
-                            select(holds, get(J::sliding_goal, j), zero)}});
-            }
-            substitute();
+            solve_equations();
             apply_forces();
             put(OfRigid::passes, get(OfRigid::passes) + open);
             const bool one_at_a_time = pass >= detail::passes_of_all;
@@ -472,9 +503,9 @@ private:
                 open = select(reconsider(j, still, may), one, open);
             }
             if (!any(open > half))
-                return;
+                break;
         }
-        relax(open > half);
+        return open;
     }
 
     /// The forces found, and the increments with them.
@@ -484,11 +515,7 @@ private:
             put_next(i, free(i));
         for (int j = 0; j < topology_.beds(); ++j) {
             const Bed b = bed(j);
-            const V force = load(j);
-            put(J::left_force, j, force.v[0]);
-            put(J::right_force, j, force.v[1]);
-            put(J::shear_force, j, force.v[2]);
-            const Pull p = pull(b, force);
+            const Pull p = pull(b, load_three(J::force, j));
             if (is_free(b.lower))
                 put_next(b.lower, moved_by(b.lower, next(b.lower), p.lower));
             put_next(b.upper, moved_by(b.upper, next(b.upper), p.upper));
@@ -512,17 +539,21 @@ private:
     STYLOBATE_INLINE Mask reconsider(int j, Real still, Mask may) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
-        const Real f1 = get(J::left_force, j), f2 = get(J::right_force, j), shear = get(J::shear_force, j);
+        const Real f1 = get(J::force, j, 0), f2 = get(J::force, j, 1), shear = get(J::force, j, 2);
         const Real left = get(J::left, j), right = get(J::right, j), slips = get(J::slips, j);
         const Real bend = get(J::bend, j);
-        const auto enters = [&](J::Field rate_field, J::Field gap) {
-            const Real rate = get(rate_field, j) + bend;
-            return (get(J::usable, j) > half) & (rate < still) & (get(gap, j) < zero - half * rate);
+        // A fast end that `strike` has found to be late does not meet its face in this step, but in the next one: it
+        // would meet it without a time of impact.
+        const Real fast = Real(2.0) * get(OfRealization::gravity_dy);
+        const auto enters = [&](J::Field next_rate, J::Field last_rate, J::Field gap) {
+            const Real rate = get(next_rate, j) + bend, before = get(last_rate, j);
+            const Real reach = select(before < fast, max_of(rate, before), rate);
+            return (get(J::usable, j) > half) & (rate < still) & (get(gap, j) < zero - half * reach);
         };
-        const Real new_left =
-            select(left > half, select(f1 > zero, one, zero), select(enters(J::next_left, J::left_gap), one, zero));
-        const Real new_right =
-            select(right > half, select(f2 > zero, one, zero), select(enters(J::next_right, J::right_gap), one, zero));
+        const Real meets_left = select(enters(J::next_left, J::left_rate, J::left_gap), one, zero);
+        const Real meets_right = select(enters(J::next_right, J::right_rate, J::right_gap), one, zero);
+        const Real new_left = select(left > half, select(f1 > zero, one, zero), meets_left);
+        const Real new_right = select(right > half, select(f2 > zero, one, zero), meets_right);
         const Real limit = get(OfJoint::mu, j) * (f1 + f2);
         const Real along = get(J::next_sliding, j) * slips;
         const Real slipping = select(shear > zero, one, zero - one);
@@ -548,7 +579,7 @@ private:
             for (int j = 0; j < topology_.beds(); ++j) {
                 const Bed b = bed(j);
                 const bool clip = sweep == 0;
-                V force{{get(J::left_force, j), get(J::right_force, j), get(J::shear_force, j)}};
+                V force = load_three(J::force, j);
                 const V before = force;
                 const auto more = [&](int row, Real goal) {
                     const V rate = rates(b, next(b.lower), next(b.upper));
@@ -577,18 +608,20 @@ private:
                 const Real limit = get(OfJoint::mu, j) * (now.v[0] + now.v[1]);
                 now.v[2] = clamp(force.v[2] + more(2, get(J::sliding_goal, j)), zero - limit, limit);
                 take(now);
-                put(J::left_force, j, select(which, force.v[0], before.v[0]));
-                put(J::right_force, j, select(which, force.v[1], before.v[1]));
-                put(J::shear_force, j, select(which, force.v[2], before.v[2]));
+                put(J::force, j, select(which, force.v[0], before.v[0]), 0);
+                put(J::force, j, select(which, force.v[1], before.v[1]), 1);
+                put(J::force, j, select(which, force.v[2], before.v[2]), 2);
                 put(J::left, j, select(which, select(force.v[0] > zero, one, zero), get(J::left, j)));
                 put(J::right, j, select(which, select(force.v[1] > zero, one, zero), get(J::right, j)));
                 const Real way = select(force.v[2] > zero, one, zero - one);
                 const auto slips = (abs_of(force.v[2]) >= limit) & (limit > zero);
                 put(J::slips, j, select(which, select(slips, way, zero), get(J::slips, j)));
             }
-        for (int j = 0; j < topology_.beds(); ++j)
+        for (int j = 0; j < topology_.beds(); ++j) {
             put_next_rates(j);
-        factorise();
+            for (int k = 0; k < 2; ++k)
+                put(J::closing, j, select(which, zero, get(J::closing, j, k)), k);
+        }
     }
     template <class Mask>
     STYLOBATE_INLINE void put_chosen(Mask which, int i, const Planar<Real>& d) const
@@ -599,22 +632,20 @@ private:
 
     // ---- the new state ----
 
-    /// Displacements that close the gaps of the ends that carry, into the rows of the free increments.
+    /// Displacements beside the increments, into the rows of the free ones: until an end meets its face the blocks go
+    /// on with their old increments; what is left of the gaps of the ends that carry is closed.
     STYLOBATE_INLINE void close_gaps() const
     {
-        const Real zero(0.0), half(0.5);
-        for (int j = 0; j < topology_.beds(); ++j)
-            store(j, V{{select(get(J::left, j) > half, zero - get(J::left_gap, j), zero),
-                        select(get(J::right, j) > half, zero - get(J::right_gap, j), zero), zero}});
-        substitute();
+        const Real late = part_late();
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            put(B::free_x, i, zero);
-            put(B::free_y, i, zero);
-            put(B::free_theta, i, zero);
+            const Planar<Real> before = last(i), after = next(i);
+            put(B::free_x, i, late * (before.x - after.x));
+            put(B::free_y, i, late * (before.y - after.y));
+            put(B::free_theta, i, late * (before.theta - after.theta));
         }
         for (int j = 0; j < topology_.beds(); ++j) {
             const Bed b = bed(j);
-            const Pull p = pull(b, load(j));
+            const Pull p = pull(b, load_three(J::closing, j));
             const auto shift = [&](int i, const Planar<Real>& force) {
                 const Planar<Real> d = moved_by(i, free(i), force);
                 put(B::free_x, i, d.x);
@@ -637,7 +668,7 @@ private:
         const Real zero(0.0), half(0.5);
         for (int j = 0; j < topology_.beds(); ++j) {
             const auto [lower, upper] = topology_.joint[j];
-            const Real f1 = get(J::left_force, j), f2 = get(J::right_force, j), shear = get(J::shear_force, j);
+            const Real f1 = get(J::force, j, 0), f2 = get(J::force, j, 1), shear = get(J::force, j, 2);
             const Real sliding = get(J::next_sliding, j);
             impact = fnma(f1, get(J::left_rate, j) + get(J::next_left, j), impact);
             impact = fnma(f2, get(J::right_rate, j) + get(J::next_right, j), impact);

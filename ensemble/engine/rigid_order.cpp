@@ -49,11 +49,15 @@ RigidOrder rigid_order(const Topology& topology)
 
     std::vector<int> order, place(related.size(), -1);
     std::vector<std::vector<int>> later;
+    bool from_above = true;
     while (order.size() < related.size()) {
         int pivot = -1;
         for (int bed = 0; bed < topology.beds(); ++bed)
-            if (place[static_cast<std::size_t>(bed)] < 0 && (pivot < 0 || degree(bed) <= degree(pivot)))
+            if (place[static_cast<std::size_t>(bed)] < 0 &&
+                (pivot < 0 || degree(bed) < degree(pivot) || (from_above && degree(bed) == degree(pivot))))
                 pivot = bed;
+        from_above = !from_above;
+
         const auto p = static_cast<std::size_t>(pivot);
         place[p] = static_cast<int>(order.size());
         order.push_back(pivot);

@@ -21,8 +21,10 @@ struct RigidOrder {
     std::vector<int> list;
 };
 
-/// The bed with the fewest relations comes first, the last one of several: in a column from the top down, without any
-/// further relation; likewise in a colonnade whose epistyles reach from column to column.
+/// The bed with the fewest relations comes first; of several the last and the first one by turns. So a column is gone
+/// through from both ends, without any further relation, and neighbours in the list do not wait for each other's
+/// results.
+
 RigidOrder rigid_order(const Topology& topology);
 
 } // namespace stylobate
