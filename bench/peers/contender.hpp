@@ -1,6 +1,7 @@
 #pragma once
 /// Who takes part: an engine in one setting of its solver, with one dial that makes it more accurate and slower. Of the
-/// others the dial is the time step; of Stylobate, whose error is that of a compliant contact, it is K_N.
+/// others and of Stylobate's rigid blocks the dial is the time step; of its compliant contacts, whose error is that of
+/// the compliance, it is K_N.
 
 #include "bench/peers/column.hpp"
 
@@ -9,6 +10,7 @@ namespace stylobate::peers {
 struct Contender {
     std::string engine, version, planar, setting;
     bool own = false;          ///< Stylobate
+    bool compliant = false;    ///< its dial is K_N
     bool first = true;         ///< the engine's customary setting
     std::vector<double> dials; ///< coarse to fine, each about 2^(-1/4) as fast as the one before
     double customary = 0;      ///< one of them

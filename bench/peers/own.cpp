@@ -18,19 +18,21 @@ namespace stylobate::peers {
 namespace {
 
 constexpr double customary_stiffness = 1e8;
+constexpr double customary_step_s = 1.0 / 240; // of programs of rigid bodies
 
-/// The monolith in a contact form, at the step that a study would take.
-Realization block(ContactForm form, double K_n, double lean)
+/// The monolith in a contact form, at the step that a study would take; rigid, at the step of the dial.
+Realization block(ContactForm form, double dial, double lean)
 {
-    Realization r = verification::leaned_block(model::mono_stone, K_n, lean, 1);
+    const bool rigid = form == ContactForm::rigid;
+    Realization r = verification::leaned_block(model::mono_stone, rigid ? customary_stiffness : dial, lean, 1);
     r.form = form;
-    r.step_s = RunSpec{}.step_fraction * step_bound(r).dt_s;
+    r.step_s = rigid ? dial : RunSpec{}.step_fraction * step_bound(r).dt_s;
     return r;
 }
 
-double eta_of(ContactForm form, double K_n)
+double eta_of(ContactForm form, double dial)
 {
-    const Realization upright = block(form, K_n, 0);
+    const Realization upright = block(form, dial, 0);
     const double weight = model::gravity * Monolith::width_m / Monolith::height_m;
     try {
         return model::least_overturning(
@@ -47,25 +49,34 @@ double eta_of(ContactForm form, double K_n)
     }
 }
 
-double upright_s(ContactForm form, double K_n)
+double upright_s(ContactForm form, double dial)
 {
     try {
-        return verification::upright_time(block(form, K_n, Monolith::lean));
+        return verification::upright_time(block(form, dial, Monolith::lean));
     } catch (const std::runtime_error&) { // it does not come upright in time
         return std::numeric_limits<double>::quiet_NaN();
     }
 }
 
-Study study_of(ContactForm form, double K_n, bool shaken)
+Study study_of(ContactForm form, double dial, bool shaken)
 {
-    Study study = column_study(shaken, K_n);
+    if (form != ContactForm::rigid) {
+        Study study = column_study(shaken, dial);
+        study.contact.form = form;
+        return study;
+    }
+    Study study = column_study(shaken);
+    const double friction = study.contact.friction;
+    study.contact = {};
     study.contact.form = form;
+    study.contact.friction = friction;
+    study.run.step_s = dial;
     return study;
 }
 
-Columns run_own(ContactForm form, double K_n, bool shaken, double seconds)
+Columns run_own(ContactForm form, double dial, bool shaken, double seconds)
 {
-    const Study study = study_of(form, K_n, shaken);
+    const Study study = study_of(form, dial, shaken);
     const Experiment experiment(study);
     const RunOptions options{best_isa(), 1};
     Columns columns;
@@ -103,7 +114,8 @@ std::vector<Contender> own_contenders()
     std::vector<Contender> all;
     for (const auto& [form, name] : {std::pair{ContactForm::area, "contact by area (as published)"},
                                      {ContactForm::two_corner, "contact at two corners"},
-                                     {ContactForm::points, "contact at five points"}}) {
+                                     {ContactForm::points, "contact at five points"},
+                                     {ContactForm::rigid, "rigid blocks"}}) {
         Contender c;
         c.engine = "Stylobate";
         c.version = code_version();
@@ -111,10 +123,12 @@ std::vector<Contender> own_contenders()
         c.setting = name;
         c.own = true;
         c.first = form == ContactForm::area;
-        c.customary = customary_stiffness;
-        // the step goes with 1 / sqrt(K_N)
+        c.compliant = form != ContactForm::rigid;
+        c.customary = c.compliant ? customary_stiffness : customary_step_s;
+        // of compliant contacts the step goes with 1 / sqrt(K_N)
         for (int k = -12; k < 40; ++k)
-            c.dials.push_back(c.customary * std::pow(2, 0.5 * k));
+            c.dials.push_back(c.customary * std::pow(2, c.compliant ? 0.5 * k : -0.25 * k));
+
         const ContactForm f = form;
         c.step_s = [f](double K_n) { return Experiment(study_of(f, K_n, true)).sampler().realization(0).step_s; };
         c.quarter_period_s = [f](double K_n) { return upright_s(f, K_n); };

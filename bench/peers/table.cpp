@@ -19,8 +19,8 @@ std::string percent(double part)
 
 std::string dial_text(const Contender& c, const Timed& t)
 {
-    return c.own ? fmt::format("K_N = {:.3g} N/m2, {:.2g} s", t.errors.dial, t.step_s)
-                 : fmt::format("{:.3g} s (1/{:.0f})", t.step_s, 1 / t.step_s);
+    return c.compliant ? fmt::format("K_N = {:.3g} N/m2, {:.2g} s", t.errors.dial, t.step_s)
+                       : fmt::format("{:.3g} s (1/{:.0f})", t.step_s, 1 / t.step_s);
 }
 
 /// Three digits, without an exponent.
@@ -67,7 +67,7 @@ Json json_of(const Columns& c)
 Json json_of(const Contender& contender, const Errors& e)
 {
     return Json::object()
-        .member(contender.own ? "normal_stiffness_n_m2" : "step_s", e.dial)
+        .member(contender.compliant ? "normal_stiffness_n_m2" : "step_s", e.dial)
         .member("quarter_period_error", e.quarter_period)
         .member("overturning_error", e.overturning);
 }

@@ -377,7 +377,9 @@ struct RunSpec {
     Precision precision = Precision::double_;
     double step_fraction = 0.9; ///< of the safe bound of each realization (see README.md of this folder)
     StepBasis step_bound = StepBasis::block;
-    std::optional<double> step_s;        ///< a fixed step instead
+    std::optional<double> step_s; ///< a fixed step instead
+    /// What the numerics may change in a collapse probability; they are chosen for it (`Sampler::step`).
+    std::optional<double> accuracy;
     bool allow_step_above_bound = false; ///< run such a step all the same
     double max_invalid_fraction = 0.001; ///< more invalid realizations than this: exit status 3
 };

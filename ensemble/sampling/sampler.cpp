@@ -74,8 +74,7 @@ Study in_form(Study study, ContactForm form)
 {
     study.twins.reset();
     study.contact.form = form;
-    if (form == ContactForm::rigid)
-        study.run.step_s.reset(); // it is another kind of step
+
     return study;
 }
 
@@ -456,7 +455,7 @@ double Sampler::rigid_step(const Realization& realization) const
                                      "period has less than {:g} steps.\n  Give at most {:.3g}, or omit it: the step is "
                                      "then chosen by accuracy.",
                                      *step_s, realization.index, f, least_of_period, 1 / (least_of_period * f)));
-    return step_s.value_or(rigid_step_s(realization));
+    return step_s.value_or(rigid_step_s(realization, study_->run.accuracy.value_or(usual_accuracy)));
 }
 
 double Sampler::step(const Realization& realization) const

@@ -5,9 +5,13 @@
 
 namespace stylobate {
 
-/// A part of the time in which the smallest free block falls over, and of the shortest period of the shaking.
-/// (`docs/rigid_limit.md` shows what other steps make of collapse probabilities.)
-/// @return [s]
-double rigid_step_s(const Realization& realization);
+/// What a collapse probability may be off by unless a study says otherwise.
+inline constexpr double usual_accuracy = 0.02;
+
+/// A part of the time in which the smallest free block falls over, and of the shortest period of the shaking: the
+/// shorter of the two. It is in proportion to the accuracy, as the measured errors of collapse probabilities are
+/// (`docs/rigid_limit.md`).
+/// @param accuracy of a collapse probability   @return [s]
+double rigid_step_s(const Realization& realization, double accuracy = usual_accuracy);
 
 } // namespace stylobate

@@ -127,16 +127,22 @@ inline const NumberKey step{"step_s",
                             {1e-12, 1, false, "Times are in seconds.", 1e-3},
                             "a fixed time step instead",
                             {.absent = "from step_fraction"}};
+inline const NumberKey accuracy{"accuracy",
+                                {0.001, 0.2, false, "A difference of probabilities.", 0.01},
+                                "what the numerics may change in a collapse probability: form and step are chosen for "
+                                "it, rigid blocks where no stiffness is given; excludes step_s and step_fraction",
+                                {.absent = "not asked for"}};
 inline const BooleanKey allow_step_above_bound{"allow_step_above_bound", RunSpec{}.allow_step_above_bound,
                                                "run even with a step above the largest safe one"};
 inline const NumberKey max_invalid{"max_invalid_fraction",
                                    {0, 1, false, "A fraction of all realizations.", 0.01},
                                    RunSpec{}.max_invalid_fraction,
                                    "fraction of invalid realizations above which the exit status is 3"};
-inline const TableKey table{"run",
-                            "the computation",
-                            {&precision, &step_fraction, &step_bound, &step, &allow_step_above_bound, &max_invalid},
-                            {.absent = "the defaults of its keys"}};
+inline const TableKey table{
+    "run",
+    "the computation",
+    {&precision, &accuracy, &step_fraction, &step_bound, &step, &allow_step_above_bound, &max_invalid},
+    {.absent = "the defaults of its keys"}};
 
 } // namespace run_keys
 } // namespace stylobate

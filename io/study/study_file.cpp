@@ -35,6 +35,9 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 constexpr std::size_t most_title_bytes = 200;
+/// Compliant contacts at the usual part of the safe step change collapse probabilities by up to this
+/// (`docs/work_precision.md`).
+constexpr double step_accuracy = 0.02;
 
 /// A dashpot's ratio or its coefficient.
 void read_damping(const KeyReader& keys, const NumberKey& ratio_key, const NumberKey& coefficient_key, double& ratio,
@@ -46,11 +49,12 @@ void read_damping(const KeyReader& keys, const NumberKey& ratio_key, const Numbe
     coefficient = keys.maybe(coefficient_key);
 }
 
-ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure)
+/// @param accurate an accuracy is asked for: contacts without a stiffness are then rigid
+ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, bool accurate)
 {
     using namespace contact_keys;
     ContactSpec c;
-    c.form = keys.read(form);
+    c.form = accurate && !keys.has(form) && !keys.has(normal_stiffness) ? ContactForm::rigid : keys.read(form);
     const char* word = word_for(contact_form_names, c.form);
     keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
     c.friction = keys.read(friction);
@@ -281,6 +285,14 @@ RunSpec read_run(const KeyReader& keys)
     r.step_bound = keys.read(step_bound);
     r.step_fraction = keys.read_within(step_fraction, r.allow_step_above_bound ? any_step : stable_step);
     r.step_s = keys.maybe(step);
+    r.accuracy = keys.maybe(accuracy);
+    if (r.accuracy && (r.step_s || keys.has(step_fraction)))
+        keys.refuse(accuracy.name,
+                    fmt::format("and {} exclude each other", (r.step_s ? step.name : step_fraction.name)),
+                    "Give one of the two.");
+    if (r.accuracy && *r.accuracy < step_accuracy)
+        r.step_fraction /= 2;
+
     r.max_invalid_fraction = keys.read(max_invalid);
     return r;
 }
@@ -347,7 +359,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains use their own random numbers.");
 
     study.structure = read_structure(top.table(structure_keys::table));
-    study.contact = read_contact(top.table(contact_keys::table), study.structure);
+    study.contact = read_contact(top.table(contact_keys::table), study.structure,
+                                 top.table(run_keys::table).has(run_keys::accuracy));
     study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
     if (is_surface) {
         if (!top.has("surface"))

@@ -458,7 +458,9 @@ Entries entries_of(const RunSpec& run, ContactForm form)
     Entries out;
     out.add(precision, run.precision);
     const bool bounded = form != ContactForm::rigid; // else the step is chosen by accuracy
-    if (run.step_s)
+    if (run.accuracy)
+        out.add(accuracy, run.accuracy);
+    else if (run.step_s)
         out.add(step, run.step_s);
     else if (bounded)
         out.add(step_fraction, run.step_fraction);

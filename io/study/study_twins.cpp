@@ -45,11 +45,10 @@ bool knows_single(const Study& study)
            study.contact.damping == DampingAt::centroid;
 }
 
-/// Rigid blocks have no stiffness that another form could take, no mechanisms, and cannot be followed to rest.
+/// Rigid blocks have no stiffness that another form could take.
 bool is_form_of_twins(const Study& study, ContactForm form)
 {
-    return study.contact.form != ContactForm::rigid &&
-           (form != ContactForm::rigid || (study.mechanisms.empty() && study.outcome.follow == Follow::collapse));
+    return study.contact.form != ContactForm::rigid && form != ContactForm::rigid;
 }
 
 } // namespace

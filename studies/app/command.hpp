@@ -66,6 +66,8 @@ struct NewStudyOptions {
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
+/// @param pilot realizations of the check of the numerics
+int check_command(const CommonOptions& options, const std::string& study, std::uint64_t pilot);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory);
 /// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none

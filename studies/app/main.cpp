@@ -85,6 +85,7 @@ public:
         app_.set_version_flag("--version", code_version());
         app_.get_formatter()->column_width(34);
         add_run();
+        add_check();
         add_replay();
         add_record();
         add_calibrate();
@@ -110,6 +111,19 @@ public:
     }
 
 private:
+    void add_check()
+    {
+        auto* check = app_.add_subcommand(
+            "check", "say how a study would be run, and what its numerics change in its collapse probability");
+        check->add_option("STUDY", file_, "study file (TOML)")->required();
+        check->add_option("--pilot", pilot_, "realizations that are run twice, the second time twice as fine")
+            ->check(CLI::Range(16, 10'000'000))
+            ->capture_default_str();
+        add_set(*check, options_);
+        add_common(*check, options_);
+        check->callback([this] { status_ = check_command(options_, file_, pilot_); });
+    }
+
     void add_run()
     {
         auto* run = app_.add_subcommand("run", "run a study; continues an unfinished result of the same study");
@@ -327,6 +341,7 @@ private:
 
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
     CommonOptions options_;
+    std::uint64_t pilot_ = 1024;
     int status_ = exit_done;
 
     std::string file_, study_, output_; // what a verb reads, besides, and writes

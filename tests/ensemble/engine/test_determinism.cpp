@@ -9,6 +9,7 @@
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
+#include "tests/ensemble/engine/rigid_study.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,23 +84,13 @@ TEST(Determinism, ACollapsingColonnadeHasTheSameBitsForEveryWidthAndThreadCount)
     same_everywhere(study);
 }
 
-std::string rigid_text(const std::string& name)
-{
-    std::ifstream file(std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/" + name);
-    std::string out, line;
-    while (std::getline(file, line))
-        if (line.find("stiffness") == std::string::npos && line.find("damping") == std::string::npos)
-            out += line + (line == "[contact]" ? "\nform = \"rigid\"\n" : "\n");
-    return out;
-}
-
 TEST(Determinism, RigidBlocksHaveTheSameBitsForEveryWidthAndThreadCount)
 {
     for (const char* name : {"small_scale_column.toml", "small_scale_colonnade_drums.toml"}) {
         const Study study =
-            parse_study(rigid_text(name), name,
-                        {"study.realizations=6", "surface.frequency_hz={ from = 2.0, to = 4.0, count = 3 }",
-                         "surface.pga_m_s2={ from = 3.0, to = 11.0, count = 3 }", "outcome.follow=\"collapse\""});
+            rigid_of(read_study(std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/" + name,
+                                {"study.realizations=6", "surface.frequency_hz={ from = 2.0, to = 4.0, count = 3 }",
+                                 "surface.pga_m_s2={ from = 3.0, to = 11.0, count = 3 }"}));
         const EnsembleRun result = run_all(study, {best_isa(), 2});
         EXPECT_GT(result.states.at(State::collapsed), 10) << name;
         EXPECT_GT(result.states.at(State::rocked), 2) << name;

@@ -6,6 +6,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
+#include "tests/ensemble/engine/rigid_study.hpp"
 
 #include <gtest/gtest.h>
 
@@ -133,6 +134,12 @@ TEST_P(SlotsOfForm, TheExtendedModelHasTheBitsOfTheLanes)
 
 INSTANTIATE_TEST_SUITE_P(Forms, SlotsOfForm, testing::Values("area", "two_corner", "points"),
                          [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST(Slots, RigidBlocksHaveTheBitsOfTheLanes)
+{
+    EXPECT_GT(same_in_slots(rigid_of(column({}))).states.at(State::collapsed), 0);
+    EXPECT_GT(same_in_slots(rigid_of(colonnade({}))).states.at(State::collapsed), 0);
+}
 
 TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
 {
@@ -277,7 +284,8 @@ TEST(Cuda, OutcomesHaveTheBitsOfTheProcessor)
     options.devices = open_cuda_devices();
     for (const Study& study :
          {column({}), colonnade({}), column({"contact.form=\"points\""}), column({"contact.form=\"two_corner\""}),
-          column({"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }"})}) {
+          column({"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }"}), rigid_of(column({})),
+          rigid_of(colonnade({}))}) {
         const EnsembleRun want = run_all(study, {best_isa(), 2});
         EXPECT_EQ(run_all(study, options).outcomes, want.outcomes);
     }

@@ -564,5 +564,62 @@ TEST(StudyFile, TheStudiesOfTheProjectAreRead)
     EXPECT_NEAR(rocking.initial.tilt_rad, std::atan(0.048 / 0.174) / 2, 1e-4);
 }
 
+/// The same study with rigid contacts.
+Lines rigid_lines()
+{
+    auto lines = surface_lines();
+    lines[12] = "form = \"rigid\"";
+    return lines;
+}
+
+TEST(StudyFileRigid, HasFrictionAndRestitutionAlone)
+{
+    auto lines = rigid_lines();
+    const Study plain = parse_study(joined(lines), "study.toml");
+    EXPECT_EQ(plain.contact.form, ContactForm::rigid);
+    EXPECT_EQ(plain.contact.normal_stiffness_n_m2, 0);
+    EXPECT_EQ(plain.contact.restitution, 0);
+    lines[13] = "friction = 0.68\nrestitution = 0.3";
+    EXPECT_EQ(parse_study(joined(lines), "study.toml").contact.restitution, 0.3);
+}
+
+TEST(StudyFileRigid, RefusesWhatNeedsAContactThatYields)
+{
+    const auto refused = [](const Lines& lines, const std::vector<std::string>& words,
+                            const std::vector<std::string>& settings = {}) {
+        try {
+            parse_study(joined(lines), "study.toml", settings);
+            ADD_FAILURE() << "accepted, without " << words.front();
+        } catch (const InputError& error) {
+            for (const std::string& word : words)
+                EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    auto lines = rigid_lines();
+    lines[13] = "friction = 0.68\nnormal_stiffness_n_m2 = 1e8";
+    refused(lines, {"study.toml:14", "normal_stiffness_n_m2", "is not used by contact.form = \"rigid\""});
+    lines[13] = "friction = 0.68\ndamping = \"ends\"";
+    refused(lines, {"study.toml:14", "contact.damping"});
+    lines = rigid_lines();
+    lines[21] = "normal_stiffness = { distribution = \"lognormal\", sigma_ln = 0.7 }";
+    refused(lines, {"study.toml:21", "normal_stiffness", "rigid"});
+    lines = rigid_lines();
+    lines[22] = "[mechanisms]\nstribeck = { dynamic_ratio = 0.5, stribeck_velocity_m_s = 0.01 }";
+    refused(lines, {"stribeck", "is not available with contact.form = \"rigid\"", "two_corner"});
+    for (const auto& [text, word] : {std::pair{"step_fraction = 0.5", "run.step_fraction"},
+                                     {"step_bound = \"structure\"", "run.step_bound"},
+                                     {"precision = \"single\"", "run.precision"}}) {
+        lines = rigid_lines();
+        lines[22] = std::string("[run]\n") + text;
+        refused(lines, {word, "rigid"});
+    }
+    lines = rigid_lines();
+    lines[22] = "[outcome]\nfollow = \"rest\"";
+    refused(lines, {"outcome.follow", "two_corner"});
+    lines = surface_lines();
+    lines[13] = "friction = 0.68\nrestitution = 0.3"; // contacts by area have dashpots
+    refused(lines, {"study.toml:14", "contact.restitution", "is not used by contact.form = \"area\""});
+}
+
 } // namespace
 } // namespace stylobate

@@ -1,0 +1,86 @@
+/// `stylobate check`.
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/interval.hpp"
+#include "io/keys/words.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/numerics.hpp"
+#include "studies/report/json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// Whether a realization is drawn by its index alone.
+bool has_pilot(const Study& study)
+{
+    return study.kind == StudyKind::single || study.kind == StudyKind::fragility ||
+           (study.kind == StudyKind::surface && !study.surface->adaptive);
+}
+
+std::string numerics_text(const Study& study, double step_s)
+{
+    return fmt::format("contact.form = \"{}\", steps of {:.3g} s (1/{:.0f})",
+                       word_for(contact_form_names, study.contact.form), step_s, 1 / step_s);
+}
+
+} // namespace
+
+int check_command(const CommonOptions& options, const std::string& file, std::uint64_t pilot)
+{
+    const LoadedStudy loaded = LoadedStudy::from_file(file, options.set);
+    const Study& study = loaded.study();
+    for (const Doubt& doubt : loaded.doubts())
+        fmt::print(stderr, "{}: {}\n", doubt.refused ? "refused" : "warning", doubt.text);
+    if (!has_pilot(study))
+        throw InputError(fmt::format("{}: `check` runs a part of a study twice, and those of study.kind = \"{}\"{} are "
+                                     "chosen by what others did.\n  Check the same structure and shaking as a surface.",
+                                     file, word_for(study_kind_names, study.kind),
+                                     study.kind == StudyKind::surface ? " with surface.adaptive" : ""));
+    Observer quiet;
+    const NumericsCheck check = check_numerics(loaded.experiment(), options.run_options(), pilot, quiet);
+    const auto n = static_cast<double>(check.realizations);
+    const double share = n > 0 ? static_cast<double>(check.collapsed) / n : 0;
+    const double per_s = check.seconds > 0 ? n / check.seconds : 0;
+    const double wanted = study.run.accuracy.value_or(0);
+    // the error is shown to be too large, or not
+    const bool missed = wanted > 0 && std::fabs(check.difference) - 2 * check.sd > wanted;
+    if (options.json) {
+        fmt::print("{}\n", Json::object()
+                               .member("form", word_for(contact_form_names, study.contact.form))
+                               .member("mean_step_s", check.step_s)
+                               .member("realizations", study.total())
+                               .member("pilot", check.realizations)
+                               .member("collapse_probability", share)
+                               .member("error_of_the_numerics", check.difference)
+                               .member("its_standard_error", check.sd)
+                               .member("realizations_per_second", per_s)
+                               .member("accuracy_missed", missed)
+                               .text());
+        return missed ? exit_invalid : exit_done;
+    }
+    fmt::print("{}: {} realizations; {}\n", file, study.total(), numerics_text(study, check.step_s));
+    fmt::print("pilot: {} of them, {:.3g} of these collapsed; with steps half as long {:.3g}\n", check.realizations,
+               share, n > 0 ? static_cast<double>(check.finer) / n : 0);
+    fmt::print("error of the numerics: {:+.4f} ± {:.4f} of the collapse probability (difference of the two, and its "
+               "standard error)\n",
+               check.difference, check.sd);
+    if (per_s > 0)
+        fmt::print(
+            "about {:.3g} s for all realizations with these threads; with steps half as long {:.2g} times that\n",
+            static_cast<double>(study.total()) / per_s, check.finer_seconds / check.seconds);
+    if (missed)
+        fmt::print("run.accuracy = {:g} is not reached: give a smaller one.\n", wanted);
+    else if (wanted > 0 && check.sd > wanted)
+        fmt::print("The pilot is too small to see an error of {:g}: --pilot {:.0f} would.\n", wanted,
+                   n * std::pow(check.sd / wanted, 2) * 4);
+    return missed ? exit_invalid : exit_done;
+}
+
+} // namespace stylobate

@@ -1,0 +1,88 @@
+#include "studies/experiment/numerics.hpp"
+
+#include "ensemble/model/outcome.hpp"
+#include "ensemble/statics/rigid_step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace stylobate {
+
+namespace {
+
+struct PilotRun {
+    std::vector<std::optional<bool>> collapsed; ///< (pilot) none: invalid
+    double step_s = 0;                          ///< sum
+    double seconds = 0;
+};
+
+PilotRun run_pilot(const Experiment& experiment, const RunOptions& options, const std::vector<std::uint64_t>& indices,
+                   Observer& observer)
+{
+    PilotRun out;
+    out.collapsed.resize(indices.size());
+    RunPlan plan;
+    plan.total = indices.size();
+    plan.indices = indices;
+    plan.sink = [&](const Realization& r, const Outcome& o) {
+        const auto at = std::lower_bound(indices.begin(), indices.end(), r.index) - indices.begin();
+        if (o.state != State::invalid)
+            out.collapsed[static_cast<std::size_t>(at)] = o.state == State::collapsed;
+        out.step_s += r.step_s;
+    };
+    const auto begin = std::chrono::steady_clock::now();
+    run_ensemble(experiment, options, plan, observer);
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return out;
+}
+
+} // namespace
+
+Study twice_as_fine(Study study)
+{
+    if (study.run.step_s)
+        study.run.step_s = *study.run.step_s / 2;
+    else if (study.contact.form == ContactForm::rigid)
+        study.run.accuracy = study.run.accuracy.value_or(usual_accuracy) / 2;
+    else
+        study.run.step_fraction /= 2;
+    return study;
+}
+
+NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& options, std::uint64_t pilot,
+                             Observer& observer)
+{
+    const std::uint64_t total = experiment.study().total(), count = std::min(pilot, total);
+    std::vector<std::uint64_t> indices;
+    for (std::uint64_t i = 0; i < count; ++i) // (in this order the product does not overflow)
+        indices.push_back(total / count * i + total % count * i / count);
+    const PilotRun plain = run_pilot(experiment, options, indices, observer);
+    const Experiment fine(twice_as_fine(experiment.study()), experiment.motions());
+    const PilotRun finer = run_pilot(fine, options, indices, observer);
+
+    NumericsCheck out;
+    out.step_s = plain.step_s / static_cast<double>(count);
+    out.seconds = plain.seconds;
+    out.finer_seconds = finer.seconds;
+    double alone = 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (!plain.collapsed[i] || !finer.collapsed[i])
+            continue;
+        ++out.realizations;
+        out.collapsed += *plain.collapsed[i];
+        out.finer += *finer.collapsed[i];
+        alone += *plain.collapsed[i] != *finer.collapsed[i];
+    }
+    if (out.realizations == 0)
+        return out;
+    const auto n = static_cast<double>(out.realizations);
+    out.difference = (static_cast<double>(out.collapsed) - static_cast<double>(out.finer)) / n;
+    // of pairs; none that differs says no more than that there are less than one in n
+    out.sd = std::sqrt(std::max(alone, 1.0) - n * out.difference * out.difference) / n;
+    return out;
+}
+
+} // namespace stylobate
