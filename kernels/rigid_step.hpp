@@ -31,9 +31,9 @@ namespace stylobate {
 namespace detail {
 
 /// Solutions of a step in which all beds may change; as many more in which the lowest of those that would change does.
-inline constexpr int passes_of_all = 12, passes_of_one = 12;
+inline constexpr int passes_of_all = 8, passes_of_one = 12;
 /// Sweeps of the relaxation for what is then left, and how often both are tried.
-inline constexpr int relaxation_sweeps = 30, rounds = 2;
+inline constexpr int relaxation_sweeps = 10, rounds = 3;
 /// Faces that are turned more than this against each other are no bed: cosine.
 inline constexpr double least_bed_cosine = 0.2;
 /// Of rigid columns under an epistyle the forces are not unique. The diagonal of the system is larger by this part, as
@@ -478,7 +478,7 @@ private:
     {
         const Real half(0.5);
         for (int round = 0; round < detail::rounds; ++round) {
-            const Real open = find_contacts();
+            const Real open = find_contacts(round + 1 == detail::rounds);
             if (!any(open > half))
                 return;
             relax(open > half);
@@ -486,13 +486,13 @@ private:
     }
 
     /// Solutions with other ends that carry, until none contradicts itself.
-    /// @return 1 where they have not been found
-    STYLOBATE_INLINE Real find_contacts() const
+    /// @param patient goes on with one bed at a time   @return 1 where they have not been found
+    STYLOBATE_INLINE Real find_contacts(bool patient) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
         const Real still = zero - abs_of(get(OfRealization::gravity_dy)) * Real(detail::still_rate<NumberOf<Real>>);
         Real open(1.0);
-        for (int pass = 0; pass < detail::passes_of_all + detail::passes_of_one; ++pass) {
+        for (int pass = 0; pass < detail::passes_of_all + (patient ? detail::passes_of_one : 0); ++pass) {
             solve_equations();
             apply_forces();
             put(OfRigid::passes, get(OfRigid::passes) + open);
