@@ -118,6 +118,26 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
     return std::nullopt;
 }
 
+/// A tie in words: on what the force depends that it stands for.
+StructureFit structure_of(const CauseFit& tie)
+{
+    StructureFit fit;
+    fit.gain = tie.gain;
+    fit.size = tie.size;
+    fit.sd = tie.sd;
+    Structure& s = fit.structure;
+    s.block = tie.cause.block;
+    const bool turns = tie.cause.parameter == "turning_dashpot_n_m_s";
+    s.coordinate = turns ? "theta" : "x";
+    s.depends_on = turns ? "angular velocity" : tie.cause.parameter == "dashpot_n_s_m" ? "velocity" : "position";
+    const std::string how = s.depends_on != "position" ? "goes against its " + s.depends_on
+                            : tie.size > 0             ? "draws it to its place on the base"
+                                                       : "drives it away from its place on the base";
+    s.text = fmt::format("{} on block {} that {}, as a tie of {:.2g} {} would", turns ? "a moment" : "a sideways force",
+                         s.block, how, tie.size, tie.cause.unit);
+    return fit;
+}
+
 /// What the best cause leaves of the set's probability goes to the others in the set, by their gains.
 void share_what_remains(const EnsembleVerdict& verdict, Decided& out)
 {
@@ -146,14 +166,14 @@ bool may_be_named(const EnsembleVerdict& verdict, JudgedCause& best)
         best.why_not = fmt::format("the p-value of the gain is {:.2g}", verdict.p_value);
     else if (!probable)
         best.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);
-    else if (!matters(best.fit))
+    else if (!stands_for_unknown(best.fit.cause) && !matters(best.fit))
         best.why_not = "its size is within the scatter between specimens";
     best.considered = best.why_not.empty();
     return best.considered;
 }
 
 /// Rules 2 to 4: all candidates are listed, the likeliest first; the best one, its rivals and a second cause are
-/// considered if they may be named.
+/// considered if they may be named. A tie is never named: it stands for what is not in the list.
 void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, Decided& out)
 {
     const EnsembleVerdict& verdict = ensemble.by_statistics;
@@ -185,9 +205,15 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     });
     if (!named)
         return;
+    if (stands_for_unknown(best.fit.cause)) {
+        out.unexplained = structure_of(best.fit);
+        out.unexplained_chance = best.chance;
+        out.by_tie = true;
+        return;
+    }
     take_size_of_forces(balance, best);
     out.named.push_back(best);
-    if (verdict.second < 0)
+    if (verdict.second < 0 || stands_for_unknown(ensemble.causes[static_cast<std::size_t>(verdict.second)].cause))
         return;
     JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
     second.considered = true;
@@ -203,6 +229,8 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
 void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
                       Decided& out)
 {
+    if (out.by_tie)
+        return;
     out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force);
     out.unexplained_chance = ensemble.forces.unknown.p_value;
     if (!out.unexplained && ensemble.by_statistics.unexplained) {
