@@ -99,15 +99,14 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
                                           const DecisionRule& rule, double named_at)
 {
     const ForceTest& scores = ensemble.forces;
-    if (scores.unknown.variant < 0 || scores.unknown.p_value > named_at)
+    if (scores.variant < 0 || scores.p_value > named_at)
         return std::nullopt;
-    if (nats_of_score(scores.unknown.score) <= nats_of_score(quantile95(scores.unknown.nulls)) + rule.structure_clear)
+    if (nats_of_score(scores.score) <= nats_of_score(quantile95(scores.nulls)) + rule.structure_clear)
         return std::nullopt;
     double listed = 0; // what a known cause explains of the same samples
     for (const CauseFit& fit : balance.causes)
         listed = std::max(listed, fit.gain);
-    const Structure& wanted =
-        ensemble.scored.structures[static_cast<std::size_t>(scores.unknown.variant) - ensemble.scored.causes.size()];
+    const Structure& wanted = ensemble.scored.structures[static_cast<std::size_t>(scores.variant)];
     for (const StructureFit& fit : balance.structures) {
         if (fit.structure.text != wanted.text || fit.gain_by_run.size() < 2)
             continue;
@@ -232,7 +231,7 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     if (out.by_tie)
         return;
     out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force);
-    out.unexplained_chance = ensemble.forces.unknown.p_value;
+    out.unexplained_chance = ensemble.forces.p_value;
     if (!out.unexplained && ensemble.by_statistics.unexplained) {
         out.unexplained = left_over(ensemble);
         out.unexplained_chance = ensemble.by_statistics.left_p_value;
@@ -259,7 +258,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
     Decided out;
     out.named = named_directly(direct);
     if (ensemble) {
-        out.structure95 = nats_of_score(quantile95(ensemble->forces.unknown.nulls));
+        out.structure95 = nats_of_score(quantile95(ensemble->forces.nulls));
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             find_unexplained(balance, *ensemble, rule, out);
@@ -276,12 +275,10 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
 {
     std::vector<std::string> lines;
     const ForceTest& forces = ensemble.forces;
-    if (forces.unknown.variant >= 0)
-        lines.push_back(fmt::format(
-            "forces of no known kind: {}, p = {:.2g}, {:.1f} nats against {:.1f} of causes",
-            ensemble.scored.structures[static_cast<std::size_t>(forces.unknown.variant) - ensemble.scored.causes.size()]
-                .text,
-            forces.unknown.p_value, nats_of_score(forces.unknown.score), nats_of_score(forces.cause.score)));
+    if (forces.variant >= 0)
+        lines.push_back(fmt::format("forces of no known kind: {}, p = {:.2g}, {:.1f} nats",
+                                    ensemble.scored.structures[static_cast<std::size_t>(forces.variant)].text,
+                                    forces.p_value, nats_of_score(forces.score)));
     const EnsembleVerdict& statistics = ensemble.by_statistics;
     if (statistics.best >= 0)
         lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; what is left has "

@@ -158,11 +158,13 @@ std::vector<double> weights_of(const std::vector<double>& distance)
     return out;
 }
 
-Eigen::MatrixXd scores_of(const std::vector<const SimulatedCampaign*>& rows, std::size_t count)
+/// (rows x structures) scores of the forces of no known kind, which are the last ones.
+Eigen::MatrixXd force_scores(const std::vector<const SimulatedCampaign*>& rows, std::size_t structures)
 {
-    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(count));
+    const auto count = static_cast<Eigen::Index>(structures);
+    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), count);
     for (std::size_t i = 0; i < rows.size(); ++i)
-        out.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]->scores).transpose();
+        out.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]->scores).tail(count).transpose();
     return out;
 }
 
@@ -356,14 +358,9 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.by_statistics = ensemble_verdict(evidence);
 
     ForceEvidence forces;
-    for (const Cause& cause : out.scored.causes)
-        forces.sign.push_back(sign_of_cause(cause));
-    forces.cause.assign(forces.sign.size(), true);
-    forces.cause.resize(out.scored.size(), false);
-    forces.sign.resize(out.scored.size(), 0);
-    forces.nulls = scores_of(nulls, out.scored.size());
+    forces.nulls = force_scores(nulls, out.scored.structures.size());
     forces.likeness = evidence.likeness;
-    forces.campaign = vector_of(out.scores);
+    forces.campaign = vector_of(out.scores).tail(forces.nulls.cols());
     out.forces = force_test(forces);
     find_carrying_number(evidence, out);
 }

@@ -57,7 +57,7 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
     v.used = {0, 1, 2};
     e.evidence = {{"slip_path", 0}, {"rotation_path", 1}, {"open_time", 2}};
     e.scored.structures = {{1, "x", "velocity", "a sideways force"}};
-    e.forces.unknown.nulls.assign(100, 0.5);
+    e.forces.nulls.assign(100, 0.5);
     return e;
 }
 
@@ -65,9 +65,9 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
 std::pair<BalanceEvidence, EnsembleDiagnosis> with_force(double score, const std::vector<double>& by_run)
 {
     EnsembleDiagnosis e = ensemble_of(2, 1, 1);
-    e.forces.unknown.variant = 0;
-    e.forces.unknown.score = score;
-    e.forces.unknown.p_value = 0.005;
+    e.forces.variant = 0;
+    e.forces.score = score;
+    e.forces.p_value = 0.005;
     BalanceEvidence balance;
     StructureFit fit{e.scored.structures.front(), 0, 1, 0.1, by_run};
     for (const double gain : by_run)
@@ -231,7 +231,7 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     rival.first.causes = {fit_of("joint_friction", 55)}; // of 60 nats
     EXPECT_EQ(verdict(rival), Verdict::none);
     auto usual = with_force(5, {20, 20, 20});
-    usual.second.forces.unknown.p_value = 0.05;
+    usual.second.forces.p_value = 0.05;
     EXPECT_EQ(verdict(usual), Verdict::none);
 }
 
