@@ -93,7 +93,7 @@ int main(int argc, char** argv)
             const Decided decided = decide({}, balance_evidence(campaign, scales, base_m), &found, {});
             named += decided.verdict == Verdict::named ? 1 : 0;
             unexplained += decided.verdict == Verdict::unexplained ? 1 : 0;
-            forces += found.forces.unknown.p_value <= 0.1 ? 1 : 0;
+            forces += found.forces.p_value <= 0.1 ? 1 : 0;
             statistics += found.by_statistics.p_value <= 0.1 ? 1 : 0;
             outside += found.by_statistics.contrasts ? 1 : 0;
             for (const JudgedCause& j : decided.named)

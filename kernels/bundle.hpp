@@ -110,6 +110,10 @@ struct OfBlockExtension {
         reference_y,   ///< [m]
         eccentricity,  ///< centre of mass from the geometric centre, along the width [m]
         drag_per_mass, ///< c / m [1/m]
+        tie_spring,    ///< tie: dt2 k / m
+        tie_dashpot,   ///< dt c / m
+        tie_pull,      ///< dt2 f / m [m]
+        tie_turning,   ///< dt c_r / I
         nudge_x,       ///< nudging: dt2 x an external acceleration, which the host may write between two runs [m]
         nudge_y,       ///< [m]
         nudge_theta,   ///< [rad]
@@ -157,7 +161,7 @@ struct OfRealizationExtension {
         base_dx,      ///< increment of the base's displacement in the last step [m]; step
         base_dy,      ///< the same upwards [m]; step
         joint_energy, ///< 2 x the energy taken by dowels and worn corners [J]; step
-        drag_energy,  ///< 2 dt2 x the dissipation of drag [J s2]; step
+        drag_energy,  ///< 2 dt2 x the work against drag and ties [J s2]; step
         count
     };
 };

@@ -75,6 +75,14 @@ constexpr MechanismParameter wedge[] = {{"angle", "_rad", "rad", -0.5, 0.5, fals
                                          "rotation of the lower block's face, counter-clockwise"}};
 constexpr MechanismParameter drum_offset[] = {{"offset", "_m", "m", -10, 10, false, acting, 0, by_sampler,
                                                "displacement of the block from its nominal position, to the right"}};
+constexpr MechanismParameter tie[] = {
+    {"stiffness", "_n_m", "N/m", -1e12, 1e12, false, acting, 0, &Block_::tie_n_m,
+     "horizontal stiffness against the base; negative: away from its place"},
+    {"dashpot", "_n_s_m", "N s/m", 0, 1e9, false, acting, 0, &Block_::tie_n_s_m,
+     "horizontal force against the velocity relative to the base"},
+    {"force", "_n", "N", -1e12, 1e12, false, acting, 0, &Block_::tie_n, "constant force, to the right"},
+    {"turning_dashpot", "_n_m_s", "N m s", 0, 1e9, false, acting, 0, &Block_::tie_n_m_s,
+     "moment against the rate of rotation relative to the base"}};
 
 constexpr auto joint = MechanismPlace::joint;
 constexpr auto block = MechanismPlace::block;
@@ -102,7 +110,8 @@ constexpr MechanismRule rules[] = {
     {Mechanism::adhesion, "adhesion", joint, "adhesion until the first slip", adhesion},
     {Mechanism::eccentricity, "eccentricity", block, "an eccentric centre of mass", eccentricity},
     {Mechanism::wedge, "wedge", joint, "a face that is not square", wedge},
-    {Mechanism::drum_offset, "drum_offset", block, "a block displaced from its nominal position", drum_offset}};
+    {Mechanism::drum_offset, "drum_offset", block, "a block displaced from its nominal position", drum_offset},
+    {Mechanism::tie, "tie", block, "a block tied to the base: spring, dashpots, constant force", tie}};
 static_assert(std::size(rules) == mechanism_count);
 
 constexpr bool in_order()

@@ -34,9 +34,10 @@ enum class Mechanism : std::uint8_t {
     adhesion,
     eccentricity,
     wedge,
-    drum_offset
+    drum_offset,
+    tie
 };
-inline constexpr int mechanism_count = 19;
+inline constexpr int mechanism_count = 20;
 const char* to_string(Mechanism mechanism);
 
 /// Where a mechanism acts.

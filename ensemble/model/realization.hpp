@@ -41,6 +41,10 @@ struct JointExtension {
 struct BlockExtension {
     double drag_n_s2_m2 = 0;   ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
     double eccentricity_m = 0; ///< eccentricity: centre of mass from the geometric centre, along the width
+    double tie_n_m = 0;        ///< tie: k in F = f - k x - c x', horizontally, against the base; may be negative
+    double tie_n_s_m = 0;      ///< tie: c
+    double tie_n = 0;          ///< tie: f
+    double tie_n_m_s = 0;      ///< tie: moment against the rotation, per rate of rotation
     friend bool operator==(const BlockExtension&, const BlockExtension&) = default;
 };
 

@@ -134,6 +134,10 @@ void store_extension(const Realization& r, const std::vector<int>& order, const 
         b.at(OfBlockExtension::reference_x, i, lane) = block.x_m + block.extension.eccentricity_m;
         b.at(OfBlockExtension::reference_y, i, lane) = block.y_m;
         b.at(OfBlockExtension::drag_per_mass, i, lane) = block.extension.drag_n_s2_m2 / block.mass_kg;
+        b.at(OfBlockExtension::tie_spring, i, lane) = dt * dt * block.extension.tie_n_m / block.mass_kg;
+        b.at(OfBlockExtension::tie_dashpot, i, lane) = dt * block.extension.tie_n_s_m / block.mass_kg;
+        b.at(OfBlockExtension::tie_pull, i, lane) = dt * dt * block.extension.tie_n / block.mass_kg;
+        b.at(OfBlockExtension::tie_turning, i, lane) = dt * block.extension.tie_n_m_s / block.inertia_kg_m2;
     }
     // the extensions are of beds; watched pairs meet as in the baseline
     for (int j = 0; j < r.beds(); ++j) {

@@ -261,6 +261,12 @@ StepBound step_bound(const Realization& r)
             rate = std::max(rate, edge_rate(r.blocks, joint, contact.x + side * contact.chord, C_n, C_t));
     }
 
+    for (std::size_t b = 0; b < r.blocks.size(); ++b) { // a tie that drives away shortens no step
+        stiffness[b](0, 0) += std::max(r.blocks[b].extension.tie_n_m, 0.0);
+        damping[b](0, 0) += r.blocks[b].extension.tie_n_s_m;
+        damping[b](2, 2) += r.blocks[b].extension.tie_n_m_s;
+    }
+
     StepBound bound;
     const CaughtPairs caught = caught_pairs(r.blocks, r.joints, static_cast<std::size_t>(r.beds()));
     double w2 = caught.w2, c = 0;
@@ -365,6 +371,10 @@ Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& j
         if (!blocks[b].fixed) {
             const double root = std::sqrt(blocks[b].mass_kg);
             v.root_mass.segment<3>(v.first[b]) = Eigen::Vector3d(root, root, std::sqrt(blocks[b].inertia_kg_m2));
+            const BlockExtension& e = blocks[b].extension;
+            v.K(v.first[b], v.first[b]) += e.tie_n_m;
+            v.C(v.first[b], v.first[b]) += e.tie_n_s_m;
+            v.C(v.first[b] + 2, v.first[b] + 2) += e.tie_n_m_s;
         }
     return v;
 }

@@ -59,8 +59,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 std::string_view without_unit(std::string_view key)
 {
     // a unit that ends in another one stands before it
-    constexpr std::array<std::string_view, 10> units = {"_n_s_m", "_kg_m3", "_n_m2", "_m_s2", "_n_m",
-                                                        "_rad",   "_hz",    "_kg",   "_m",    "_s"};
+    constexpr std::array<std::string_view, 11> units = {"_n_s_m", "_n_m_s", "_kg_m3", "_n_m2", "_m_s2", "_n_m",
+                                                        "_rad",   "_hz",    "_kg",    "_m",    "_s"};
     for (const auto unit : units)
         if (key.size() > unit.size() && key.substr(key.size() - unit.size()) == unit)
             return key.substr(0, key.size() - unit.size());

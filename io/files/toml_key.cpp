@@ -15,6 +15,7 @@ namespace {
 constexpr std::array unit_endings = {std::pair{"_n_s2_m2", "N s2/m2"},
                                      std::pair{"_rad_s2_m", "rad s2/m"},
                                      std::pair{"_n_s_m", "N s/m"},
+                                     std::pair{"_n_m_s", "N m s"},
                                      std::pair{"_kg_m3", "kg/m3"},
                                      std::pair{"_n_m2", "N/m2"},
                                      std::pair{"_n_m", "N/m"},

@@ -19,6 +19,7 @@
 #include "kernels/mechanisms/rate_damping.hpp"
 #include "kernels/mechanisms/stribeck.hpp"
 #include "kernels/mechanisms/table_pitch.hpp"
+#include "kernels/mechanisms/tie.hpp"
 #include "kernels/mechanisms/two_corner.hpp"
 #include "kernels/mechanisms/vertical_motion.hpp"
 #include "kernels/mechanisms/wedge.hpp"
@@ -291,7 +292,7 @@ public:
             lab_x = fnma(pitch_.increment, y, lab_x);
             lab_y = fma(pitch_.increment, x, lab_y);
         }
-        Real slow_x(0.0), slow_y(0.0);
+        Real slow_x(0.0), slow_y(0.0), slow_theta(0.0);
         const Real drag = rows_.get(B::drag_per_mass, i);
         const bool dragged = any(drag != Real(0.0));
         if (dragged) {
@@ -299,11 +300,21 @@ public:
             slow_x = factor * lab_x;
             slow_y = factor * lab_y;
         }
+        const Real spring = rows_.get(B::tie_spring, i), dashpot = rows_.get(B::tie_dashpot, i);
+        const Real pull = rows_.get(B::tie_pull, i), turning = rows_.get(B::tie_turning, i);
+        const Real none(0.0);
+        const bool tied = any((spring != none) | (dashpot != none) | (pull != none) | (turning != none));
+        if (tied) {
+            slow_x = tie_resistance(spring, dashpot, pull, rows_.get(OfBlock::x, i), dx, slow_x);
+            slow_theta = turning * dtheta;
+        }
         e.x = fma(rows_.get(OfBlock::dt2_per_mass, i), force.x, (dx + px) - slow_x);
         e.y = fma(rows_.get(OfBlock::dt2_per_mass, i), force.y, (dy + py) - slow_y);
-        e.theta = fma(rows_.get(OfBlock::dt2_per_inertia, i), force.theta, dtheta + ptheta);
-        if (dragged)
+        e.theta = fma(rows_.get(OfBlock::dt2_per_inertia, i), force.theta, (dtheta + ptheta) - slow_theta);
+        if (dragged || tied)
             drag_energy_ = fma(mass, fma(slow_x, dx + e.x, slow_y * (dy + e.y)), drag_energy_);
+        if (tied)
+            drag_energy_ = fma(inertia * slow_theta, dtheta + e.theta, drag_energy_);
         // beyond what the baseline's balance has: gravity and the base in the frame at rest
         drive_energy_ = fma(mass, fma(px - level_x_, dx + e.x, (py - gravity_y_) * (dy + e.y)),
                             fma(inertia * ptheta, dtheta + e.theta, drive_energy_));

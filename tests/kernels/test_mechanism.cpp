@@ -68,6 +68,14 @@ std::vector<Case> cases()
                        for (Block& block : r.blocks)
                            block.extension.drag_n_s2_m2 = 0.5;
                    }});
+    all.push_back({"tie", [](Realization& r) {
+                       for (Block& block : r.blocks) {
+                           block.extension.tie_n_m = 40;
+                           block.extension.tie_n_s_m = 0.5;
+                           block.extension.tie_n = 0.05;
+                           block.extension.tie_n_m_s = 1e-4;
+                       }
+                   }});
     all.push_back({"eccentricity", [](Realization& r) {
                        for (Block& block : r.blocks)
                            block.extension.eccentricity_m = block.fixed ? 0 : 0.001;

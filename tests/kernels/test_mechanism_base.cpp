@@ -95,6 +95,72 @@ TEST(Drag, IsThatOfTheLaboratory)
     }
 }
 
+TEST(Tie, SwingsAsADampedOscillatorAboutWhereItsForceHoldsIt)
+{
+    // m x'' + c x' + k x = f from rest at 0: x = f / k (1 - e^(-d t) (cos w t + d / w sin w t)), d = c / (2 m)
+    const double k = 900, c = 8, f = 0.9, dt = 1e-4;
+    Realization r = floating(dt);
+    r.blocks[1].extension.tie_n_m = k;
+    r.blocks[1].extension.tie_n_s_m = c;
+    r.blocks[1].extension.tie_n = f;
+    const Study study = still(10);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    const double start = set.snapshot(0).x_m[1];
+    const double d = c / (2 * slab.mass), w = std::sqrt(k / slab.mass - d * d);
+    for (int chunk = 1; chunk <= 150; ++chunk) {
+        set.advance();
+        const double t = chunk * chunk_steps * dt;
+        const double x = f / k * (1 - std::exp(-d * t) * (std::cos(w * t) + d / w * std::sin(w * t)));
+        EXPECT_NEAR(set.snapshot(0).x_m[1] - start, x, 2e-3 * f / k) << t;
+    }
+}
+
+TEST(Tie, DrivesAwayFromThePlaceWithANegativeStiffness)
+{
+    // m x'' = f + |k| x: x = f / |k| (cosh(w t) - 1)
+    const double k = 16, f = 0.01, dt = 1e-4;
+    Realization r = floating(dt);
+    r.blocks[1].extension.tie_n_m = -k;
+    r.blocks[1].extension.tie_n = f;
+    const Study study = still(10);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    const double start = set.snapshot(0).x_m[1], w = std::sqrt(k / slab.mass);
+    for (int chunk = 1; chunk <= 150; ++chunk)
+        set.advance();
+    const double t = 150 * chunk_steps * dt, x = f / k * (std::cosh(w * t) - 1);
+    EXPECT_NEAR(set.snapshot(0).x_m[1] - start, x, 2e-3 * x);
+    EXPECT_GT(x, 1.2 * f * t * t / (2 * slab.mass)) << "the spring has a part in it";
+}
+
+TEST(Tie, SlowsRotation)
+{
+    // I theta'' = -c_r theta': what turns freely turns by w0 I / c_r at last
+    const double c = 0.2, dt = 1e-4;
+    Realization r = floating(dt);
+    r.blocks[1].extension.tie_n_m_s = c;
+    const Study study = still(10);
+    LaneSet set(study, nullptr, kernels(best_isa()), r);
+    set.load(0, r);
+    lift(set, 0.2);
+    set.nudge(0, 1, 0, 0, 20);
+    set.advance();
+    set.nudge(0, 1, 0, 0, 0);
+    const Snapshot a = set.snapshot(0);
+    set.advance(0, 1);
+    const double rate = (set.snapshot(0).theta_rad[1] - a.theta_rad[1]) / dt;
+    EXPECT_GT(rate, 0.05);
+    set.advance(1, chunk_steps);
+    const int chunks = 20;
+    for (int chunk = 1; chunk < chunks; ++chunk)
+        set.advance();
+    const double inertia = r.blocks[1].inertia_kg_m2, t = chunks * chunk_steps * dt;
+    const double turned = rate * inertia / c * (1 - std::exp(-c * t / inertia));
+    EXPECT_NEAR(set.snapshot(0).theta_rad[1] - a.theta_rad[1], turned, 2e-3 * turned);
+    EXPECT_LT(turned, 0.9 * rate * t);
+}
+
 TEST(TablePitch, WhatFloatsGoesStraightInTheLaboratory)
 {
     // gravity apart, all terms of the turned frame: r_lab = U + R(phi) r and theta + phi go on evenly

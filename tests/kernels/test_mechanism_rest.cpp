@@ -215,6 +215,12 @@ TEST(ExtendedEnergy, Balances)
         block.extension.eccentricity_m = block.fixed ? 0 : 0.001;
     }
     all.push_back(plain);
+    for (Block& block : all.back().blocks) {
+        block.extension.tie_n_m = 60;
+        block.extension.tie_n_s_m = 1;
+        block.extension.tie_n_m_s = 1e-4;
+    }
+    all.push_back(plain);
     all.back().base = {2e-3, 0.5};
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Outcome o = run_one(study, all[i]);

@@ -99,15 +99,14 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
                                           const DecisionRule& rule, double named_at)
 {
     const ForceTest& scores = ensemble.forces;
-    if (scores.unknown.variant < 0 || scores.unknown.p_value > named_at)
+    if (scores.variant < 0 || scores.p_value > named_at)
         return std::nullopt;
-    if (nats_of_score(scores.unknown.score) <= nats_of_score(quantile95(scores.unknown.nulls)) + rule.structure_clear)
+    if (nats_of_score(scores.score) <= nats_of_score(quantile95(scores.nulls)) + rule.structure_clear)
         return std::nullopt;
     double listed = 0; // what a known cause explains of the same samples
     for (const CauseFit& fit : balance.causes)
         listed = std::max(listed, fit.gain);
-    const Structure& wanted =
-        ensemble.scored.structures[static_cast<std::size_t>(scores.unknown.variant) - ensemble.scored.causes.size()];
+    const Structure& wanted = ensemble.scored.structures[static_cast<std::size_t>(scores.variant)];
     for (const StructureFit& fit : balance.structures) {
         if (fit.structure.text != wanted.text || fit.gain_by_run.size() < 2)
             continue;
@@ -116,6 +115,26 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
             return fit;
     }
     return std::nullopt;
+}
+
+/// A tie in words: on what the force depends that it stands for.
+StructureFit structure_of(const CauseFit& tie)
+{
+    StructureFit fit;
+    fit.gain = tie.gain;
+    fit.size = tie.size;
+    fit.sd = tie.sd;
+    Structure& s = fit.structure;
+    s.block = tie.cause.block;
+    const bool turns = tie.cause.parameter == "turning_dashpot_n_m_s";
+    s.coordinate = turns ? "theta" : "x";
+    s.depends_on = turns ? "angular velocity" : tie.cause.parameter == "dashpot_n_s_m" ? "velocity" : "position";
+    const std::string how = s.depends_on != "position" ? "goes against its " + s.depends_on
+                            : tie.size > 0             ? "draws it to its place on the base"
+                                                       : "drives it away from its place on the base";
+    s.text = fmt::format("{} on block {} that {}, as a tie of {:.2g} {} would", turns ? "a moment" : "a sideways force",
+                         s.block, how, tie.size, tie.cause.unit);
+    return fit;
 }
 
 /// What the best cause leaves of the set's probability goes to the others in the set, by their gains.
@@ -146,14 +165,14 @@ bool may_be_named(const EnsembleVerdict& verdict, JudgedCause& best)
         best.why_not = fmt::format("the p-value of the gain is {:.2g}", verdict.p_value);
     else if (!probable)
         best.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);
-    else if (!matters(best.fit))
+    else if (!stands_for_unknown(best.fit.cause) && !matters(best.fit))
         best.why_not = "its size is within the scatter between specimens";
     best.considered = best.why_not.empty();
     return best.considered;
 }
 
 /// Rules 2 to 4: all candidates are listed, the likeliest first; the best one, its rivals and a second cause are
-/// considered if they may be named.
+/// considered if they may be named. A tie is never named: it stands for what is not in the list.
 void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, Decided& out)
 {
     const EnsembleVerdict& verdict = ensemble.by_statistics;
@@ -185,9 +204,15 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     });
     if (!named)
         return;
+    if (stands_for_unknown(best.fit.cause)) {
+        out.unexplained = structure_of(best.fit);
+        out.unexplained_chance = best.chance;
+        out.by_tie = true;
+        return;
+    }
     take_size_of_forces(balance, best);
     out.named.push_back(best);
-    if (verdict.second < 0)
+    if (verdict.second < 0 || stands_for_unknown(ensemble.causes[static_cast<std::size_t>(verdict.second)].cause))
         return;
     JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
     second.considered = true;
@@ -203,8 +228,10 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
 void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
                       Decided& out)
 {
+    if (out.by_tie)
+        return;
     out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force);
-    out.unexplained_chance = ensemble.forces.unknown.p_value;
+    out.unexplained_chance = ensemble.forces.p_value;
     if (!out.unexplained && ensemble.by_statistics.unexplained) {
         out.unexplained = left_over(ensemble);
         out.unexplained_chance = ensemble.by_statistics.left_p_value;
@@ -231,7 +258,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
     Decided out;
     out.named = named_directly(direct);
     if (ensemble) {
-        out.structure95 = nats_of_score(quantile95(ensemble->forces.unknown.nulls));
+        out.structure95 = nats_of_score(quantile95(ensemble->forces.nulls));
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             find_unexplained(balance, *ensemble, rule, out);
@@ -248,12 +275,10 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
 {
     std::vector<std::string> lines;
     const ForceTest& forces = ensemble.forces;
-    if (forces.unknown.variant >= 0)
-        lines.push_back(fmt::format(
-            "forces of no known kind: {}, p = {:.2g}, {:.1f} nats against {:.1f} of causes",
-            ensemble.scored.structures[static_cast<std::size_t>(forces.unknown.variant) - ensemble.scored.causes.size()]
-                .text,
-            forces.unknown.p_value, nats_of_score(forces.unknown.score), nats_of_score(forces.cause.score)));
+    if (forces.variant >= 0)
+        lines.push_back(fmt::format("forces of no known kind: {}, p = {:.2g}, {:.1f} nats",
+                                    ensemble.scored.structures[static_cast<std::size_t>(forces.variant)].text,
+                                    forces.p_value, nats_of_score(forces.score)));
     const EnsembleVerdict& statistics = ensemble.by_statistics;
     if (statistics.best >= 0)
         lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; what is left has "

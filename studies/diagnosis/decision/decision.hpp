@@ -11,6 +11,8 @@
 ///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
 ///      probability of one half, nothing is named: the cause is called possible.
 ///   4  A second cause is judged with the first one given.
+///      Simulated ties of a block to the base compete with the causes and stand for forces of no known kind: where one
+///      would be named, the verdict is 'unexplained'.
 ///   5  A force of no known kind whose score is far beyond healthy campaigns', that explains much more of the balance
 ///   of
 ///      forces than any cause, and not by one run alone, makes the verdict 'unexplained'; so does what the best cause
@@ -52,6 +54,8 @@ struct Decided {
     std::vector<JudgedCause> in_set; ///< that these data do not distinguish from a named one
     std::vector<JudgedCause> judged; ///< all
     std::optional<StructureFit> unexplained;
+    bool by_tie =
+        false; ///< a simulated force on a block is the likeliest: `in_set` has what the data do not tell from it
     double unexplained_chance = 1;
     double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind in healthy campaigns [nats]
 };

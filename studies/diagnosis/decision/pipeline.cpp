@@ -326,8 +326,13 @@ void Pipeline::describe_unexplained()
     u.coordinate = s.coordinate;
     u.depends_on = s.depends_on;
     double best = 0;
-    for (const CauseFit& fit : balance_->causes)
-        best = std::max(best, fit.gain);
+    if (decided_.by_tie) {
+        for (const JudgedCause& j : decided_.judged)
+            best = std::max(best, stands_for_unknown(j.fit.cause) ? 0 : j.fit.gain);
+    } else {
+        for (const CauseFit& fit : balance_->causes)
+            best = std::max(best, fit.gain);
+    }
     u.text = fmt::format(
         "{}. Its gain over the baseline is {:.1f} nats; that of the best known cause in its place is {:.1f}", s.text,
         decided_.unexplained->gain, best);

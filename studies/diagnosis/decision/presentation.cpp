@@ -30,6 +30,21 @@ std::string missing_words(const Diagnosis& d)
     return text;
 }
 
+/// What stands for forces of no known kind is called so.
+std::string name_words(const std::string& mechanism)
+{
+    Cause cause;
+    cause.mechanism = mechanism;
+    return stands_for_unknown(cause) ? "a force of no known kind (" + mechanism + ")" : mechanism;
+}
+
+std::vector<std::string> names_words(std::vector<std::string> mechanisms)
+{
+    for (std::string& mechanism : mechanisms)
+        mechanism = name_words(mechanism);
+    return mechanisms;
+}
+
 } // namespace
 
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
@@ -44,6 +59,8 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         c.why = fmt::format("at the {} end", cause.side);
     if (cause.persists)
         c.why = "it goes on from run to run";
+    if (stands_for_unknown(cause))
+        c.why = "it stands for forces of no known kind on this block";
     c.unit = cause.unit;
     c.neutral = cause.neutral;
     if (j.fit.gain > 0) {
@@ -160,7 +177,7 @@ std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble, const Decid
     for (std::size_t m = 0; m < ensemble.mechanisms.size(); ++m)
         if (const auto power = ensemble.power(static_cast<int>(m), strong);
             power && *power < hardly && !told(ensemble.mechanisms[m]))
-            out.push_back({ensemble.mechanisms[m],
+            out.push_back({name_words(ensemble.mechanisms[m]),
                            fmt::format("These data would hardly show it: of simulated campaigns in which it acts "
                                        "strongly {:.0f} % are named rightly.",
                                        100 * *power)});
@@ -283,11 +300,14 @@ std::string verdict_text(const Diagnosis& d)
     std::string text =
         names.empty() ? "" : fmt::format("The data show {} (in brackets: 95 % interval).", list_words(names));
     if (d.verdict == Verdict::unexplained)
-        return text + fmt::format("{}n effect is present that none of the known mechanisms explains: {}.",
-                                  names.empty() ? "A" : " In addition, a", d.unexplained ? d.unexplained->text : "");
+        return text + fmt::format("{}n effect is present that none of the known mechanisms explains: {}.{}",
+                                  names.empty() ? "A" : " In addition, a", d.unexplained ? d.unexplained->text : "",
+                                  d.indistinguishable.empty() ? ""
+                                                              : " The data do not exclude " +
+                                                                    list_words(d.indistinguishable) + " in its place.");
     if (d.indistinguishable.size() > 1)
         text += fmt::format(" They do not distinguish {} from {}.", d.indistinguishable.front(),
-                            list_words({d.indistinguishable.begin() + 1, d.indistinguishable.end()}));
+                            list_words(names_words({d.indistinguishable.begin() + 1, d.indistinguishable.end()})));
     return text;
 }
 

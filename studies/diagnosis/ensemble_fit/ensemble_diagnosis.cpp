@@ -44,6 +44,16 @@ std::vector<std::size_t> scores_among_statistics(const std::vector<Cause>& cause
     return chosen;
 }
 
+/// Forces of no known kind whose scores are statistics: those that labelled campaigns are simulated with
+/// (`candidate_causes`), so that they are told from causes by what the balance of forces says.
+bool among_statistics(const Structure& s)
+{
+    if (s.friction || s.block < 0)
+        return false;
+    return s.coordinate == "x" ? s.depends_on == "velocity" || s.depends_on == "position"
+                               : s.coordinate == "theta" && s.depends_on == "angular velocity";
+}
+
 /// Campaigns as the verdict by statistics sees them.
 class EvidenceRows {
 public:
@@ -52,14 +62,21 @@ public:
           scores_(scores_among_statistics(scored.causes))
     {
         labels = joints_.labels;
-        least_scatter.assign(labels.size() + scores_.size(), 0);
-        std::fill(least_scatter.begin() + static_cast<std::ptrdiff_t>(labels.size()), least_scatter.end(),
-                  tamed_scatter);
+        least_scatter.assign(labels.size(), 0);
         for (const std::size_t c : scores_) {
             const Cause& cause = scored.causes[c];
             labels.push_back({"score of " + cause.mechanism + (cause.side.empty() ? "" : ", " + cause.side),
                               cause.joint, cause.block, -1, 0});
         }
+        for (std::size_t s = 0; s < scored.structures.size(); ++s) {
+            const Structure& structure = scored.structures[s];
+            if (!among_statistics(structure))
+                continue;
+            scores_.push_back(scored.causes.size() + s);
+            labels.push_back({fmt::format("score of a force {} by {}", structure.coordinate, structure.depends_on), -1,
+                              structure.block, -1, 0});
+        }
+        least_scatter.resize(labels.size(), tamed_scatter);
     }
 
     std::vector<double> statistics(const CampaignStatistics& campaign, const std::vector<double>& scores) const
@@ -141,11 +158,13 @@ std::vector<double> weights_of(const std::vector<double>& distance)
     return out;
 }
 
-Eigen::MatrixXd scores_of(const std::vector<const SimulatedCampaign*>& rows, std::size_t count)
+/// (rows x structures) scores of the forces of no known kind, which are the last ones.
+Eigen::MatrixXd force_scores(const std::vector<const SimulatedCampaign*>& rows, std::size_t structures)
 {
-    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(count));
+    const auto count = static_cast<Eigen::Index>(structures);
+    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), count);
     for (std::size_t i = 0; i < rows.size(); ++i)
-        out.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]->scores).transpose();
+        out.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]->scores).tail(count).transpose();
     return out;
 }
 
@@ -233,13 +252,25 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
                        const std::vector<std::vector<double>>& base_m)
 {
     const std::size_t joints = campaign.specimen.joints.size();
-    JointPaths paths{std::vector<double>(joints, 0), std::vector<double>(joints, 0), 0};
+    JointPaths paths;
+    paths.slip_m.assign(joints, 0);
+    paths.rotation_rad.assign(joints, 0);
+    const auto blocks = static_cast<std::size_t>(campaign.specimen.blocks());
     std::vector<double> speeds;
+    std::vector<std::vector<double>> reach(blocks), leaving(blocks), turning(blocks);
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
         for (std::size_t i = 0; i < track.samples(); ++i)
             for (int b = 0; b < campaign.specimen.blocks() && track.usable(i, 1); ++b)
                 speeds.push_back(std::fabs(track.now(1, in_x, b, i)));
+        for (std::size_t i = 0; i < track.samples(); ++i)
+            for (std::size_t b = 0; b < blocks && track.usable(i, 1); ++b) {
+                const int block = static_cast<int>(b);
+                reach[b].push_back(
+                    std::fabs(track.now(0, in_x, block, i) - campaign.specimen.rest_x_m[b] - track.base(0, i)));
+                leaving[b].push_back(std::fabs(track.now(1, in_x, block, i) - track.base(1, i)));
+                turning[b].push_back(std::fabs(track.now(1, in_theta, block, i)));
+            }
         for (std::size_t j = 0; j < joints; ++j) {
             const int lower = campaign.specimen.joints[j].first, upper = campaign.specimen.joints[j].second;
             double slip = 0, turn = 0;
@@ -259,9 +290,15 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
             paths.rotation_rad[j] += turn / static_cast<double>(campaign.runs.size());
         }
     }
-    if (!speeds.empty()) {
-        std::sort(speeds.begin(), speeds.end());
-        paths.speed_m_s = sorted_quantile(speeds, 0.99, QuantileDefinition::linear);
+    const auto largest = [](std::vector<double>& values) {
+        std::sort(values.begin(), values.end());
+        return values.empty() ? 0.0 : sorted_quantile(values, 0.99, QuantileDefinition::linear);
+    };
+    paths.speed_m_s = largest(speeds);
+    for (std::size_t b = 0; b < blocks; ++b) {
+        paths.reach_m.push_back(largest(reach[b]));
+        paths.leaving_m_s.push_back(largest(leaving[b]));
+        paths.turning_rad_s.push_back(largest(turning[b]));
     }
     return paths;
 }
@@ -321,14 +358,9 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.by_statistics = ensemble_verdict(evidence);
 
     ForceEvidence forces;
-    for (const Cause& cause : out.scored.causes)
-        forces.sign.push_back(sign_of_cause(cause));
-    forces.cause.assign(forces.sign.size(), true);
-    forces.cause.resize(out.scored.size(), false);
-    forces.sign.resize(out.scored.size(), 0);
-    forces.nulls = scores_of(nulls, out.scored.size());
+    forces.nulls = force_scores(nulls, out.scored.structures.size());
     forces.likeness = evidence.likeness;
-    forces.campaign = vector_of(out.scores);
+    forces.campaign = vector_of(out.scores).tail(forces.nulls.cols());
     out.forces = force_test(forces);
     find_carrying_number(evidence, out);
 }

@@ -162,6 +162,11 @@ double CauseFit::gain_without_best() const
     return gain_by_run.empty() ? gain : gain - *std::max_element(gain_by_run.begin(), gain_by_run.end());
 }
 
+bool stands_for_unknown(const Cause& cause)
+{
+    return cause.mechanism == "tie";
+}
+
 bool possible(const CauseFit& fit)
 {
     const std::string& m = fit.cause.mechanism;

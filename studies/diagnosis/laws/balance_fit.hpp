@@ -36,6 +36,9 @@ struct Cause {
     std::string label() const { return mechanism + " at " + place + (side.empty() ? "" : " " + side); }
 };
 
+/// Whether a cause is no mechanism of the list but stands for forces of no known kind on a block (a tie to the base).
+bool stands_for_unknown(const Cause& cause);
+
 struct CauseFit {
     Cause cause;
     double size = 0; ///< in the parameter's unit

@@ -68,7 +68,15 @@ Ride seen_ride(const MeasuredRun& run, std::size_t index, const Specimen& s, boo
     ride.noise_x = seen.x_m.noise_sd.value_or(scales.noise_m);
     ride.noise_y = seen.y_m.noise_sd.value_or(scales.noise_m);
     ride.noise_theta = seen.theta_rad.noise_sd.value_or(scales.noise_rad);
-    ride.height_m = table ? 0 : s.rest_y_m[block];
+    ride.foot = ride.x;
+    ride.noise_foot = ride.noise_x;
+    ride.foot_height_m = table ? 0 : s.rest_y_m[block];
+    if (!table && !ride.theta.empty()) {
+        for (std::size_t i = 0; i < n; ++i)
+            ride.foot[i] += s.half_height_m[block] * std::sin(ride.theta[i]);
+        ride.noise_foot = std::hypot(ride.noise_x, s.half_height_m[block] * ride.noise_theta);
+        ride.foot_height_m -= s.half_height_m[block];
+    }
     ride.harmonic = run.kind == "harmonic";
     ride.find_peak();
     return ride;

@@ -40,8 +40,11 @@ struct Ride {
     std::vector<double> base;               ///< displacement of the file [m]
     std::vector<double> rate, acceleration; ///< of it, smoothed
     std::vector<double> x, y, theta;        ///< of the lowest block, or of the table: raw samples
-    double height_m = 0;                    ///< of what is seen, above the table
-    double noise_x = 0, noise_y = 0, noise_theta = 0;
+    /// What stays on the table of it: the middle of the block's bottom face, horizontally. The centre of a block that
+    /// leans on soft beds or begins to rock moves by its height times the rotation, which is no motion of the table.
+    std::vector<double> foot;
+    double foot_height_m = 0; ///< of that, above the table
+    double noise_x = 0, noise_y = 0, noise_theta = 0, noise_foot = 0;
     std::vector<std::pair<std::size_t, std::size_t>> parts; ///< in which it rides
     bool harmonic = false;
     double omega = 0;            ///< circular frequency of a harmonic ride [rad/s]

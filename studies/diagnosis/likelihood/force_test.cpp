@@ -38,7 +38,7 @@ double weighted_quantile(std::vector<std::pair<double, double>> weighted, double
 class Units {
 public:
     /// @param left_out every `score_parts`-th campaign from here is left out; -1: none is
-    Units(const ForceEvidence& evidence, int left_out) : evidence_(evidence)
+    Units(const ForceEvidence& evidence, int left_out)
     {
         for (Eigen::Index v = 0; v < evidence.nulls.cols(); ++v) {
             std::vector<std::pair<double, double>> sizes;
@@ -56,25 +56,21 @@ public:
     double score(const Eigen::VectorXd& scores, std::size_t variant) const
     {
         const double value = scores(static_cast<Eigen::Index>(variant)) / unit_[variant];
-        const int sign = evidence_.sign[variant];
-        return !std::isfinite(value) ? 0 : sign == 0 ? std::fabs(value) : std::max(0.0, sign * value);
+        return std::isfinite(value) ? std::fabs(value) : 0;
     }
 
-    /// @param causes: of causes; else of forces of no known kind
-    LargestScore largest(const Eigen::VectorXd& scores, bool causes) const
+    ForceTest largest(const Eigen::VectorXd& scores) const
     {
-        LargestScore out;
+        ForceTest out;
         for (std::size_t v = 0; v < unit_.size(); ++v)
-            if (evidence_.cause[v] == causes)
-                if (const double s = score(scores, v); s > out.score) {
-                    out.score = s;
-                    out.variant = static_cast<int>(v);
-                }
+            if (const double s = score(scores, v); s > out.score) {
+                out.score = s;
+                out.variant = static_cast<int>(v);
+            }
         return out;
     }
 
 private:
-    const ForceEvidence& evidence_;
     std::vector<double> unit_;
 };
 
@@ -87,19 +83,13 @@ double nats_of_score(double score)
 
 ForceTest force_test(const ForceEvidence& evidence)
 {
-    ForceTest out;
-    const Units units(evidence, -1);
+    ForceTest out = Units(evidence, -1).largest(evidence.campaign);
     std::vector<Units> without;
     for (int part = 0; part < score_parts; ++part)
         without.emplace_back(evidence, part);
-    for (LargestScore* kind : {&out.cause, &out.unknown}) {
-        const bool causes = kind == &out.cause;
-        *kind = units.largest(evidence.campaign, causes);
-        for (Eigen::Index i = 0; i < evidence.nulls.rows(); ++i)
-            kind->nulls.push_back(
-                without[static_cast<std::size_t>(i % score_parts)].largest(evidence.nulls.row(i), causes).score);
-        kind->p_value = conformal_p_value(kind->nulls, evidence.likeness, kind->score);
-    }
+    for (Eigen::Index i = 0; i < evidence.nulls.rows(); ++i)
+        out.nulls.push_back(without[static_cast<std::size_t>(i % score_parts)].largest(evidence.nulls.row(i)).score);
+    out.p_value = conformal_p_value(out.nulls, evidence.likeness, out.score);
     return out;
 }
 

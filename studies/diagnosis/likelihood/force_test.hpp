@@ -4,8 +4,7 @@
 ///
 /// Forces (on a block, in a direction, in proportion to position, velocity and so on) are not equally noisy, and a law
 /// that the balance of forces does not have moves some of them more than others. Each score is therefore counted in
-/// units of what it is in healthy campaigns, so that the noisiest one does not set the bar for all. The scores of
-/// causes are counted alike: what a cause explains as well is no unknown force.
+/// units of what it is in healthy campaigns, so that the noisiest one does not set the bar for all.
 
 #include <Eigen/Core>
 
@@ -13,25 +12,19 @@
 
 namespace stylobate {
 
-/// Scores: NaN where a campaign does not show a variant.
+/// Scores of the forces (variants): NaN where a campaign does not show one.
 struct ForceEvidence {
-    std::vector<bool> cause;      ///< (variants) of a known cause; else of a force of no known kind
-    std::vector<int> sign;        ///< (variants) which way it can act: 1, -1, or 0 either way
     Eigen::MatrixXd nulls;        ///< (n x variants)
     std::vector<double> likeness; ///< (n) how much each tells of the measured campaign, at most 1; empty: 1
     Eigen::VectorXd campaign;     ///< (variants)
 };
 
-/// The largest score of one kind, in units of healthy campaigns.
-struct LargestScore {
+/// The largest score, in units of healthy campaigns.
+struct ForceTest {
     int variant = -1; ///< -1: none is shown
     double score = 0;
     double p_value = 1;
     std::vector<double> nulls; ///< the same of each healthy campaign
-};
-
-struct ForceTest {
-    LargestScore cause, unknown;
 };
 
 /// A score as nats: a unit is the 90 % quantile of healthy campaigns, 1.64 standard deviations of normal ones.

@@ -33,9 +33,4 @@ std::vector<double> balance_scores(const std::optional<BalanceFit>& fit, const S
     return scores;
 }
 
-int sign_of_cause(const Cause& cause)
-{
-    return cause.mechanism == "joint_friction" || cause.mechanism == "eccentricity" ? 0 : 1;
-}
-
 } // namespace stylobate

@@ -25,7 +25,4 @@ std::optional<BalanceFit> fit_balance(const Campaign& campaign, const TrackScale
 /// @return (plan) NaN where the samples do not show it, and everywhere where there is no fit
 std::vector<double> balance_scores(const std::optional<BalanceFit>& fit, const ScorePlan& plan);
 
-/// Which way a cause can act by its score: 1, -1 or, either way, 0.
-int sign_of_cause(const Cause& cause);
-
 } // namespace stylobate

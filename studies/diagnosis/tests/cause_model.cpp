@@ -32,6 +32,15 @@ bool yields(const Cause& cause)
     return cause.parameter == "yield_n";
 }
 
+/// The force of a tie that a cause is.
+double& tie_member(const Cause& cause, BlockExtension& block)
+{
+    return cause.parameter == "stiffness_n_m"   ? block.tie_n_m
+           : cause.parameter == "dashpot_n_s_m" ? block.tie_n_s_m
+           : cause.parameter == "force_n"       ? block.tie_n
+                                                : block.tie_n_m_s;
+}
+
 /// [mechanisms] are in the order of their list.
 void add(const MechanismSpec& spec, Study& study)
 {
@@ -99,6 +108,8 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             block.extension.drag_n_s2_m2 = size;
         else if (m == "eccentricity")
             block.extension.eccentricity_m = size;
+        else if (m == "tie")
+            tie_member(cause, block.extension) = size;
     }
     r.extended = true;
 }
@@ -131,6 +142,11 @@ void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Stud
         set(spec, "stiffness", yields(cause) ? size / cause.fixed : size);
         set(spec, "yield", yields(cause) ? size : 1e9);
         set(spec, "gap", yields(cause) ? 0 : cause.fixed);
+        break;
+    case Mechanism::tie:
+        for (std::size_t p = 0; p < rule_of(*mechanism).parameters.size(); ++p)
+            if (rule_of(*mechanism).parameters[p].key() == cause.parameter)
+                spec.values[p] = size;
         break;
     default:
         // one acting parameter: the first

@@ -131,9 +131,9 @@ struct BaseFit {
 BaseFit base_fit(const TrackScales& scales, double pitch, Prepared& prepared)
 {
     const auto lean = [&](const Ride& r, std::size_t i) {
-        return pitch != 0 ? -r.height_m * pitch * r.acceleration[i] : 0;
+        return pitch != 0 ? -r.foot_height_m * pitch * r.acceleration[i] : 0;
     };
-    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.x[i] - lean(r, i), r.noise_x}; };
+    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.foot[i] - lean(r, i), r.noise_foot}; };
     BaseFit out;
     // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
     // that the linear term is all there is to it.

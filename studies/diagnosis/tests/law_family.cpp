@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/sampling/distribution.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "io/keys/words.hpp"
 #include "studies/diagnosis/laws/law_samples.hpp"
@@ -94,14 +93,6 @@ double safe_step(const Realization& realization)
     return softens ? std::min(step, step_bound(linear).dt_s) : step;
 }
 
-double standard_normal(double u)
-{
-    Spread spread;
-    spread.sd = 1;
-    static const Distribution standard(spread, "normal", 0);
-    return standard.value(u);
-}
-
 } // namespace
 
 const char* to_string(DampingKind kind)
@@ -182,7 +173,7 @@ HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t n
     law.face_share = draw(LawDraw::where) < 0.5 ? draw(LawDraw::face_share) : 1;
     law.rate = rate_of(law.kind, draw(LawDraw::rate));
     law.inset = family.most_inset * std::pow(draw(LawDraw::inset), 2);
-    law.friction = std::exp(family.common_friction * standard_normal(draw(LawDraw::friction)));
+    law.friction = std::exp(family.common_friction * to_normal(draw(LawDraw::friction)));
     return law;
 }
 
@@ -190,7 +181,7 @@ HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, double s
                      std::uint64_t number)
 {
     const auto normal = [&](LawDraw which) {
-        return standard_normal(uniform01(seed, number, Stream::virtual_specimen, static_cast<std::uint64_t>(which)));
+        return to_normal(uniform01(seed, number, Stream::virtual_specimen, static_cast<std::uint64_t>(which)));
     };
     const auto moved = [&](double value, double part, LawDraw which, double least, double most) {
         return std::clamp(value * std::exp(part * spread * normal(which)), least, most);

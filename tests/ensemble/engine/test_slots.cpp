@@ -107,6 +107,7 @@ TEST(Slots, NoiseHasTheBitsOfTheLanes)
 const std::vector<std::string> mechanisms{"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }",
                                           "mechanisms.eccentricity={ offset_m = 0.001 }",
                                           "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }",
+                                          "mechanisms.tie={ stiffness_n_m = 20, dashpot_n_s_m = 0.2, force_n = 0.01 }",
                                           "mechanisms.corner_wear={ loss_m_rad = 0.001 }",
                                           "mechanisms.dowel={ stiffness_n_m = 1e5, yield_n = 2, gap_m = 0.0002 }",
                                           "mechanisms.adhesion={ force_n_m = 5 }",

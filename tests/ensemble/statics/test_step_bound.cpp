@@ -382,6 +382,24 @@ StepBound structure_bound(const Column& column)
     return structure_step_bound(r, step_bound(r));
 }
 
+TEST(StepBound, StiffTiesShortenIt)
+{
+    Realization r = make(with(spec, 1e8, 0));
+    Block& top = r.blocks.back();
+    const double k = 1e12; // much stiffer than the contacts: 2 / w of the block on its tie, halved in w2 as all bounds
+    top.extension.tie_n_m = k;
+    EXPECT_NEAR(step_bound(r).dt_s, 2 / std::sqrt(2 * k / top.mass_kg), 1e-3 * step_bound(r).dt_s);
+    EXPECT_EQ(step_bound(r).block, static_cast<int>(r.blocks.size()) - 1);
+    top.extension.tie_n_m = -100;
+    const double held = step_bound(r).dt_s;
+    top.extension.tie_n_m = 0;
+    r.extended = true;
+    EXPECT_EQ(held, step_bound(r).dt_s) << "what drives away shortens no step";
+    top.extension.tie_n_s_m = 1e7;
+    EXPECT_LT(step_bound(r).dt_s, 0.1 * held);
+    EXPECT_EQ(step_bound(r).governed_by, StepLimit::dashpot);
+}
+
 TEST(StructureStepBound, IsTheExactCriticalStepAtFullContact)
 {
     for (const int n : {1, 2, 6, 12})

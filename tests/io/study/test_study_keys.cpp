@@ -346,6 +346,7 @@ TEST(TomlKeys, TheUnitIsPartOfTheName)
                                                       {"mechanisms.rate_damping.rate_s_m", "s/m"},
                                                       {"structure.columns", ""},
                                                       {"mechanisms.dowel.yield_n", "N"},
+                                                      {"mechanisms.tie.turning_dashpot_n_m_s", "N m s"},
                                                       {"contact.normal_damping_n_s_m", "N s/m"}};
     std::set<std::string> seen;
     for_each_key([&](const std::string& path, const TomlKey& key) {

@@ -68,6 +68,7 @@ adhesion = { force_n_m = 3 }
 eccentricity = { blocks = [1, 3], offset_m = -0.001 }
 wedge = { joint = 0, angle_rad = 0.0041 }
 drum_offset = { block = 2, offset_m = 0.0005 }
+tie = { block = 4, stiffness_n_m = -50, dashpot_n_s_m = 2, force_n = 0.1, turning_dashpot_n_m_s = 0.01 }
 )";
 
 const MechanismSpec& only(const Study& study, Mechanism mechanism)
@@ -82,7 +83,7 @@ TEST(StudyMechanisms, ReadsEveryMechanism)
     const Study s = read(all_mechanisms);
     for (const MechanismRule& rule : mechanism_rules())
         ASSERT_TRUE(s.names(rule.mechanism)) << rule.name;
-    ASSERT_EQ(s.mechanisms.size(), 20u); // joint_friction has two
+    ASSERT_EQ(s.mechanisms.size(), 21u); // joint_friction has two
     for (std::size_t i = 1; i < s.mechanisms.size(); ++i)
         EXPECT_LE(s.mechanisms[i - 1].mechanism, s.mechanisms[i].mechanism);
 
@@ -98,6 +99,7 @@ TEST(StudyMechanisms, ReadsEveryMechanism)
     EXPECT_EQ(only(s, Mechanism::face_damping).places, (std::vector{3, 4}));
     EXPECT_EQ(only(s, Mechanism::harmonic_distortion).values, (std::array{0.02, 0.0, 0.0, -0.01}));
     EXPECT_EQ(only(s, Mechanism::dowel).values, (std::array{1e5, 20.0, 1e-3, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::tie).values, (std::array{-50.0, 2.0, 0.1, 0.01}));
     EXPECT_EQ(only(s, Mechanism::eccentricity).places, (std::vector{1, 3}));
     EXPECT_FALSE(s.vertical);
 }

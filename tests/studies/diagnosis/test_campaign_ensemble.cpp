@@ -25,15 +25,21 @@ const Campaign& campaign()
     return measured;
 }
 
+const JointPaths paths_of_two{{0.01, 0.01}, {0.5, 0.5}, 0.4, {0.02, 0.02}, {0.3, 0.3}, {4, 4}};
+
 TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
 {
     const Specimen& s = campaign().specimen;
     const TrackScales scales = track_scales(campaign());
-    const std::vector<CandidateCause> causes = candidate_causes(s, scales, {{0.01, 0.0}, {0.5, 0.0}, 0.4}, 0.6, 1e8);
+    const std::vector<CandidateCause> causes =
+        candidate_causes(s, scales, {{0.01, 0.0}, {0.5, 0.0}, 0.4, {0.02, 0.0}, {0.3, 0.0}, {4, 0.0}}, 0.6, 1e8);
     std::map<std::string, const CandidateCause*> by_label;
     for (const CandidateCause& cause : causes) {
         // less friction, and more
-        by_label[(cause.at_one > 1 && cause.ratio ? "more " : "") + cause.cause.label()] = &cause;
+        by_label[(cause.at_one > 1 && cause.ratio   ? "more "
+                  : stands_for_unknown(cause.cause) ? (cause.at_one < 0 ? "away " : "") + cause.cause.parameter + " "
+                                                    : "") +
+                 cause.cause.label()] = &cause;
         EXPECT_DOUBLE_EQ(cause.size_of(0), cause.cause.neutral) << cause.cause.label();
         for (const double z : {cause.least, 0.3 * cause.most, cause.most})
             EXPECT_NEAR(cause.z_of(cause.size_of(z)), z, 1e-12) << cause.cause.label();
@@ -52,6 +58,14 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
     EXPECT_EQ(by_label.at("eccentricity at block 1")->least, -1) << "to either side";
     // half of the critical damping 2 sqrt(K_N B m) of a drum on its bed
     EXPECT_NEAR(by_label.at("face_damping at joint 1")->size_of(1), std::sqrt(1e8 * 0.048 * 0.1355), 1e-6);
+    // ties: 0.3 of the weight at the displacement and at the speeds of the block that occur
+    const double weight = 0.1355 * 9.81;
+    EXPECT_NEAR(by_label.at("stiffness_n_m tie at block 0")->size_of(1), 0.3 * weight / 0.02, 1e-9);
+    EXPECT_NEAR(by_label.at("away stiffness_n_m tie at block 0")->size_of(1), -0.3 * weight / 0.02, 1e-9);
+    EXPECT_NEAR(by_label.at("dashpot_n_s_m tie at block 0")->size_of(1), 0.3 * weight / 0.3, 1e-9);
+    EXPECT_NEAR(by_label.at("turning_dashpot_n_m_s tie at block 0")->size_of(1), 0.3 * weight * 0.024 / 4, 1e-9);
+    EXPECT_NEAR(by_label.at("stiffness_n_m tie at block 1")->size_of(1), 0.3 * weight / (0.01 * 0.048), 1e-9)
+        << "a block that stays in its place";
     // 10 at the impact velocity 0.1 sqrt(g H), of two drums of 29 mm
     EXPECT_NEAR(by_label.at("rate_damping at joint 0")->size_of(1) * 0.1 * std::sqrt(9.81 * 0.058), 10, 1e-6);
 }
@@ -103,7 +117,7 @@ TEST(EnsemblePlan, CountsAreInProportionToTheNulls)
 TEST(EnsemblePlan, EachCauseHasSizesFromWeakToStrong)
 {
     const std::vector<CandidateCause> causes =
-        candidate_causes(campaign().specimen, track_scales(campaign()), {{0.01, 0.01}, {0.5, 0.5}, 0.4}, 0.6, 1e8);
+        candidate_causes(campaign().specimen, track_scales(campaign()), paths_of_two, 0.6, 1e8);
     const EnsemblePlan plan;
     std::map<int, std::vector<double>> sizes;
     std::map<int, std::set<std::uint64_t>> parents;
@@ -175,8 +189,7 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
 {
     const Study study = default_study(campaign());
     const TrackScales scales = track_scales(campaign());
-    std::vector<CandidateCause> causes =
-        candidate_causes(campaign().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}, 0.4}, 0.6, 1e8);
+    std::vector<CandidateCause> causes = candidate_causes(campaign().specimen, scales, paths_of_two, 0.6, 1e8);
     causes.resize(3);
     EnsemblePlan plan;
     plan.wide = 16;
@@ -243,8 +256,7 @@ std::pair<double, double> distances_from_law(const HealthyLaw& truth, const Ense
     const VirtualCampaigns made =
         virtual_campaigns(VirtualLaboratory(lively()), study, 77, 1, 1, scatter, {}, {best_isa(), 2}, observer);
     const CampaignStatistics shown = statistics_of(made.campaigns.front(), scales, made.base_m);
-    std::vector<CandidateCause> causes =
-        candidate_causes(lively().specimen, scales, {{0.01, 0.01}, {0.5, 0.5}, 0.4}, 0.6, 1e8);
+    std::vector<CandidateCause> causes = candidate_causes(lively().specimen, scales, paths_of_two, 0.6, 1e8);
     causes.resize(1);
     const CampaignEnsemble ensemble = simulate_ensemble(
         made.campaigns.front(), study, causes, {}, plan, shown, {}, {best_isa(), 2},

@@ -57,7 +57,7 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
     v.used = {0, 1, 2};
     e.evidence = {{"slip_path", 0}, {"rotation_path", 1}, {"open_time", 2}};
     e.scored.structures = {{1, "x", "velocity", "a sideways force"}};
-    e.forces.unknown.nulls.assign(100, 0.5);
+    e.forces.nulls.assign(100, 0.5);
     return e;
 }
 
@@ -65,9 +65,9 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
 std::pair<BalanceEvidence, EnsembleDiagnosis> with_force(double score, const std::vector<double>& by_run)
 {
     EnsembleDiagnosis e = ensemble_of(2, 1, 1);
-    e.forces.unknown.variant = 0;
-    e.forces.unknown.score = score;
-    e.forces.unknown.p_value = 0.005;
+    e.forces.variant = 0;
+    e.forces.score = score;
+    e.forces.p_value = 0.005;
     BalanceEvidence balance;
     StructureFit fit{e.scored.structures.front(), 0, 1, 0.1, by_run};
     for (const double gain : by_run)
@@ -98,6 +98,49 @@ TEST(Decision, AClearCauseIsNamedWithItsSize)
     EXPECT_EQ(decided.named.front().probability, 0.8);
     EXPECT_TRUE(decided.in_set.empty());
     EXPECT_NEAR(decided.named.front().chance95, 9.5, 0.06);
+}
+
+/// The best candidate as a tie of block 2 to the base.
+EnsembleDiagnosis with_tie_first(double tie, double drag)
+{
+    EnsembleDiagnosis e = ensemble_of(tie, drag, 1);
+    e.causes[0].cause = {"tie", "block 2", "stiffness_n_m", "N/m", 0, -1, 2};
+    e.causes[0].ratio = false;
+    e.causes[0].at_one = -40;
+    e.mechanisms[0] = "tie";
+    return e;
+}
+
+TEST(Decision, ATieIsNeverNamedButStandsForAForceOfNoKnownKind)
+{
+    EnsembleDiagnosis e = with_tie_first(30, 1);
+    const Decided decided = decide({}, {}, &e, {});
+    EXPECT_EQ(decided.verdict, Verdict::unexplained);
+    EXPECT_TRUE(decided.named.empty());
+    EXPECT_TRUE(decided.by_tie);
+    ASSERT_TRUE(decided.unexplained);
+    EXPECT_EQ(decided.unexplained->structure.block, 2);
+    EXPECT_EQ(decided.unexplained->structure.depends_on, "position");
+    EXPECT_NE(decided.unexplained->structure.text.find("drives it away"), std::string::npos);
+    EXPECT_NEAR(decided.unexplained_chance, 1.0 / 101, 1e-12);
+
+    e.by_statistics.set = {1}; // drag
+    EXPECT_EQ(names(decide({}, {}, &e, {}).in_set), Names{"drag"}) << "what it may be instead";
+    e.by_statistics.named = false;
+    EXPECT_EQ(decide({}, {}, &e, {}).verdict, Verdict::none);
+}
+
+TEST(Decision, ATieBesideACauseIsInItsSetAndNoSecondCause)
+{
+    EnsembleDiagnosis e = with_tie_first(28, 30);
+    e.by_statistics.best = 1;
+    e.by_statistics.set = {0};
+    e.by_statistics.second = 0;
+    e.by_statistics.second_p_value = 0.01;
+    const Decided decided = decide({}, {}, &e, {});
+    EXPECT_EQ(decided.verdict, Verdict::named);
+    EXPECT_EQ(names(decided.named), Names{"drag"});
+    EXPECT_EQ(names(decided.in_set), Names{"tie"});
 }
 
 TEST(Decision, TheBalanceOfForcesGivesTheSizeWhereItSeesTheCause)
@@ -188,7 +231,7 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     rival.first.causes = {fit_of("joint_friction", 55)}; // of 60 nats
     EXPECT_EQ(verdict(rival), Verdict::none);
     auto usual = with_force(5, {20, 20, 20});
-    usual.second.forces.unknown.p_value = 0.05;
+    usual.second.forces.p_value = 0.05;
     EXPECT_EQ(verdict(usual), Verdict::none);
 }
 

@@ -85,6 +85,8 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
     yielding.fixed = 2e-4; // the slip at which it yields
     causes.push_back(yielding);
     causes.push_back({"rate_damping", "joint 1", "rate_s_m", "s/m", 0, 1});
+    for (const char* parameter : {"stiffness_n_m", "dashpot_n_s_m", "force_n", "turning_dashpot_n_m_s"})
+        causes.push_back({"tie", "block 1", parameter, "", 0, -1, 1});
     for (const Cause& cause : causes) {
         SCOPED_TRACE(cause.label());
         mechanisms.insert(cause.mechanism);
@@ -133,7 +135,7 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
             EXPECT_EQ(dowel.dowel_yield_n, sized.size);
         }
     }
-    EXPECT_EQ(mechanisms.size(), 12u); // the eight of the balance and four more
+    EXPECT_EQ(mechanisms.size(), 13u); // the eight of the balance and five more
 }
 
 /// The distortion as `TableDistortion` defines it, of a sine of unit amplitude at a phase.
