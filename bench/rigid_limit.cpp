@@ -101,12 +101,14 @@ std::vector<Law> laws(bool steps)
             all.push_back({.step_s = 1 / rate});
         return all;
     }
-    for (const double e : {0.0, 0.3})
+    for (const double e : {0.0, 0.1, 0.3})
         for (const double rate : {480.0, 960.0, 1920.0, 3840.0})
             all.push_back({.restitution = e, .step_s = 1 / rate});
     for (const double K_n : {1e8, 1e9})
         for (const double xi : {0.05, 0.1, 0.3, 0.5, 1.0})
             all.push_back({ContactForm::two_corner, K_n, xi});
+    for (const double xi : {2.0, 4.0})
+        all.push_back({ContactForm::two_corner, 1e8, xi});
     all.push_back({ContactForm::two_corner, 1e10, 0.5});
     all.push_back({ContactForm::two_corner, 1e9, 0.5, 0, 0, true});
     return all;

@@ -100,7 +100,7 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
-        if (topology_.model.extended())
+        if (topology_.model.extended() || topology_.model.rigid())
             throw std::invalid_argument("run.precision = \"single\" supports only the paper's model");
         single_.emplace(topology_, bundle_, kernels_);
     }

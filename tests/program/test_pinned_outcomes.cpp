@@ -124,6 +124,7 @@ const std::vector<ReducedStudy>& reduced_studies()
         surface("near_fault_pulse", 0.4, 1, 4, 12),
         {"rare_collapse", {"rare.samples=100", "rare.repeats=5"}},
         surface("record", 1, 3, 4, 12),
+        surface("rigid_column", 1, 4, 4, 12),
         {"sensitivity_column", {"sensitivity.samples=6", "sensitivity.inner=2", "excitation.pga_m_s2=7"}},
         surface("small_scale_colonnade", 1, 3, 6, 16),
         surface("small_scale_colonnade_drums", 1, 3, 6, 16),
