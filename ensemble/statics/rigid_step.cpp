@@ -8,9 +8,9 @@ namespace stylobate {
 namespace {
 
 // Of 1 / p, p2 = 3 g / (4 R) the rocking frequency of the smallest free block.
-constexpr double part_of_rocking = 1.0 / 30;
+constexpr double part_of_rocking = 1.0 / 60;
 // Of a period of the shaking.
-constexpr double part_of_period = 1.0 / 100;
+constexpr double part_of_period = 1.0 / 200;
 
 } // namespace
 

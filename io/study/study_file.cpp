@@ -57,9 +57,9 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, 
     c.form = accurate && !keys.has(form) && !keys.has(normal_stiffness) ? ContactForm::rigid : keys.read(form);
     const char* word = word_for(contact_form_names, c.form);
     keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
-    c.friction = keys.read(friction);
     if (c.form == ContactForm::rigid) {
         c.normal_damping_ratio = c.tangential_damping_ratio = 0;
+        c.friction = keys.read(friction);
         c.restitution = keys.read(restitution);
         return c;
     }
@@ -74,6 +74,7 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, 
                  c.tangential_damping_n_s_m);
     c.damping = keys.read(damping);
     c.damping_per = keys.read(damping_per);
+    c.friction = keys.read(friction);
     return c;
 }
 
@@ -210,6 +211,16 @@ void check_precision(const KeyReader& keys, const Study& study)
         refuse("contact.damping = \"ends\"", "it");
 }
 
+/// Rigid contacts have no stiffness and no dashpot that could vary. @param keys of [perturbation]
+void check_rigid_spread(const KeyReader& keys)
+{
+    for (const Quantity quantity :
+         {Quantity::normal_stiffness, Quantity::tangential_stiffness, Quantity::damping_ratio})
+        if (keys.has(to_string(quantity)))
+            keys.refuse(to_string(quantity), "is not used by contact.form = \"rigid\"",
+                        "Rigid contacts have none. Remove it.");
+}
+
 /// What needs a contact that yields, and what the step of the rigid form leaves out.
 void check_rigid(const KeyReader& top, const Study& study)
 {
@@ -221,11 +232,6 @@ void check_rigid(const KeyReader& top, const Study& study)
                 .refuse(to_string(spec.mechanism), "is not available with " + form,
                         "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
                         "it, or give contact.form = \"two_corner\" with a high stiffness.");
-    for (const Perturbation& p : study.perturbations)
-        if (p.quantity == Quantity::normal_stiffness || p.quantity == Quantity::tangential_stiffness ||
-            p.quantity == Quantity::damping_ratio)
-            top.table(perturbation_table())
-                .refuse(to_string(p.quantity), "is not used by " + form, "Rigid contacts have none. Remove it.");
     const auto stiff = [](const BedSpec& bed) { return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m; };
     for (const ColumnSpec& column : study.structure.columns)
         for (const DrumSpec& drum : column.drums)
@@ -384,6 +390,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
                     "Give fewer realizations or fewer cells.");
     check_tables(top, study.kind);
     read_mechanisms(top.table(mechanisms_table()), study);
+    if (study.contact.form == ContactForm::rigid)
+        check_rigid_spread(top.table(perturbation_table()));
     read_perturbations(top.table(perturbation_table()), study);
     if (is_fragility)
         check_mechanisms_of_fragility(top.table(mechanisms_table()), study);

@@ -28,6 +28,7 @@ public:
     explicit Template(const TemplateChoice& choice)
         : kinds_{{"study.kind", word_for(study_kind_names, choice.study)},
                  {"structure.kind", word_for(structure_kind_names, choice.structure)},
+                 {"contact.form", word_for(contact_form_names, ContactSpec{}.form)},
                  {"excitation.kind", word_for(excitation_kind_names, *choice.excitation)},
                  {"fragility.method", word_for(fragility_method_names, FragilitySpec{}.method)}}
     {

@@ -198,7 +198,7 @@ TEST(Own, ErrsAsACompliantContactDoes)
 TEST(Own, ColumnsAtRestStand)
 {
     for (const Contender& c : own_contenders()) {
-        const Columns rest = c.columns(1e8, false, 0.01);
+        const Columns rest = c.columns(c.customary, false, 0.01);
         EXPECT_GE(rest.count, 1) << c.setting;
         EXPECT_EQ(rest.moved, 0) << c.setting;
         EXPECT_GT(rest.realizations_per_second, 0) << c.setting;

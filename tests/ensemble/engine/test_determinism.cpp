@@ -93,7 +93,7 @@ TEST(Determinism, RigidBlocksHaveTheSameBitsForEveryWidthAndThreadCount)
                                  "surface.pga_m_s2={ from = 3.0, to = 11.0, count = 3 }"}));
         const EnsembleRun result = run_all(study, {best_isa(), 2});
         EXPECT_GT(result.states.at(State::collapsed), 10) << name;
-        EXPECT_GT(result.states.at(State::rocked), 2) << name;
+        EXPECT_LT(result.states.at(State::collapsed), static_cast<int>(study.total()) - 5) << name;
         same_everywhere(study);
     }
 }

@@ -604,7 +604,7 @@ TEST(StudyFileRigid, RefusesWhatNeedsAContactThatYields)
     lines[21] = "normal_stiffness = { distribution = \"lognormal\", sigma_ln = 0.7 }";
     refused(lines, {"study.toml:21", "normal_stiffness", "rigid"});
     lines = rigid_lines();
-    lines[22] = "[mechanisms]\nstribeck = { dynamic_ratio = 0.5, stribeck_velocity_m_s = 0.01 }";
+    lines[22] = "[mechanisms]\nstribeck = { dynamic_friction = 0.5, velocity_m_s = 0.01 }";
     refused(lines, {"stribeck", "is not available with contact.form = \"rigid\"", "two_corner"});
     for (const auto& [text, word] : {std::pair{"step_fraction = 0.5", "run.step_fraction"},
                                      {"step_bound = \"structure\"", "run.step_bound"},

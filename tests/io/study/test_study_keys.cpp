@@ -30,9 +30,12 @@ const std::string listed = "[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndens
                            "epistyles = [ { first_column = 0, last_column = 1, length_m = 4, height_m = 0.5 } ]\n";
 const std::string contact = "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.7\n";
 
-std::string single(const std::string& excitation, const std::string& structure = drums)
+const std::string rigid = "[contact]\nform = \"rigid\"\nfriction = 0.7\n";
+
+std::string single(const std::string& excitation, const std::string& structure = drums,
+                   const std::string& contacts = contact)
 {
-    return "[study]\nkind = \"single\"\n" + structure + contact + "[excitation]\n" + excitation;
+    return "[study]\nkind = \"single\"\n" + structure + contacts + "[excitation]\n" + excitation;
 }
 
 std::string every_mechanism()
@@ -77,6 +80,7 @@ std::vector<std::string> samples()
     std::vector<std::string> all = {
         single("kind = \"none\"\nduration_s = 1\n"),
         single(harmonic),
+        single(harmonic, drums, rigid),
         single(harmonic, colonnade),
         single(harmonic, listed),
         single(harmonic,
