@@ -32,10 +32,11 @@ bool is_single(const Study& study)
     return study.run.precision == Precision::single;
 }
 
-std::uint64_t whole_chunks(double time_s, double step_s)
+/// @param interval steps between two checks
+std::uint64_t whole_checks(double time_s, double step_s, int interval)
 {
-    const double chunks = std::ceil(time_s / step_s / chunk_steps);
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(chunks)) * chunk_steps;
+    const double checks = std::ceil(time_s / step_s / interval);
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(checks)) * static_cast<std::uint64_t>(interval);
 }
 
 /// Of the narrower of a bed's two faces.
@@ -259,19 +260,20 @@ void LaneSet::load(int lane, Realization realization)
 
     const bool shaken = study_.excitation.kind != ExcitationKind::none;
     Watch& w = place.watch;
+    const int interval = check_steps(topology_);
     w.step_s = r.step_s;
     w.shaking_end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
     w.barrier_j = place.scales.barrier_j;
     w.rest_energy_j = rest_energy * place.scales.barrier_j;
-    w.rest_slip_m = rest_slip * place.scales.width_m * place.scales.p_rad_s * chunk_steps * r.step_s;
+    w.rest_slip_m = rest_slip * place.scales.width_m * place.scales.p_rad_s * interval * r.step_s;
     const double tail = shaken ? study_.excitation.tail_s.value_or(tail_after_shaking(r)) : 0;
     w.may_rest = shaken;
-    w.last_step = whole_chunks(w.shaking_end_s + tail, r.step_s);
-    w.rest_steps = whole_chunks(rest_time / place.scales.p_rad_s, r.step_s);
+    w.last_step = whole_checks(w.shaking_end_s + tail, r.step_s, interval);
+    w.rest_steps = whole_checks(rest_time / place.scales.p_rad_s, r.step_s, interval);
     w.seated = 1;
     const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
     place.limits = LimitStates(r, study_.outcome, base.y_m + base.half_height_m,
-                               whole_chunks(fall_time / place.scales.p_rad_s, r.step_s));
+                               whole_checks(fall_time / place.scales.p_rad_s, r.step_s, interval));
     store_state(lane, r);
     first_increments(lane);
     if (single_)
@@ -288,11 +290,16 @@ void LaneSet::advance()
 
 void LaneSet::advance(int first, int last)
 {
-    run(first, last);
-    if (last == chunk_steps)
-        for (int lane = 0; lane < lanes(); ++lane)
-            if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
-                check(lane);
+    const int interval = check_steps(topology_);
+    for (int done = first; done < last;) {
+        const int from = done;
+        done = std::min(last, (from / interval + 1) * interval);
+        run(from, done);
+        if (done % interval == 0)
+            for (int lane = 0; lane < lanes(); ++lane)
+                if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
+                    check(lane, done);
+    }
 }
 
 /// The tables of the base's motion at the beginning of a chunk, and the steps.
@@ -410,18 +417,18 @@ void LaneSet::read_motion(int lane)
 }
 
 /// Not finite? fallen? energy out of balance? at rest, or out of time?
-void LaneSet::check(int lane)
+void LaneSet::check(int lane, int done)
 {
     Place& place = places_[static_cast<std::size_t>(lane)];
     Watch& w = place.watch;
-    w.steps += chunk_steps;
+    w.steps += static_cast<std::uint64_t>(check_steps(topology_));
     first_step_[lane] = static_cast<double>(w.steps);
 
     read_motion(lane);
     if (!is_finite(topology_, bundle_, lane))
         return end(lane, State::invalid, InvalidReason::not_finite);
 
-    place.limits.check(place.realization, w.steps, place.moved, place.inside);
+    place.limits.check(place.realization, w.steps, place.moved, place.inside, done);
     w.undecided = place.limits.undecided();
     w.seated = !place.limits.unseated();
     if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)

@@ -87,8 +87,8 @@ public:
     /// Takes its state and its watch over from a column.
     void read_column(int lane, const double* column);
     std::uint64_t steps(int lane) const { return places_[static_cast<std::size_t>(lane)].watch.steps; }
-    /// The check after a chunk, as `advance` does it.
-    void check(int lane);
+    /// The check after `done` steps of a chunk, as `advance` does it; every `check_steps` there is one.
+    void check(int lane, int done);
     /// Whether the tables of its base motion are made on the host.
     bool tables_given(int lane) const;
     /// Makes them, for the chunk that begins at a step.

@@ -55,7 +55,7 @@ void LimitStates::fall(const Realization& r, std::size_t block, std::uint64_t si
 }
 
 void LimitStates::check(const Realization& r, std::uint64_t steps, const std::vector<BlockMotion>& moved,
-                        const std::vector<int>& inside)
+                        const std::vector<int>& inside, int done)
 {
     undecided_ = false;
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {
@@ -71,8 +71,8 @@ void LimitStates::check(const Realization& r, std::uint64_t steps, const std::ve
         if (seen_since_[i] == never) {
             seen_since_[i] = steps;
             // (by the rounding of a limit the steps may still have it inside: then it is the last one)
-            const int left = std::min(inside[i] + 1, chunk_steps - 1);
-            turned_since_[i] = steps - static_cast<std::uint64_t>(chunk_steps - 1 - left);
+            const int left = std::min(inside[i] + 1, done - 1);
+            turned_since_[i] = steps - static_cast<std::uint64_t>(done - 1 - left);
         }
         if (low || steps - seen_since_[i] >= fall_steps_)
             fall(r, i, turned_since_[i]);

@@ -41,9 +41,10 @@ public:
 
     /// @param steps done so far
     /// @param moved (blocks) in the order of `Realization::blocks`
-    /// @param inside (blocks) last step of the chunk, 0 to `chunk_steps` - 1, after which it was inside; -1: none
+    /// @param inside (blocks) last of the steps 0 to `done` - 1 of the chunk after which it was inside; -1: none
+    /// @param done steps of the chunk
     void check(const Realization& realization, std::uint64_t steps, const std::vector<BlockMotion>& moved,
-               const std::vector<int>& inside);
+               const std::vector<int>& inside, int done);
 
     bool fallen() const { return fallen_blocks_ > 0; }
     /// A block has turned too far, and may come back.

@@ -115,14 +115,14 @@ STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
 /// @return whether the host is to check instead; `w` is then not to be used
 STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 {
-    w.steps += chunk_steps;
+    w.steps += check_steps(m.topology);
     return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
            watch_rest(m.topology, m.bundle, slot, false, w);
 }
 
 } // namespace detail
 
-/// Steps a slot by up to `chunks` chunks: less if the host is to check it.
+/// Steps a slot by up to `chunks` chunks, of as many steps as lie between two checks: less if the host is to check it.
 /// @tparam Mechanism, watching, stack as in `Stepper`
 template <class Mechanism, bool watching, bool stack>
 struct AdvanceSlot {
@@ -143,7 +143,7 @@ struct AdvanceSlot {
             if (!m.tables_given)
                 fill_base_rows<double>(m.motion, mine, static_cast<double>(w.steps), b.base_table, m.slots);
             if constexpr (Mechanism::form == ContactForm::rigid)
-                RigidStepper<double, Mechanism, Strided>(m.topology, b).run(0, chunk_steps);
+                RigidStepper<double, Mechanism, Strided>(m.topology, b).run(0, check_steps(m.topology));
             else
                 Stepper<double, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
             Watch next = w;

@@ -239,7 +239,7 @@ void SlotSet::upload_tables()
         Slot& s = slots_[slot];
         if (s.busy)
             for (std::size_t chunk = 0; chunk < chunks_per_launch; ++chunk)
-                s.lane->write_tables(0, s.steps + chunk * chunk_steps,
+                s.lane->write_tables(0, s.steps + chunk * steps_of_chunk(),
                                      own.host_tables->data() + slot * column + chunk * tables);
     });
     const auto used = static_cast<std::size_t>(used_);
@@ -262,7 +262,7 @@ void SlotSet::take_those_that_ask()
     for (std::size_t i = 0; i < used; ++i) {
         if (own_->host_state[i] == SlotState::asks)
             asking.push_back(static_cast<int>(i));
-        slots_[i].steps += chunks_per_launch * chunk_steps;
+        slots_[i].steps += chunks_per_launch * steps_of_chunk();
     }
     if (asking.empty())
         return;
@@ -273,7 +273,7 @@ void SlotSet::take_those_that_ask()
     each(asking.size(), [&](std::size_t i) {
         Slot& s = slots_[static_cast<std::size_t>(asking[i])];
         s.lane->read_column(0, own_->host_packed.data() + i * rows);
-        s.lane->check(0);
+        s.lane->check(0, check_steps(memory_.topology));
         s.steps = s.lane->steps(0);
         s.changed = !s.lane->outcome(0); // goes on, and the device is to hear of what the check found
     });

@@ -82,6 +82,7 @@ private:
     };
 
     LaneSet& lane(int slot) const { return *slots_[static_cast<std::size_t>(slot)].lane; }
+    std::uint64_t steps_of_chunk() const { return static_cast<std::uint64_t>(check_steps(memory_.topology)); }
     /// Calls f(i) for i from 0 to count - 1, on several threads of the host.
     static void each(std::size_t count, const std::function<void(std::size_t)>& f);
     void close_gaps();

@@ -13,6 +13,12 @@ namespace stylobate {
 
 /// What the energy balance may lack before a realization is set aside, over the energy that went through it.
 inline constexpr double energy_bound = 0.25;
+/// Steps between two checks of a realization: a chunk; of the rigid form, whose steps are long, a part of one, so that
+/// a fall is decided as closely in time.
+constexpr int check_steps(const Topology& topology)
+{
+    return topology.model.rigid() ? chunk_steps / 4 : chunk_steps;
+}
 /// Chunks between two audits: they cost as much as several steps.
 inline constexpr std::uint64_t audit_chunks = 16;
 

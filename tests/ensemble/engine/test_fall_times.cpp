@@ -153,10 +153,10 @@ TEST(FallTimes, OfTwoBlocksFoundAtOneLook)
     const auto ended = [&](int inside_3, int inside_5) {
         LimitStates limits(r, {}, 0, 1 << 20);
         std::vector<int> inside(r.blocks.size(), chunk_steps - 1);
-        limits.check(r, chunk_steps, std::vector<BlockMotion>(r.blocks.size()), inside);
+        limits.check(r, chunk_steps, std::vector<BlockMotion>(r.blocks.size()), inside, chunk_steps);
         inside[3] = inside_3;
         inside[5] = inside_5;
-        limits.check(r, 2 * chunk_steps, moved, inside);
+        limits.check(r, 2 * chunk_steps, moved, inside, chunk_steps);
         limits.conclude(r);
         Outcome o;
         limits.write(r, o);

@@ -375,7 +375,7 @@ TEST(LimitStates, FollowAScript)
     std::vector<BlockMotion> moved(r.blocks.size());
     const std::vector<int> inside(r.blocks.size(),
                                   chunk_steps - 1); // what is outside at a check is so by its last step
-    const auto check = [&](std::uint64_t steps) { limits.check(r, steps, moved, inside); };
+    const auto check = [&](std::uint64_t steps) { limits.check(r, steps, moved, inside, chunk_steps); };
     check(64);
     EXPECT_FALSE(limits.fallen());
     moved[1].theta_rad = 1.0; // beyond atan(60 / 50) = 0.876, and back in time
@@ -418,7 +418,7 @@ TEST(LimitStates, WhatHasTurnedAtTheEndHasFallen)
     std::vector<BlockMotion> moved(r.blocks.size());
     moved[0].theta_rad = 0.6; // beyond atan(60 / 100) = 0.540
     moved[2].theta_rad = 1.0; // not beyond atan(150 / 60) = 1.190
-    limits.check(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1));
+    limits.check(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1), chunk_steps);
     EXPECT_FALSE(limits.fallen());
     limits.conclude(r);
     Outcome o;
