@@ -21,9 +21,8 @@
 /// unilateral contact and Coulomb's friction", ibid. 256 (2013) 224. Own: the time of impact within the step, the
 /// second-order terms, the direct solution with an active set in lockstep.
 
-#include "kernels/matrix3.hpp"
 #include "kernels/overlap.hpp"
-#include "kernels/rows.hpp"
+#include "kernels/rigid_equations.hpp"
 #include "kernels/trig.hpp"
 
 namespace stylobate {
@@ -36,9 +35,6 @@ inline constexpr int passes_of_all = 8, passes_of_one = 12;
 inline constexpr int relaxation_sweeps = 10, rounds = 3;
 /// Faces that are turned more than this against each other are no bed: cosine.
 inline constexpr double least_bed_cosine = 0.2;
-/// Of rigid columns under an epistyle the forces are not unique. The diagonal of the system is larger by this part, as
-/// if every bed yielded by so much of what its own blocks would: that makes them so.
-inline constexpr double softness = 1e-9;
 /// Rates below this part of what gravity adds in a step are rounding.
 template <class Number>
 inline constexpr double still_rate = 1e-10;
@@ -49,22 +45,24 @@ inline constexpr double still_rate<float> = 2e-4;
 
 /// @tparam Here a type of the file that this is compiled for (`instantiate.hpp`)
 template <class Real, class Here, class Layout = Packed>
-class RigidStepper : Rows<Real, Layout> {
+class RigidStepper : RigidEquations<Real, Layout> {
+    using Equations = RigidEquations<Real, Layout>;
+
 public:
     STYLOBATE_INLINE RigidStepper(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
-        : Rows<Real, Layout>(bundle), topology_(topology)
+        : Equations(topology, bundle)
     {
     }
 
-    /// Steps `first` to `last - 1` of the table of base motion; the energies are those of the last one.
-    STYLOBATE_INLINE void run(int first, int last) const
+    /// Steps `begin` to `end - 1` of the table of base motion; the energies are those of the last one.
+    STYLOBATE_INLINE void run(int begin, int end) const
     {
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             turn(i, get(OfBlock::theta, i));
-            if (first == 0)
+            if (begin == 0)
                 put(OfBlock::inside, i, Real(-1.0));
         }
-        for (int step = first; step < last; ++step) {
+        for (int step = begin; step < end; ++step) {
             for (int j = 0; j < topology_.beds(); ++j)
                 geometry(j);
             strike();
@@ -74,18 +72,34 @@ public:
             for (int e = 0; e < topology_.rigid_edges; ++e)
                 put_response(e);
             solve();
-            update(step, step + 1 == last);
+            update(step, step + 1 == end);
         }
     }
 
 private:
-    using J = OfRigidJoint;
+    using Equations::bed;
+    using Equations::free;
+    using Equations::get;
+    using Equations::is_free;
+    using Equations::last;
+    using Equations::load_three;
+    using Equations::moved_by;
+    using Equations::next;
+    using Equations::part_late;
+    using Equations::pull;
+    using Equations::put;
+    using Equations::put_next;
+    using Equations::put_own_response;
+    using Equations::put_response;
+    using Equations::rates;
+    using Equations::solve_equations;
+    using Equations::topology_;
     using B = OfRigidBlock;
-    using E = OfRigidEdge;
-    using M = Matrix3<Real>;
+    using typename Equations::Bed;
+    using J = OfRigidJoint;
+    using typename Equations::Pull;
+    using typename Equations::Rule;
     using V = Vector3<Real>;
-    using Rows<Real, Layout>::get;
-    using Rows<Real, Layout>::put;
 
     STYLOBATE_INLINE void turn(int i, Real theta) const
     {
@@ -93,70 +107,6 @@ private:
         put(OfBlock::sine, i, a.sine);
         put(OfBlock::versine, i, a.versine);
     }
-
-    // ---- what a bed is ----
-
-    /// The rows of a bed: a displacement of its blocks as changes of the two gaps, and as sliding of the upper one.
-    struct Bed {
-        int lower, upper;
-        Real sine, cosine; ///< of the lower block
-        Real left_x, right_x, left_arm, right_arm, upper_arm, lower_arm;
-    };
-    STYLOBATE_INLINE Bed bed(int j) const
-    {
-        const auto [lower, upper] = topology_.joint[j];
-        return {lower,
-                upper,
-                get(OfBlock::sine, lower),
-                Real(1.0) - get(OfBlock::versine, lower),
-                get(J::left_x, j),
-                get(J::right_x, j),
-                get(J::left_arm, j),
-                get(J::right_arm, j),
-                get(J::upper_arm, j),
-                get(OfBlock::half_height, lower)};
-    }
-    STYLOBATE_INLINE static V rates(const Bed& b, const Planar<Real>& lower, const Planar<Real>& upper)
-    {
-        const Real x = upper.x - lower.x, y = upper.y - lower.y;
-        const Real away = fms(y, b.cosine, x * b.sine), along = fma(x, b.cosine, y * b.sine);
-        return {fma(b.left_arm, upper.theta, fnma(b.left_x, lower.theta, away)),
-                fma(b.right_arm, upper.theta, fnma(b.right_x, lower.theta, away)),
-                fma(b.upper_arm, upper.theta, fma(b.lower_arm, lower.theta, along))};
-    }
-    struct Pull {
-        Planar<Real> lower, upper;
-    };
-    /// Forces and moments of a bed's forces on its blocks.
-    STYLOBATE_INLINE static Pull pull(const Bed& b, const V& force)
-    {
-        const Real normal = force.v[0] + force.v[1], shear = force.v[2], zero(0.0);
-        const Real x = fms(shear, b.cosine, normal * b.sine), y = fma(shear, b.sine, normal * b.cosine);
-        const Real on_lower = fms(b.lower_arm, shear, fma(b.left_x, force.v[0], b.right_x * force.v[1]));
-        const Real on_upper = fma(b.upper_arm, shear, fma(b.left_arm, force.v[0], b.right_arm * force.v[1]));
-        return {{zero - x, zero - y, on_lower}, {x, y, on_upper}};
-    }
-    STYLOBATE_INLINE Planar<Real> last(int i) const
-    {
-        return {get(OfBlock::dx, i), get(OfBlock::dy, i), get(OfBlock::dtheta, i)};
-    }
-    STYLOBATE_INLINE Planar<Real> next(int i) const
-    {
-        return {get(B::next_x, i), get(B::next_y, i), get(B::next_theta, i)};
-    }
-    STYLOBATE_INLINE void put_next(int i, const Planar<Real>& d) const
-    {
-        put(B::next_x, i, d.x);
-        put(B::next_y, i, d.y);
-        put(B::next_theta, i, d.theta);
-    }
-    STYLOBATE_INLINE Planar<Real> moved_by(int i, const Planar<Real>& d, const Planar<Real>& force) const
-    {
-        const Real per_mass = get(OfBlock::dt2_per_mass, i);
-        return {fma(per_mass, force.x, d.x), fma(per_mass, force.y, d.y),
-                fma(get(OfBlock::dt2_per_inertia, i), force.theta, d.theta)};
-    }
-    STYLOBATE_INLINE bool is_free(int i) const { return i >= topology_.fixed; }
 
     STYLOBATE_INLINE void geometry(int j) const
     {
@@ -208,8 +158,8 @@ private:
         Real fastest(0.0), its_gap(0.0);
         for (int j = 0; j < topology_.beds(); ++j) {
             const auto usable = get(J::usable, j) > half;
-            const auto look_at = [&](J::Field carries, J::Field rates, J::Field gaps) {
-                const Real rate = get(rates, j), gap = get(gaps, j);
+            const auto look_at = [&](J::Field carries, J::Field of_rate, J::Field of_gap) {
+                const Real rate = get(of_rate, j), gap = get(of_gap, j);
                 // (`fastest` is never above 0)
                 const auto hits = usable & (get(carries, j) < half) & (gap < zero - half * rate) & (rate < fastest);
                 its_gap = select(hits, gap, its_gap);
@@ -252,226 +202,6 @@ private:
             put(J::sliding_goal, j, zero - rate.v[2] - get(J::bend_sliding, j));
         }
     }
-    STYLOBATE_INLINE Planar<Real> free(int i) const
-    {
-        if (!is_free(i))
-            return {Real(0.0), Real(0.0), Real(0.0)};
-        return {get(B::free_x, i), get(B::free_y, i), get(B::free_theta, i)};
-    }
-
-    // ---- responses ----
-
-    STYLOBATE_INLINE void put_own_response(int j) const
-    {
-        const Bed b = bed(j);
-        const Real zero(0.0);
-        Real per_mass(0.0), lower_inertia(0.0);
-        if (is_free(b.lower)) {
-            per_mass = get(OfBlock::dt2_per_mass, b.lower);
-            lower_inertia = get(OfBlock::dt2_per_inertia, b.lower);
-        }
-        per_mass = per_mass + get(OfBlock::dt2_per_mass, b.upper);
-        const Real upper_inertia = get(OfBlock::dt2_per_inertia, b.upper);
-        const Real u[3] = {b.left_arm, b.right_arm, b.upper_arm},
-                   l[3] = {zero - b.left_x, zero - b.right_x, b.lower_arm};
-        const Real softening(topology_.stack ? 1 : 1 + detail::softness);
-        int at = 0;
-        for (int row = 0; row < 3; ++row)
-            for (int column = row; column < 3; ++column, ++at) {
-                const Real shared = (row < 2) == (column < 2) ? per_mass : zero;
-                const Real response =
-                    fma(upper_inertia * u[row], u[column], fma(lower_inertia * l[row], l[column], shared));
-                put(J::own, j, row == column ? response * softening : response, at);
-            }
-    }
-
-    STYLOBATE_INLINE void put_response(int e) const
-    {
-        const int* const edge = topology_.rigid_order + 5 * e;
-        const int block = edge[2];
-        if (block < 0)
-            return;
-        const Bed p = bed(edge[0]), k = bed(edge[1]);
-        const bool above = edge[3] > 0,
-                   over = edge[4] > 0; // the block is the upper one of the earlier, of the later bed
-        const Real zero(0.0);
-        const Real per_mass = get(OfBlock::dt2_per_mass, block), per_inertia = get(OfBlock::dt2_per_inertia, block);
-        const Real cosine = fma(p.cosine, k.cosine, p.sine * k.sine), sine = fms(p.cosine, k.sine, p.sine * k.cosine);
-        const Real c = above == over ? per_mass * cosine : zero - per_mass * cosine;
-        const Real s = above == over ? per_mass * sine : zero - per_mass * sine;
-        const Real arm_p[3] = {above ? p.left_arm : zero - p.left_x, above ? p.right_arm : zero - p.right_x,
-                               above ? p.upper_arm : p.lower_arm};
-        const Real arm_k[3] = {over ? k.left_arm : zero - k.left_x, over ? k.right_arm : zero - k.right_x,
-                               over ? k.upper_arm : k.lower_arm};
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column) {
-                // n.n' = t.t' = cosine, n.t' = sine, t.n' = -sine of the turn from one lower block to the other
-                const Real linear = (row < 2) == (column < 2) ? c : row < 2 ? s : zero - s;
-                put(E::response, e, fma(per_inertia * arm_p[row], arm_k[column], linear), 3 * row + column);
-            }
-    }
-
-    // ---- the system of equations ----
-
-    /// Which rows of a bed say what.
-    struct Rule {
-        Real left, right, slips, mu;
-    };
-    STYLOBATE_INLINE Rule rule(int j) const
-    {
-        return {get(J::left, j), get(J::right, j), get(J::slips, j), get(OfJoint::mu, j)};
-    }
-    /// Rows of conditions that do not hold are 0.
-    STYLOBATE_INLINE static void keep_rows(const Rule& r, M& m)
-    {
-        const Real zero(0.0), half(0.5);
-        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
-        for (int column = 0; column < 3; ++column) {
-            m.m[0][column] = select(r.left > half, m.m[0][column], zero);
-            m.m[1][column] = select(r.right > half, m.m[1][column], zero);
-            m.m[2][column] = select(holds, m.m[2][column], zero);
-        }
-    }
-    /// The pivot of a bed that is by itself: an end that does not carry has no force, friction at its limit is mu N.
-    STYLOBATE_INLINE M own_rows(int j, const Rule& r) const
-    {
-        const Real a01 = get(J::own, j, 1), a02 = get(J::own, j, 2), a12 = get(J::own, j, 4);
-        M m{{{get(J::own, j, 0), a01, a02}, {a01, get(J::own, j, 3), a12}, {a02, a12, get(J::own, j, 5)}}};
-        keep_rows(r, m);
-        const Real zero(0.0), one(1.0), half(0.5);
-        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
-        m.m[0][0] = select(r.left > half, m.m[0][0], one);
-        m.m[1][1] = select(r.right > half, m.m[1][1], one);
-        const Real limit = zero - r.slips * r.mu;
-        m.m[2][0] = select(holds, m.m[2][0], limit);
-        m.m[2][1] = select(holds, m.m[2][1], limit);
-        m.m[2][2] = select(holds, m.m[2][2], one);
-        return m;
-    }
-    STYLOBATE_INLINE M load(J::Field f, int j) const
-    {
-        M m;
-        for (int k = 0; k < 9; ++k)
-            m.m[k / 3][k % 3] = get(f, j, k);
-        return m;
-    }
-    STYLOBATE_INLINE M load(E::Field f, int e) const
-    {
-        M m;
-        for (int k = 0; k < 9; ++k)
-            m.m[k / 3][k % 3] = get(f, e, k);
-        return m;
-    }
-    template <class Field>
-    STYLOBATE_INLINE void store(Field f, int i, const M& m) const
-    {
-        for (int k = 0; k < 9; ++k)
-            put(f, i, m.m[k / 3][k % 3], k);
-    }
-    STYLOBATE_INLINE V load_three(J::Field f, int j) const { return {{get(f, j, 0), get(f, j, 1), get(f, j, 2)}}; }
-    STYLOBATE_INLINE void store_three(J::Field f, int j, const V& v) const
-    {
-        for (int k = 0; k < 3; ++k)
-            put(f, j, v.v[k], k);
-    }
-
-    /// The rows of a bed and its two right-hand sides: what its forces are to achieve, and the gaps to be closed.
-    STYLOBATE_INLINE void put_equations(int j, Real late) const
-    {
-        const Real zero(0.0), half(0.5);
-        const Rule r = rule(j);
-        store(J::pivot, j, own_rows(j, r));
-        const auto left = r.left > half, right = r.right > half;
-        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
-        store_three(J::force, j,
-                    V{{select(left, get(J::left_goal, j), zero), select(right, get(J::right_goal, j), zero),
-                       select(holds, get(J::sliding_goal, j), zero)}});
-        // until an end meets its face the blocks go on with their old increments
-        store_three(J::closing, j,
-                    V{{select(left, zero - fma(late, get(J::left_rate, j), get(J::left_gap, j)), zero),
-                       select(right, zero - fma(late, get(J::right_rate, j), get(J::right_gap, j)), zero), zero}});
-    }
-    STYLOBATE_INLINE void put_couplings(int e) const
-    {
-        const int* const edge = topology_.rigid_order + 5 * e;
-        M m{}, t{};
-        if (edge[2] >= 0) {
-            m = load(E::response, e);
-            t = transposed(m);
-            keep_rows(rule(edge[0]), m);
-            keep_rows(rule(edge[1]), t);
-        }
-        store(E::earlier, e, m);
-        store(E::later, e, t);
-    }
-
-    /// Solves for both right-hand sides, in their place: block elimination in the order of the topology. Beds that are
-    /// not related come one after another there, so that the processor works on two at once.
-    STYLOBATE_INLINE void solve_equations() const
-    {
-        const Real late = part_late();
-        for (int j = 0; j < topology_.beds(); ++j)
-            put_equations(j, late);
-        for (int e = 0; e < topology_.rigid_edges; ++e)
-            put_couplings(e);
-        const int* at = topology_.rigid_order + 5 * topology_.rigid_edges;
-        for (int pivot = 0; pivot < topology_.beds(); ++pivot) {
-            const int j = *at++, count = *at++;
-            const int* const related = at;
-            const int* const targets = at + 2 * count;
-            at = targets + count * count;
-            const M inverse = inverse_of(load(J::pivot, j));
-            const V force = inverse * load_three(J::force, j), closing = inverse * load_three(J::closing, j);
-            store(J::inverse, j, inverse);
-            store_three(J::force, j, force);
-            store_three(J::closing, j, closing);
-            for (int row = 0; row < count; ++row) {
-                const int other = related[2 * row];
-                const M rows = load(E::later, related[2 * row + 1]);
-                store_three(J::force, other, load_three(J::force, other) - rows * force);
-                store_three(J::closing, other, load_three(J::closing, other) - rows * closing);
-                const M factor = rows * inverse;
-                for (int column = 0; column < count; ++column) {
-                    const M less = factor * load(E::earlier, related[2 * column + 1]);
-                    const int target = targets[row * count + column];
-                    if (target < 0)
-                        store(J::pivot, other, load(J::pivot, other) - less);
-                    else if (target & 1)
-                        store(E::later, target >> 1, load(E::later, target >> 1) - less);
-                    else
-                        store(E::earlier, target >> 1, load(E::earlier, target >> 1) - less);
-                }
-            }
-        }
-        substitute_back(at);
-    }
-    /// @param begins of the pivots in the order's list, the last one first
-    STYLOBATE_INLINE void substitute_back(const int* begins) const
-    {
-        for (int pivot = 0; pivot < topology_.beds(); ++pivot) {
-            const int* const begin = topology_.rigid_order + begins[pivot];
-            const int j = begin[0], count = begin[1];
-            if (count == 0)
-                continue;
-            const V none{{Real(0.0), Real(0.0), Real(0.0)}};
-            V force = none, closing = none;
-            for (int column = 0; column < count; ++column) {
-                const M rows = load(E::earlier, begin[3 + 2 * column]);
-                force = force + rows * load_three(J::force, begin[2 + 2 * column]);
-                closing = closing + rows * load_three(J::closing, begin[2 + 2 * column]);
-            }
-            const M inverse = load(J::inverse, j);
-            store_three(J::force, j, load_three(J::force, j) - inverse * force);
-            store_three(J::closing, j, load_three(J::closing, j) - inverse * closing);
-        }
-    }
-    /// Part of a step by which the end that meets its face does so after the middle of the step.
-    STYLOBATE_INLINE Real part_late() const
-    {
-        const Real half(0.5);
-        return select(get(OfRigid::struck) > half, get(OfRigid::share) - half, Real(0.0));
-    }
-
     // ---- which ends carry ----
 
     STYLOBATE_INLINE void solve() const
@@ -738,8 +468,6 @@ private:
             put(OfRealization::potential, potential);
         }
     }
-
-    const Topology& topology_;
 };
 
 /// Runs steps `first` to `last - 1` of the chunk for all realizations of the bundle.

@@ -115,7 +115,7 @@ STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
 /// @return whether the host is to check instead; `w` is then not to be used
 STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 {
-    w.steps += check_steps(m.topology);
+    w.steps += static_cast<std::uint64_t>(check_steps(m.topology));
     return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
            watch_rest(m.topology, m.bundle, slot, false, w);
 }

@@ -106,7 +106,8 @@ TEST_F(EnsembleVerdictStatistics, CausesAreNamedWithProbabilitiesThatHold)
     double stated = 0;
     for (int i = 0; i < 80; ++i) {
         const Eigen::VectorXd law = world_.law();
-        const Eigen::VectorXd campaign = world_.campaign(law, i % causes, 0.3 + 0.07 * (i / causes));
+        const int rank = i / causes;
+        const Eigen::VectorXd campaign = world_.campaign(law, i % causes, 0.3 + 0.07 * rank);
         possible += oracle.names(law, campaign) ? 1 : 0;
         const EnsembleVerdict verdict = judge(law, campaign);
         if (!verdict.named)

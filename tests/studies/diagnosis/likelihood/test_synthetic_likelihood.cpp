@@ -133,7 +133,8 @@ TEST(SyntheticLikelihoodStatistics, NamesThePlantedCauseWithItsSize)
     int named = 0, inside = 0, total = 0;
     for (int i = 0; i < 200; ++i) {
         const int cause = i % causes;
-        const double size = 0.4 + 0.024 * (i / causes);
+        const int rank = i / causes;
+        const double size = 0.4 + 0.024 * rank;
         const Eigen::VectorXd law = world.law();
         const auto found = likelihood.of(adjustment.residual(law, world.campaign(law, cause, size)));
         const auto best =

@@ -1,0 +1,95 @@
+#pragma once
+/// A bed of the rigid form: what a displacement of its two blocks does to the gaps at its ends and to the sliding, and
+/// what its forces do to the blocks. `THEORY.md` section 10 derives the formulas.
+
+#include "kernels/matrix3.hpp"
+#include "kernels/rows.hpp"
+
+namespace stylobate {
+
+template <class Real, class Layout>
+class RigidBeds : protected Rows<Real, Layout> {
+protected:
+    using J = OfRigidJoint;
+    using B = OfRigidBlock;
+    using V = Vector3<Real>;
+    using Rows<Real, Layout>::get;
+    using Rows<Real, Layout>::put;
+
+    STYLOBATE_INLINE RigidBeds(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle)
+        : Rows<Real, Layout>(bundle), topology_(topology)
+    {
+    }
+
+    /// The rows of a bed: a displacement of its blocks as changes of the two gaps, and as sliding of the upper one.
+    struct Bed {
+        int lower, upper;
+        Real sine, cosine; ///< of the lower block
+        Real left_x, right_x, left_arm, right_arm, upper_arm, lower_arm;
+    };
+    STYLOBATE_INLINE Bed bed(int j) const
+    {
+        const auto [lower, upper] = topology_.joint[j];
+        return {lower,
+                upper,
+                get(OfBlock::sine, lower),
+                Real(1.0) - get(OfBlock::versine, lower),
+                get(J::left_x, j),
+                get(J::right_x, j),
+                get(J::left_arm, j),
+                get(J::right_arm, j),
+                get(J::upper_arm, j),
+                get(OfBlock::half_height, lower)};
+    }
+    STYLOBATE_INLINE static V rates(const Bed& b, const Planar<Real>& lower, const Planar<Real>& upper)
+    {
+        const Real x = upper.x - lower.x, y = upper.y - lower.y;
+        const Real away = fms(y, b.cosine, x * b.sine), along = fma(x, b.cosine, y * b.sine);
+        return {fma(b.left_arm, upper.theta, fnma(b.left_x, lower.theta, away)),
+                fma(b.right_arm, upper.theta, fnma(b.right_x, lower.theta, away)),
+                fma(b.upper_arm, upper.theta, fma(b.lower_arm, lower.theta, along))};
+    }
+    struct Pull {
+        Planar<Real> lower, upper;
+    };
+    /// Forces and moments of a bed's forces on its blocks.
+    STYLOBATE_INLINE static Pull pull(const Bed& b, const V& force)
+    {
+        const Real normal = force.v[0] + force.v[1], shear = force.v[2], zero(0.0);
+        const Real x = fms(shear, b.cosine, normal * b.sine), y = fma(shear, b.sine, normal * b.cosine);
+        const Real on_lower = fms(b.lower_arm, shear, fma(b.left_x, force.v[0], b.right_x * force.v[1]));
+        const Real on_upper = fma(b.upper_arm, shear, fma(b.left_arm, force.v[0], b.right_arm * force.v[1]));
+        return {{zero - x, zero - y, on_lower}, {x, y, on_upper}};
+    }
+    STYLOBATE_INLINE Planar<Real> last(int i) const
+    {
+        return {get(OfBlock::dx, i), get(OfBlock::dy, i), get(OfBlock::dtheta, i)};
+    }
+    STYLOBATE_INLINE Planar<Real> next(int i) const
+    {
+        return {get(B::next_x, i), get(B::next_y, i), get(B::next_theta, i)};
+    }
+    STYLOBATE_INLINE void put_next(int i, const Planar<Real>& d) const
+    {
+        put(B::next_x, i, d.x);
+        put(B::next_y, i, d.y);
+        put(B::next_theta, i, d.theta);
+    }
+    STYLOBATE_INLINE Planar<Real> moved_by(int i, const Planar<Real>& d, const Planar<Real>& force) const
+    {
+        const Real per_mass = get(OfBlock::dt2_per_mass, i);
+        return {fma(per_mass, force.x, d.x), fma(per_mass, force.y, d.y),
+                fma(get(OfBlock::dt2_per_inertia, i), force.theta, d.theta)};
+    }
+    STYLOBATE_INLINE bool is_free(int i) const { return i >= topology_.fixed; }
+    STYLOBATE_INLINE Planar<Real> free(int i) const
+    {
+        if (!is_free(i))
+            return {Real(0.0), Real(0.0), Real(0.0)};
+        return {get(B::free_x, i), get(B::free_y, i), get(B::free_theta, i)};
+    }
+
+    const Topology& topology_;
+};
+
+} // namespace stylobate
