@@ -3,6 +3,7 @@
 ///
 ///   stylobate_rigid_limit [--draws N] [--threads N] [--cell NAME]     tables for docs/rigid_limit.md
 ///   stylobate_rigid_limit --steps ...                                 of rigid blocks over the step alone
+///   stylobate_rigid_limit --cost ...                                  realizations per second of processor time
 
 #include "bench/processor.hpp"
 #include "ensemble/engine/executor.hpp"
@@ -11,9 +12,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
+#include <numbers>
 
 using namespace stylobate;
 
@@ -25,18 +26,20 @@ struct Cell {
     int free_blocks = 6;
     double height_m = 0.029; ///< of a block
     double frequency_hz = 4, pga_m_s2 = 4;
+    bool alike = false; ///< the realizations differ by their friction and by drums offset by 1e-6 m alone
 };
 
 struct Law {
     ContactForm form = ContactForm::rigid;
     double stiffness_n_m2 = 0, damping_ratio = 0; ///< of two corners
     double restitution = 0, step_s = 0;           ///< of rigid blocks
-    bool fine = false;                            ///< half of the step of a study
 };
 
 const std::vector<Cell> cells{{"monolith", 1, 0.174, 3, 3.4},    {"two_blocks", 2, 0.087, 4, 5},
                               {"six_drums_a", 6, 0.029, 4, 4},   {"six_drums_b", 6, 0.029, 4, 5},
                               {"six_drums_c", 6, 0.029, 3, 3.5}, {"six_drums_d", 6, 0.029, 6, 7}};
+const Cell alike{"six_drums_alike", 6, 0.029, 4, 5, true};
+const Cell standing{"six_drums_standing", 6, 0.029, 5, 2.15, true};
 
 /// Blocks 48 mm wide, of the specimen's stone; sizes, places, friction, level and phase as they vary in its studies.
 Study study_of(const Cell& cell, const Law& law, std::uint64_t draws)
@@ -55,8 +58,6 @@ Study study_of(const Cell& cell, const Law& law, std::uint64_t draws)
     s.contact.normal_damping_ratio = s.contact.tangential_damping_ratio = law.damping_ratio;
     if (law.form == ContactForm::rigid)
         s.run.step_s = law.step_s;
-    else if (law.fine)
-        s.run.step_fraction /= 2;
     s.excitation.kind = ExcitationKind::harmonic;
     s.excitation.frequency_hz = cell.frequency_hz;
     s.excitation.pga_m_s2 = cell.pga_m_s2;
@@ -70,6 +71,11 @@ Study study_of(const Cell& cell, const Law& law, std::uint64_t draws)
         s.perturbations.push_back(p);
     };
     perturb(Quantity::friction, Per::joint, 0.068);
+    if (cell.alike) {
+        perturb(Quantity::drum_offset, Per::block, 1e-6);
+        return s;
+    }
+
     perturb(Quantity::drum_width, Per::block, 0.0002);
     perturb(Quantity::drum_height, Per::block, 0.0002);
     perturb(Quantity::drum_offset, Per::block, 0.00024);
@@ -79,7 +85,7 @@ Study study_of(const Cell& cell, const Law& law, std::uint64_t draws)
     phase.per = Per::structure;
     phase.distribution = DistributionKind::uniform;
     phase.from = 0;
-    phase.to = 2 * 3.14159265358979;
+    phase.to = 2 * std::numbers::pi;
     s.perturbations.push_back(phase);
     return s;
 }
@@ -88,15 +94,22 @@ std::string text_of(const Law& law)
 {
     if (law.form == ContactForm::rigid)
         return fmt::format("rigid, e = {:g} | 1/{:.0f}", law.restitution, 1 / law.step_s);
-    return fmt::format("two_corner, damping ratio {:g}{} | K_N {:.0e}", law.damping_ratio,
-                       law.fine ? ", half the step" : "", law.stiffness_n_m2);
+    return fmt::format("two_corner, damping ratio {:g} | K_N {:.0e}", law.damping_ratio, law.stiffness_n_m2);
 }
 
-/// @param steps over the step alone
-std::vector<Law> laws(bool steps)
+enum class Table { limit, steps, cost };
+
+std::vector<Law> laws(Table table)
 {
     std::vector<Law> all;
-    if (steps) {
+    if (table == Table::cost) {
+        for (const double rate : {240.0, 480.0, 960.0})
+            all.push_back({.step_s = 1 / rate});
+        all.push_back({ContactForm::two_corner, 1e8, 0.1});
+        all.push_back({ContactForm::two_corner, 1e9, 0.5});
+        return all;
+    }
+    if (table == Table::steps) {
         for (const double rate : {120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0})
             all.push_back({.step_s = 1 / rate});
         return all;
@@ -110,30 +123,31 @@ std::vector<Law> laws(bool steps)
     for (const double xi : {2.0, 4.0})
         all.push_back({ContactForm::two_corner, 1e8, xi});
     all.push_back({ContactForm::two_corner, 1e10, 0.5});
-    all.push_back({ContactForm::two_corner, 1e9, 0.5, 0, 0, true});
     return all;
 }
 
 struct Answer {
     double probability = 0, error = 0; ///< and its standard error
-    double seconds = 0;
+    double rate = 0; ///< realizations of 10 s per second of processor time; one that falls counts by its time
 };
 
 Answer run(const Study& study, int threads)
 {
     std::uint64_t fallen = 0, valid = 0;
+    double simulated_s = 0;
     RunPlan plan;
     plan.total = study.realizations;
     plan.sink = [&](const Realization&, const Outcome& o) {
         fallen += o.state == State::collapsed;
         valid += o.state != State::invalid;
+        simulated_s += o.end_time_s;
     };
     Observer quiet;
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     run_ensemble(Experiment(study), {best_isa(), threads}, plan, quiet);
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     const double p = static_cast<double>(fallen) / static_cast<double>(valid);
-    return {p, std::sqrt(p * (1 - p) / static_cast<double>(valid)),
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+    return {p, std::sqrt(p * (1 - p) / static_cast<double>(valid)), simulated_s / 10 / seconds};
 }
 
 } // namespace
@@ -144,29 +158,34 @@ int main(int argc, char** argv)
     std::uint64_t draws = 512;
     int threads = 1;
     std::string only;
-    bool steps = false;
+    bool steps = false, cost = false;
     app.add_flag("--steps", steps, "rigid blocks over the step alone");
+    app.add_flag("--cost", cost, "realizations per second of processor time")->excludes("--steps");
     app.add_option("--draws", draws, "realizations of each")->check(CLI::Range(8, 1000000));
     app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
     app.add_option("--cell", only, "one structure and shaking alone");
     CLI11_PARSE(app, argc, argv);
+    const Table table = cost ? Table::cost : steps ? Table::steps : Table::limit;
+    std::vector<Cell> all = cells;
+    if (steps)
+        all.push_back(alike);
+    if (cost)
+        all = {standing, alike};
     std::string head = "contacts | step [s], K_N [N/m2]";
     std::vector<Cell> chosen;
-    for (const Cell& cell : cells)
+    for (const Cell& cell : all)
         if (only.empty() || cell.name == only) {
             chosen.push_back(cell);
             head += fmt::format(" | {}, {:g} Hz, {:g} m/s2", cell.name, cell.frequency_hz, cell.pga_m_s2);
         }
-    fmt::print("{} draws each, {}\n\n{}", draws, processor(), markdown_head(head + " | seconds"));
-    for (const Law& law : laws(steps)) {
+    fmt::print("{} draws each, {}\n\n{}", draws, processor(), markdown_head(head));
+    for (const Law& law : laws(table)) {
         std::string row = text_of(law);
-        double seconds = 0;
         for (const Cell& cell : chosen) {
             const Answer a = run(study_of(cell, law, draws), threads);
-            row += fmt::format(" | {:.3f} ± {:.3f}", a.probability, a.error);
-            seconds += a.seconds;
+            row += cost ? fmt::format(" | {:.0f}", a.rate) : fmt::format(" | {:.3f} ± {:.3f}", a.probability, a.error);
         }
-        fmt::print("{}", markdown_row("{} | {:.0f}", row, seconds));
+        fmt::print("{}", markdown_row("{}", row));
         std::fflush(stdout);
     }
 }

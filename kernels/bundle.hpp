@@ -235,9 +235,7 @@ struct OfRigidEdge {
 struct OfRigid {
     enum Field : int {
         struck,    ///< 1 if an end met its face within the last step; step
-        share,     ///< part of this step before an end meets its face
-        passes,    ///< solutions in all; step
-        left_over, ///< steps whose contacts were found by relaxation; step
+        share,  ///< part of this step before an end meets its face
         count
     };
 };

@@ -61,10 +61,12 @@ protected:
         const Real on_upper = fma(b.upper_arm, shear, fma(b.left_arm, force.v[0], b.right_arm * force.v[1]));
         return {{zero - x, zero - y, on_lower}, {x, y, on_upper}};
     }
+    /// Increment of a block in the last step.
     STYLOBATE_INLINE Planar<Real> last(int i) const
     {
         return {get(OfBlock::dx, i), get(OfBlock::dy, i), get(OfBlock::dtheta, i)};
     }
+    /// The same in this step, with the forces of the beds.
     STYLOBATE_INLINE Planar<Real> next(int i) const
     {
         return {get(B::next_x, i), get(B::next_y, i), get(B::next_theta, i)};
@@ -75,6 +77,7 @@ protected:
         put(B::next_y, i, d.y);
         put(B::next_theta, i, d.theta);
     }
+    /// An increment with what a force adds.
     STYLOBATE_INLINE Planar<Real> moved_by(int i, const Planar<Real>& d, const Planar<Real>& force) const
     {
         const Real per_mass = get(OfBlock::dt2_per_mass, i);
@@ -82,6 +85,7 @@ protected:
                 fma(get(OfBlock::dt2_per_inertia, i), force.theta, d.theta)};
     }
     STYLOBATE_INLINE bool is_free(int i) const { return i >= topology_.fixed; }
+    /// The increment in this step without the forces of the beds.
     STYLOBATE_INLINE Planar<Real> free(int i) const
     {
         if (!is_free(i))

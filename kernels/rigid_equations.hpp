@@ -29,6 +29,7 @@ protected:
     using J = OfRigidJoint;
     using V = Vector3<Real>;
 
+    /// What the forces of a bed do to its own conditions.
     STYLOBATE_INLINE void put_own_response(int j) const
     {
         const Bed b = bed(j);
@@ -53,15 +54,16 @@ protected:
             }
     }
 
+    /// What the forces of the later bed of an edge do to the conditions of the earlier one.
     STYLOBATE_INLINE void put_response(int e) const
     {
-        const int* const edge = topology_.rigid_order + 5 * e;
+        const int* const edge = topology_.rigid_order + rigid_edge_numbers * e;
         const int block = edge[2];
         if (block < 0)
             return;
         const Bed p = bed(edge[0]), k = bed(edge[1]);
-        const bool above = edge[3] > 0,
-                   over = edge[4] > 0; // the block is the upper one of the earlier, of the later bed
+        // whether the block is the upper one of the earlier, of the later bed
+        const bool above = edge[3] > 0, over = edge[4] > 0;
         const Real zero(0.0);
         const Real per_mass = get(OfBlock::dt2_per_mass, block), per_inertia = get(OfBlock::dt2_per_inertia, block);
         const Real cosine = fma(p.cosine, k.cosine, p.sine * k.sine), sine = fms(p.cosine, k.sine, p.sine * k.cosine);
@@ -161,7 +163,7 @@ protected:
     }
     STYLOBATE_INLINE void put_couplings(int e) const
     {
-        const int* const edge = topology_.rigid_order + 5 * e;
+        const int* const edge = topology_.rigid_order + rigid_edge_numbers * e;
         M m{}, t{};
         if (edge[2] >= 0) {
             m = load(E::response, e);
@@ -182,7 +184,7 @@ protected:
             put_equations(j, late);
         for (int e = 0; e < topology_.rigid_edges; ++e)
             put_couplings(e);
-        const int* at = topology_.rigid_order + 5 * topology_.rigid_edges;
+        const int* at = topology_.rigid_order + rigid_edge_numbers * topology_.rigid_edges;
         for (int pivot = 0; pivot < topology_.beds(); ++pivot) {
             const int j = *at++, count = *at++;
             const int* const related = at;

@@ -29,10 +29,12 @@ namespace stylobate {
 
 namespace detail {
 
-/// Solutions of a step in which all beds may change; as many more in which the lowest of those that would change does.
-inline constexpr int passes_of_all = 8, passes_of_one = 12;
-/// Sweeps of the relaxation for what is then left, and how often both are tried.
-inline constexpr int relaxation_sweeps = 10, rounds = 3;
+/// Solutions of a round in which all conditions may change; those of the last round in which the first one that would
+/// change does: without friction that ends (Murty, "Note on a Bard-type scheme for solving the complementarity
+/// problem", Opsearch 11 (1974) 123).
+inline constexpr int passes_of_all = 8, passes_of_one = 40;
+/// Rounds of solutions, each of which is followed by a relaxation of what has not been found, and its sweeps.
+inline constexpr int rounds = 3, relaxation_sweeps = 10;
 /// Faces that are turned more than this against each other are no bed: cosine.
 inline constexpr double least_bed_cosine = 0.2;
 /// Rates below this part of what gravity adds in a step are rounding.
@@ -202,6 +204,7 @@ private:
             put(J::sliding_goal, j, zero - rate.v[2] - get(J::bend_sliding, j));
         }
     }
+
     // ---- which ends carry ----
 
     STYLOBATE_INLINE void solve() const
@@ -216,7 +219,7 @@ private:
     }
 
     /// Solutions with other ends that carry, until none contradicts itself.
-    /// @param patient goes on with one bed at a time   @return 1 where they have not been found
+    /// @param patient goes on with one condition at a time   @return 1 where they have not been found
     STYLOBATE_INLINE Real find_contacts(bool patient) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
@@ -225,12 +228,11 @@ private:
         for (int pass = 0; pass < detail::passes_of_all + (patient ? detail::passes_of_one : 0); ++pass) {
             solve_equations();
             apply_forces();
-            put(OfRigid::passes, get(OfRigid::passes) + open);
             const bool one_at_a_time = pass >= detail::passes_of_all;
             open = zero;
             for (int j = 0; j < topology_.beds(); ++j) {
                 const auto may = one_at_a_time ? open < half : zero < one;
-                open = select(reconsider(j, still, may), one, open);
+                open = select(reconsider(j, still, may, one_at_a_time), one, open);
             }
             if (!any(open > half))
                 break;
@@ -266,7 +268,7 @@ private:
     /// the sliding.
     /// @return where something has changed
     template <class Mask>
-    STYLOBATE_INLINE Mask reconsider(int j, Real still, Mask may) const
+    STYLOBATE_INLINE Mask reconsider(int j, Real still, Mask may, bool one_at_a_time) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
         const Real f1 = get(J::force, j, 0), f2 = get(J::force, j, 1), shear = get(J::force, j, 2);
@@ -283,7 +285,7 @@ private:
         const Real meets_left = select(enters(J::next_left, J::left_rate, J::left_gap), one, zero);
         const Real meets_right = select(enters(J::next_right, J::right_rate, J::right_gap), one, zero);
         const Real new_left = select(left > half, select(f1 > zero, one, zero), meets_left);
-        const Real new_right = select(right > half, select(f2 > zero, one, zero), meets_right);
+        Real new_right = select(right > half, select(f2 > zero, one, zero), meets_right);
         const Real limit = get(OfJoint::mu, j) * (f1 + f2);
         const Real along = get(J::next_sliding, j) * slips;
         const Real slipping = select(shear > zero, one, zero - one);
@@ -291,6 +293,10 @@ private:
                                 select(abs_of(shear) > limit, slipping, zero));
         new_slips = select(new_left + new_right > half, new_slips, zero); // what has parted holds when it meets again
         new_slips = select(left + right > half, new_slips, zero);
+        if (one_at_a_time) {
+            new_right = select(new_left != left, right, new_right);
+            new_slips = select((new_left != left) | (new_right != right), slips, new_slips);
+        }
         const auto changes = may & ((new_left != left) | (new_right != right) | (new_slips != slips));
         put(J::left, j, select(changes, new_left, left));
         put(J::right, j, select(changes, new_right, right));
@@ -304,7 +310,6 @@ private:
     STYLOBATE_APART void relax(Mask which) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
-        put(OfRigid::left_over, get(OfRigid::left_over) + select(which, one, zero));
         for (int sweep = 0; sweep <= detail::relaxation_sweeps; ++sweep)
             for (int j = 0; j < topology_.beds(); ++j) {
                 const Bed b = bed(j);

@@ -13,6 +13,9 @@ struct TopologyJoint {
     int upper = 0;
 };
 
+/// Numbers of an edge in `Topology::rigid_order`.
+inline constexpr int rigid_edge_numbers = 5;
+
 /// Blocks are numbered with the fixed ones first: they move with the base, and are not stepped.
 /// A view: the joints belong to the caller. (No container here: what is compiled for one instruction set must not
 /// leak into functions that others share.)

@@ -37,6 +37,12 @@ inline Condition with_forms(std::initializer_list<ContactForm> forms)
     return where("contact.form", contact_form_names, forms);
 }
 
+/// Forms whose contacts yield: what has springs, dashpots and a step that must resolve their vibration.
+inline Condition compliant()
+{
+    return with_forms({ContactForm::area, ContactForm::two_corner, ContactForm::points});
+}
+
 inline Condition for_motions(std::initializer_list<ExcitationKind> kinds)
 {
     return where("excitation.kind", excitation_kind_names, kinds);

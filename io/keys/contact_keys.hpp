@@ -8,48 +8,46 @@
 
 namespace stylobate::contact_keys {
 
-/// Forms whose contacts yield: what has springs and dashpots.
-inline const Condition compliant = with_forms({ContactForm::area, ContactForm::two_corner, ContactForm::points});
-
 inline const NumberKey normal_stiffness{"normal_stiffness_n_m2",
                                         normal_stiffness_range,
                                         "K_N, the force per overlap area for the whole depth; a dry bed of marble has "
                                         "1e9 to 1e10 N/m3 times the depth",
-                                        {.used = {compliant}, .example = "3e9"}};
-inline const NumberKey tangential_stiffness{"tangential_stiffness_n_m",
-                                            tangential_stiffness_range,
-                                            "K_T, the force per tangential displacement",
-                                            {.absent = "K_N times the width of the widest drum", .used = {compliant}}};
+                                        {.used = {compliant()}, .example = "3e9"}};
+inline const NumberKey tangential_stiffness{
+    "tangential_stiffness_n_m",
+    tangential_stiffness_range,
+    "K_T, the force per tangential displacement",
+    {.absent = "K_N times the width of the widest drum", .used = {compliant()}}};
 inline const NumberKey normal_damping_ratio{"normal_damping_ratio",
                                             damping_ratio_range,
                                             ContactSpec{}.normal_damping_ratio,
                                             "normal dashpot as a fraction of the critical damping",
-                                            {.used = {compliant}}};
+                                            {.used = {compliant()}}};
 inline const NumberKey normal_damping{"normal_damping_n_s_m",
                                       damping_range,
                                       "coefficient C_N of the normal dashpot, instead of its ratio",
-                                      {.absent = "from the ratio", .used = {compliant}}};
+                                      {.absent = "from the ratio", .used = {compliant()}}};
 inline const NumberKey tangential_damping_ratio{"tangential_damping_ratio",
                                                 damping_ratio_range,
                                                 ContactSpec{}.tangential_damping_ratio,
                                                 "tangential dashpot as a fraction of the critical damping",
-                                                {.used = {compliant}}};
+                                                {.used = {compliant()}}};
 inline const NumberKey tangential_damping{"tangential_damping_n_s_m",
                                           damping_range,
                                           "coefficient C_T of the tangential dashpot, instead of its ratio",
-                                          {.absent = "from the ratio", .used = {compliant}}};
+                                          {.absent = "from the ratio", .used = {compliant()}}};
 inline const WordKey<DampingAt> damping{"damping",
                                         damping_at_names,
                                         ContactSpec{}.damping,
                                         "where the normal dashpot acts: at the centroid of the overlap (the paper's "
                                         "model), or at the ends of the contact",
-                                        {.used = {compliant}}};
+                                        {.used = {compliant()}}};
 inline const WordKey<DampingPer> damping_per{"damping_per",
                                              damping_per_names,
                                              ContactSpec{}.damping_per,
                                              "whether the dashpot's coefficient is that of each contact, or grows with "
                                              "the length of the contact",
-                                             {.used = {compliant}}};
+                                             {.used = {compliant()}}};
 inline const WordKey<ContactForm> form{"form", contact_form_names, ContactSpec{}.form,
                                        "how the overlap becomes a force: by its area (the paper's model), by the "
                                        "penetration of two corners, by points along the face; or not at all, as of "

@@ -117,12 +117,18 @@ inline const Range any_step{1e-6, 100, false, stable_step.hint, 0};
 
 inline const WordKey<Precision> precision{"precision", precision_names, RunSpec{}.precision,
                                           "arithmetic of the steps; single supports only the paper's model"};
-inline const NumberKey step_fraction{"step_fraction", stable_step, RunSpec{}.step_fraction,
+inline const NumberKey step_fraction{"step_fraction",
+                                     stable_step,
+                                     RunSpec{}.step_fraction,
                                      "time step as a fraction of the largest safe step; up to 100 with "
-                                     "allow_step_above_bound; excludes step_s"};
-inline const WordKey<StepBasis> step_bound{"step_bound", step_basis_names, RunSpec{}.step_bound,
+                                     "allow_step_above_bound; excludes step_s",
+                                     {.used = {compliant()}}};
+inline const WordKey<StepBasis> step_bound{"step_bound",
+                                           step_basis_names,
+                                           RunSpec{}.step_bound,
                                            "whether the largest safe step is that of each block held by its "
-                                           "neighbours, or of the whole structure (longer)"};
+                                           "neighbours, or of the whole structure (longer)",
+                                           {.used = {compliant()}}};
 inline const NumberKey step{"step_s",
                             {1e-12, 1, false, "Times are in seconds.", 1e-3},
                             "a fixed time step instead",
@@ -132,8 +138,10 @@ inline const NumberKey accuracy{"accuracy",
                                 "what the numerics may change in a collapse probability: form and step are chosen for "
                                 "it, rigid blocks where no stiffness is given; excludes step_s and step_fraction",
                                 {.absent = "not asked for"}};
-inline const BooleanKey allow_step_above_bound{"allow_step_above_bound", RunSpec{}.allow_step_above_bound,
-                                               "run even with a step above the largest safe one"};
+inline const BooleanKey allow_step_above_bound{"allow_step_above_bound",
+                                               RunSpec{}.allow_step_above_bound,
+                                               "run even with a step above the largest safe one",
+                                               {.used = {compliant()}}};
 inline const NumberKey max_invalid{"max_invalid_fraction",
                                    {0, 1, false, "A fraction of all realizations.", 0.01},
                                    RunSpec{}.max_invalid_fraction,

@@ -54,11 +54,12 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
                    {.example = "{ distribution = \"normal\", cov = 0.1, min = 0.36, max = 0.84 }"});
     case Quantity::normal_stiffness:
         return key(normal_stiffness_range, true, {structure, joint}, "K_N, each joint about its own",
-                   {.example = "{ distribution = \"lognormal\", sigma_ln = 0.7 }"});
+                   {.used = {compliant()}, .example = "{ distribution = \"lognormal\", sigma_ln = 0.7 }"});
     case Quantity::tangential_stiffness:
-        return key(tangential_stiffness_range, true, {structure, joint}, "K_T, each joint about its own");
+        return key(tangential_stiffness_range, true, {structure, joint}, "K_T, each joint about its own",
+                   {.used = {compliant()}});
     case Quantity::damping_ratio:
-        return key(damping_ratio_range, true, {structure}, "both damping ratios at once");
+        return key(damping_ratio_range, true, {structure}, "both damping ratios at once", {.used = {compliant()}});
     case Quantity::drum_width:
         return key(length_range, true, {block, structure}, "width of each block; of an epistyle its length");
     case Quantity::drum_height:

@@ -17,6 +17,7 @@
 #include "io/study/study_fragility.hpp"
 #include "io/study/study_mechanisms.hpp"
 #include "io/study/study_perturbations.hpp"
+#include "io/study/study_rigid.hpp"
 #include "io/study/study_sensitivity.hpp"
 #include "io/study/study_structure.hpp"
 #include "io/study/study_twins.hpp"
@@ -211,64 +212,6 @@ void check_precision(const KeyReader& keys, const Study& study)
         refuse("contact.damping = \"ends\"", "it");
 }
 
-/// Rigid contacts have no stiffness and no dashpot that could vary. @param keys of [perturbation]
-void check_rigid_spread(const KeyReader& keys)
-{
-    for (const Quantity quantity :
-         {Quantity::normal_stiffness, Quantity::tangential_stiffness, Quantity::damping_ratio})
-        if (keys.has(to_string(quantity)))
-            keys.refuse(to_string(quantity), "is not used by contact.form = \"rigid\"",
-                        "Rigid contacts have none. Remove it.");
-}
-
-/// What needs a contact that yields, and what the step of the rigid form leaves out.
-void check_rigid(const KeyReader& top, const Study& study)
-{
-    const std::string form = "contact.form = \"rigid\"";
-    for (const MechanismSpec& spec : study.mechanisms)
-        if (spec.mechanism != Mechanism::drum_offset && spec.mechanism != Mechanism::sensor_gain &&
-            spec.mechanism != Mechanism::time_offset && spec.mechanism != Mechanism::harmonic_distortion)
-            top.table(mechanisms_table())
-                .refuse(to_string(spec.mechanism), "is not available with " + form,
-                        "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
-                        "it, or give contact.form = \"two_corner\" with a high stiffness.");
-    const auto stiff = [](const BedSpec& bed) { return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m; };
-    for (const ColumnSpec& column : study.structure.columns)
-        for (const DrumSpec& drum : column.drums)
-            if (stiff(drum.bed))
-                top.table(structure_keys::table)
-                    .refuse("drums", "gives a bed a stiffness, which is not used by " + form, "Remove it.");
-    for (const EpistyleSpec& epistyle : study.structure.epistyles)
-        if (stiff(epistyle.bed))
-            top.table(structure_keys::table)
-                .refuse("epistyles", "gives a seat a stiffness, which is not used by " + form, "Remove it.");
-    const KeyReader run = top.table(run_keys::table);
-    for (const TomlKey* key :
-         {static_cast<const TomlKey*>(&run_keys::step_fraction), static_cast<const TomlKey*>(&run_keys::step_bound),
-          static_cast<const TomlKey*>(&run_keys::allow_step_above_bound)})
-        if (run.has(*key))
-            run.refuse(key->name, "is not used by " + form,
-                       "Its step has no stability bound: omit the key, and the step is chosen by accuracy, or give "
-                       "step_s.");
-    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
-    for (std::size_t i = 0; i < blocks.size(); ++i)
-        for (std::size_t k = i + 1; k < blocks.size(); ++k) {
-            const PlacedBlock &a = blocks[i], &b = blocks[k];
-            const double beside = std::max(a.left(), b.left()) - std::min(a.right(), b.right());
-            const double over = std::max(a.bottom(), b.bottom()) - std::min(a.top(), b.top());
-            if (over < -1e-9 && beside < 1e-9)
-                top.refuse(contact_keys::table.name,
-                           fmt::format("form = \"rigid\" has contacts at beds alone, and {} stands against {}", b.name,
-                                       a.name),
-                           "Leave a gap between them, or give contact.form = \"two_corner\".");
-        }
-    if (study.outcome.follow == Follow::rest)
-        top.table(outcome_keys::table)
-            .refuse(outcome_keys::follow.name, "= \"rest\" is not available with " + form,
-                    "The rigid form has contacts at beds alone, so that what has fallen would go through what lies "
-                    "there. Give follow = \"collapse\" in [outcome], or contact.form = \"two_corner\".");
-}
-
 /// What belongs to one base motion does not go with many.
 void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
 {
@@ -280,9 +223,11 @@ void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
                     "Give vertical_motion = { ratio = ... }, or remove it.");
 }
 
-RunSpec read_run(const KeyReader& keys)
+RunSpec read_run(const KeyReader& keys, ContactForm form)
 {
     using namespace run_keys;
+    const char* word = word_for(contact_form_names, form);
+    keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
     RunSpec r;
     r.precision = keys.read(precision);
     if (keys.has(step_fraction) && keys.has(step))
@@ -390,8 +335,6 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
                     "Give fewer realizations or fewer cells.");
     check_tables(top, study.kind);
     read_mechanisms(top.table(mechanisms_table()), study);
-    if (study.contact.form == ContactForm::rigid)
-        check_rigid_spread(top.table(perturbation_table()));
     read_perturbations(top.table(perturbation_table()), study);
     if (is_fragility)
         check_mechanisms_of_fragility(top.table(mechanisms_table()), study);
@@ -404,7 +347,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.initial = read_initial(top.table(initial_keys::table), study.structure);
     read_output(top.table(output_keys::table), study);
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
-    study.run = read_run(top.table(run_keys::table));
+    study.run = read_run(top.table(run_keys::table), study.contact.form);
     if (study.contact.form == ContactForm::rigid)
         check_rigid(top, study);
     if (study.run.precision == Precision::single)

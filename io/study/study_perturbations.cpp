@@ -182,7 +182,7 @@ Spread read_spread(const KeyReader& keys, const Rule& rule)
     return p;
 }
 
-/// Refuses what the excitation has not.
+/// Refuses what the excitation and the contacts have not.
 void check_used(const KeyReader& section, Quantity quantity, const Study& study)
 {
     const TomlKey& key = spread_key(quantity);
@@ -192,6 +192,10 @@ void check_used(const KeyReader& section, Quantity quantity, const Study& study)
                        quantity == Quantity::phase
                            ? "Remove it: only a harmonic, a tapered and a pulse excitation have a phase."
                            : "Remove it, or give excitation.kind = \"pulse\".");
+    const char* form = word_for(contact_form_names, study.contact.form);
+    if (!key.used_where("contact.form", form))
+        section.refuse(key.name, fmt::format("is not used by contact.form = \"{}\"", form),
+                       "Remove it: rigid contacts have no stiffness and no dashpot.");
     if (!key.used_where("study.kind", word_for(study_kind_names, study.kind)))
         section.refuse(key.name, "is not used by study.kind = \"surface\"",
                        "Remove it: the frequency comes from the axis of [surface].");

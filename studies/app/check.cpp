@@ -5,6 +5,7 @@
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
+#include "studies/app/warnings.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/numerics.hpp"
 #include "studies/report/json.hpp"
@@ -36,15 +37,20 @@ int check_command(const CommonOptions& options, const std::string& file, std::ui
 {
     const LoadedStudy loaded = LoadedStudy::from_file(file, options.set);
     const Study& study = loaded.study();
-    for (const Doubt& doubt : loaded.doubts())
-        fmt::print(stderr, "{}: {}\n", doubt.refused ? "refused" : "warning", doubt.text);
+    const std::vector<std::string> warnings = warnings_of(loaded, file);
     if (!has_pilot(study))
         throw InputError(fmt::format("{}: `check` runs a part of a study twice, and those of study.kind = \"{}\"{} are "
                                      "chosen by what others did.\n  Check the same structure and shaking as a surface.",
                                      file, word_for(study_kind_names, study.kind),
                                      study.kind == StudyKind::surface ? " with surface.adaptive" : ""));
-    Observer quiet;
-    const NumericsCheck check = check_numerics(loaded.experiment(), options.run_options(), pilot, quiet);
+    Console console(options.quiet);
+    for (const std::string& warning : warnings)
+        console.warn(warning);
+    const NumericsCheck check = check_numerics(loaded.experiment(), options.run_options(), pilot, console);
+    if (console.stop_requested()) {
+        fmt::print(stderr, "Interrupted; nothing is known of the numerics.\n");
+        return exit_interrupted;
+    }
     const auto n = static_cast<double>(check.realizations);
     const double share = n > 0 ? static_cast<double>(check.collapsed) / n : 0;
     const double per_s = check.seconds > 0 ? n / check.seconds : 0;

@@ -7,6 +7,7 @@
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/run_report.hpp"
+#include "studies/app/warnings.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"
@@ -25,26 +26,6 @@ namespace {
 std::string default_results(const std::string& study)
 {
     return std::filesystem::path(study).stem().string() + ".h5";
-}
-
-/// What to add to a study that is meant as it stands.
-std::string allow_text(const std::string& check)
-{
-    return fmt::format("study.allow = [\"{}\"]", check);
-}
-
-/// What is doubtful about a study, as sentences.
-/// @throws InputError with the reason if it is too far from what can be meant
-std::vector<std::string> warnings_of(const LoadedStudy& loaded, const std::string& file)
-{
-    std::vector<std::string> warnings;
-    for (const Doubt& doubt : loaded.doubts()) {
-        if (doubt.refused)
-            throw InputError(
-                fmt::format("{}: {}\n  If it is intended: {}.", file, doubt.text, allow_text(doubt.check)));
-        warnings.push_back(fmt::format("{} If it is intended: {}.", doubt.text, allow_text(doubt.check)));
-    }
-    return warnings;
 }
 
 /// Nothing is left to run: reports what the run would have, as far as the file has it.

@@ -60,6 +60,8 @@ NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& opt
     for (std::uint64_t i = 0; i < count; ++i) // (in this order the product does not overflow)
         indices.push_back(total / count * i + total % count * i / count);
     const PilotRun plain = run_pilot(experiment, options, indices, observer);
+    if (observer.stop_requested())
+        return {};
     const Experiment fine(twice_as_fine(experiment.study()), experiment.motions());
     const PilotRun finer = run_pilot(fine, options, indices, observer);
 

@@ -22,6 +22,7 @@ struct NumericsCheck {
 /// The study with steps half as long.
 Study twice_as_fine(Study study);
 
+/// All is 0 if the observer asks to stop.
 /// @param pilot so many realizations, spread evenly over the study's
 /// @pre its kind draws realizations by their index alone: single, surface without adaptive, fragility
 NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& options, std::uint64_t pilot,

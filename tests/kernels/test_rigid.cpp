@@ -58,16 +58,14 @@ TEST(Rigid, LosesAtAnImpactWhatHousnerSaysOnTheMeanOverItsPhase)
 {
     const double alpha = model::slenderness(mono_stone), wanted = 1 - 1.5 * std::pow(std::sin(alpha), 2);
     constexpr double step_s = 1.0 / 240;
-    double sum = 0, squares = 0;
+    double sum = 0;
     constexpr int phases = 64;
     for (int i = 0; i < phases; ++i) { // a little more lean: the impact comes at another time within the step
         const double e = verification::impact_restitution(leaned(0.5 + 0.03 * i / phases, step_s));
+        EXPECT_NEAR(e, wanted, 4e-3) << i;
         sum += e;
-        squares += e * e;
     }
-    const double mean = sum / phases, sd = std::sqrt(squares / phases - mean * mean);
-    EXPECT_NEAR(mean, wanted, 1e-3);
-    EXPECT_LT(sd, 5e-3);
+    EXPECT_NEAR(sum / phases, wanted, 5e-4);
 }
 
 /// A flat block, which slides and does not rock.
@@ -142,17 +140,53 @@ TEST(Rigid, StacksMoveFromTheAccelerationOnThatLimitAnalysisGives)
         }
 }
 
-TEST(Rigid, AFrameMovesFromTheAccelerationOnThatLimitAnalysisGives)
+/// Epistyles make loops of beds; one over three columns relates beds that share no block.
+TEST(Rigid, FramesMoveFromTheAccelerationOnThatLimitAnalysisGives)
 {
-    for (const int drums : {1, 3})
-        for (const double mu : {0.2, 0.7}) {
+    model::Colonnade one_over_three = model::paper_colonnade(1), two_over_three = model::paper_colonnade(2);
+    one_over_three.columns = two_over_three.columns = 3;
+    one_over_three.epistyle.width += one_over_three.spacing;
+    two_over_three.one_epistyle = false;
+    two_over_three.epistyle.width = 0.98 * two_over_three.spacing; // each ends short of the middle of its seats
+    for (const model::Colonnade& c :
+         {model::paper_colonnade(1), model::paper_colonnade(3), one_over_three, two_over_three})
+        for (const double mu : {0.2, 0.7, 5.0}) {
             model::Bed bed;
             bed.mu = mu;
-            const Realization r = rigid(model::colonnade(model::paper_colonnade(drums), bed, 1e-3, false), 1e-3);
+            const Realization r = rigid(model::colonnade(c, bed, 1e-3, false), 1e-3);
             const double limit = verification::limit_acceleration(r).acceleration_m_s2;
-            EXPECT_LT(moved_under(r, 0.99 * limit), 1e-4) << mu << ' ' << drums;
-            EXPECT_GT(moved_under(r, 1.01 * limit), 1e-3) << mu << ' ' << drums;
+            // Of three columns the contacts are not always found (docs/rigid_limit.md); with 0.7 the limit depends on
+            // friction and rocking alike, and more than one state is at rest.
+            const auto [part, still] = c.columns == 2 && mu != 0.7 ? std::pair(0.999, 1e-6) : std::pair(0.99, 1e-4);
+            EXPECT_LT(moved_under(r, part * limit), still) << mu << ' ' << c.columns << ' ' << c.drums;
+            EXPECT_GT(moved_under(r, 1.01 * limit), 1e-3) << mu << ' ' << c.columns << ' ' << c.drums;
         }
+}
+
+/// Each bed's losses are sums of its own forces and rates; the blocks' energies are not. Impacts, slips and gaps that
+/// are closed all take part.
+TEST(Rigid, TheEnergyOfARockingStackBalances)
+{
+    Study study = model::harmonic(30, 2);
+    study.excitation.tail_s = 1;
+    double lost = 0;
+    int fallen = 0;
+    for (unsigned seed = 0; seed < 16; ++seed) {
+        model::Bed bed;
+        bed.mu = 0.5;
+        Realization r = rigid(model::stack(random_stones(seed, 5), bed, 1e-3, 0.2), 1e-3);
+        r.frequency_hz = 4;
+        r.pga_m_s2 = 4.5;
+        const Outcome o = model::run_one(study, r);
+        fallen += o.state == State::collapsed;
+        EXPECT_LT(std::fabs(o.energy_residual), 0.01) << seed;
+        // a fall may gain a little: faces that are turned far against each other are a rough bed
+        EXPECT_GT(o.energy_damping_j, o.state == State::collapsed ? 0.05 * o.energy_potential_j : 0) << seed;
+        EXPECT_GE(o.energy_friction_j, 0) << seed;
+        lost += o.energy_damping_j + o.energy_friction_j;
+    }
+    EXPECT_GT(lost, 0.1) << "hardly anything moved";
+    EXPECT_LT(fallen, 16);
 }
 
 /// Slender columns with a wide cap rock as one block of another frequency parameter (Makris and Vassiliou).
