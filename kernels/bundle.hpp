@@ -234,7 +234,7 @@ struct OfRigidEdge {
 /// Additional fields of a realization of the rigid form.
 struct OfRigid {
     enum Field : int {
-        struck,    ///< 1 if an end met its face within the last step; step
+        struck, ///< 1 if an end met its face within the last step; step
         share,  ///< part of this step before an end meets its face
         count
     };

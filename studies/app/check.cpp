@@ -5,7 +5,6 @@
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
-#include "studies/app/warnings.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/numerics.hpp"
 #include "studies/report/json.hpp"
@@ -37,7 +36,7 @@ int check_command(const CommonOptions& options, const std::string& file, std::ui
 {
     const LoadedStudy loaded = LoadedStudy::from_file(file, options.set);
     const Study& study = loaded.study();
-    const std::vector<std::string> warnings = warnings_of(loaded, file);
+    const std::vector<std::string> warnings = loaded.warnings(file);
     if (!has_pilot(study))
         throw InputError(fmt::format("{}: `check` runs a part of a study twice, and those of study.kind = \"{}\"{} are "
                                      "chosen by what others did.\n  Check the same structure and shaking as a surface.",

@@ -7,7 +7,6 @@
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/run_report.hpp"
-#include "studies/app/warnings.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"
@@ -66,7 +65,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const std::unique_ptr<Kind> kind = make_kind(loaded.study(), header);
     if (const std::string why = kind->needs_processor(); options.backend == "cuda" && !why.empty())
         throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, why));
-    const std::vector<std::string> warnings = warnings_of(loaded, study);
+    const std::vector<std::string> warnings = loaded.warnings(study);
     const std::string notice = kind->prepare(loaded.experiment(), study);
     const RunOptions run = options.run_options();
     const bool found = std::filesystem::exists(results);

@@ -141,6 +141,18 @@ ResultHeader LoadedStudy::result_header() const
     return header;
 }
 
+std::vector<std::string> LoadedStudy::warnings(const std::string& file) const
+{
+    std::vector<std::string> warnings;
+    for (const Doubt& doubt : doubts()) {
+        const std::string intended = fmt::format("If it is intended: study.allow = [\"{}\"].", doubt.check);
+        if (doubt.refused)
+            throw InputError(fmt::format("{}: {}\n  {}", file, doubt.text, intended));
+        warnings.push_back(doubt.text + " " + intended);
+    }
+    return warnings;
+}
+
 std::vector<Doubt> LoadedStudy::doubts() const
 {
     const ResultHeader header = plain_header();

@@ -42,6 +42,9 @@ public:
 
     /// What of the study can hardly be meant, and what it does not allow itself (plausible.hpp).
     std::vector<Doubt> doubts() const;
+    /// The same as sentences, for a verb that runs the study.
+    /// @param file its name in messages   @throws InputError with the reason if it is too far from what can be meant
+    std::vector<std::string> warnings(const std::string& file) const;
 
 private:
     /// All of the header but its warnings.
