@@ -1,5 +1,6 @@
 #include "ensemble/engine/executor.hpp"
 
+#include "ensemble/engine/handed_over.hpp"
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/engine/slots.hpp"
 #include "ensemble/numerics/interval.hpp"
@@ -46,16 +47,16 @@ public:
     {
         guarded([this] {
             LaneSet lanes(study_, record_, kernels_, pattern_);
+            std::optional<HandedOver> handed_over = taker();
             for (int lane = 0; lane < lanes.lanes(); ++lane)
                 refill(lanes, lane);
             while (lanes.active() > 0 && !stopped_) {
                 count_chunks(lanes.lanes(), lanes.active());
                 lanes.advance();
                 for (int lane = 0; lane < lanes.lanes(); ++lane)
-                    if (lanes.outcome(lane)) {
-                        deliver(lanes.realization(lane), *lanes.outcome(lane));
+                    if (finish(lanes, lane, handed_over))
                         refill(lanes, lane);
-                    }
+                step(handed_over, lanes.active() == 0);
                 report(false);
             }
         });
@@ -71,14 +72,16 @@ public:
             const auto most =
                 static_cast<int>(std::min<std::uint64_t>(left / static_cast<std::uint64_t>(share) + 1, most_slots));
             SlotSet set(study_, record_, pattern_, device, slots, most);
+            std::optional<HandedOver> handed_over = taker();
             tbb::parallel_for(0, set.slots(), [&](int slot) { refill(set, slot); });
             for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
                 set.advance();
                 count_chunks(set.used(), active);
                 for (const int slot : set.ended())
-                    deliver(set.realization(slot), *set.outcome(slot));
+                    finish(set, slot, handed_over);
                 tbb::parallel_for(std::size_t{0}, set.ended().size(),
                                   [&](std::size_t i) { refill(set, set.ended()[i]); });
+                step(handed_over, set.active() == 0);
                 report(false);
             }
         });
@@ -108,6 +111,41 @@ private:
             stopped_ = true;
         }
         handover_.fetch_add(1);
+    }
+
+    /// Who takes what rigid contacts hand over.
+    std::optional<HandedOver> taker() const
+    {
+        std::optional<HandedOver> taker;
+        if (pattern_.form == ContactForm::rigid)
+            taker.emplace(study_, record_, kernels_, pattern_);
+        return taker;
+    }
+
+    /// Delivers what has ended, and passes on what is handed over.
+    /// @return whether the lane has done with its realization
+    template <class Lanes>
+    bool finish(const Lanes& lanes, int lane, std::optional<HandedOver>& handed_over)
+    {
+        if (lanes.outcome(lane))
+            deliver(lanes.realization(lane), *lanes.outcome(lane));
+        else if (lanes.handed(lane))
+            handed_over->take(*lanes.handed(lane));
+        else
+            return false;
+        return true;
+    }
+
+    /// Steps what was handed over while there is a register of it.
+    /// @param all to the end of the last one
+    void step(std::optional<HandedOver>& handed_over, bool all)
+    {
+        while (handed_over && !handed_over->empty() && (all || handed_over->full()) && !stopped_) {
+            handed_over->advance(
+                [this](const Realization& realization, const Outcome& outcome) { deliver(realization, outcome); });
+            count_chunks(handed_over->lanes(), handed_over->active());
+            report(false);
+        }
     }
 
     template <class Lanes>

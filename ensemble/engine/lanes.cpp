@@ -271,6 +271,7 @@ void LaneSet::load(int lane, Realization realization)
     w.last_step = whole_checks(w.shaking_end_s + tail, r.step_s, interval);
     w.rest_steps = whole_checks(rest_time / place.scales.p_rad_s, r.step_s, interval);
     w.seated = 1;
+    w.beds_alone = topology_.model.rigid() && (topology_.watched > 0 || study_.outcome.follow == Follow::rest);
     const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
     place.limits = LimitStates(r, study_.outcome, base.y_m + base.half_height_m,
                                whole_checks(fall_time / place.scales.p_rad_s, r.step_s, interval));
@@ -297,7 +298,7 @@ void LaneSet::advance(int first, int last)
         run(from, done);
         if (done % interval == 0)
             for (int lane = 0; lane < lanes(); ++lane)
-                if (!free(lane) && !places_[static_cast<std::size_t>(lane)].outcome)
+                if (!free(lane) && !this->done(lane))
                     check(lane, done);
     }
 }
@@ -434,6 +435,10 @@ void LaneSet::check(int lane, int done)
     if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)
         return end(lane, State::collapsed, InvalidReason::none);
 
+    if (leaves_beds(topology_, bundle_, lane, w)) {
+        place.handed = hand_over(lane);
+        return;
+    }
     if (unbalanced(topology_, bundle_, lane, w))
         return end(lane, State::invalid, InvalidReason::energy);
 
@@ -449,7 +454,7 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     const Realization& r = place.realization;
     Outcome o;
     o.step_s = r.step_s;
-    o.steps = place.watch.steps;
+    o.steps = place.steps_before + (place.watch.steps - place.first_step);
     o.end_time_s = static_cast<double>(place.watch.steps) * r.step_s;
     o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
     const Watch& w = place.watch;

@@ -24,6 +24,19 @@ struct Snapshot {
     std::vector<double> x_m, y_m, theta_rad; ///< (blocks) centres and rotations
 };
 
+/// A realization of the rigid form in the middle of a step, from where contacts that yield take it over: its blocks are
+/// about to meet otherwise than at beds.
+struct HandOver {
+    Realization realization; ///< with rigid contacts
+    Watch watch;
+    LimitStates limits;
+    std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
+    double start_top_x_m = 0;
+    std::vector<BlockMotion> moved, increment;     ///< (blocks) place, and change of it in the last step
+    std::vector<double> max_rotation_rad;          ///< (beds)
+    std::array<double, OfRealization::count> of{}; ///< as in the bundle
+};
+
 /// What is done to a realization is a function of it alone: whether it is looked at, ended or set aside depends on the
 /// number of its own steps, never on its lane or on its neighbours.
 class LaneSet {
@@ -45,6 +58,9 @@ public:
 
     /// Puts a realization into a free lane, at its static rest.
     void load(int lane, Realization realization);
+    /// Puts one into a free lane that a set of the rigid form has handed over. This set is made from the
+    /// `compliant_form` of that set's pattern.
+    void load(int lane, const HandOver& handed);
 
     /// Steps all lanes by one chunk and checks each; `outcome(lane)` then tells which have ended.
     void advance();
@@ -97,6 +113,11 @@ public:
 
     /// The outcome of a realization that has ended.
     const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
+    /// What has become of one of the rigid form whose blocks are about to meet otherwise than at beds: it goes on in
+    /// another set (`handed_over.hpp`).
+    const std::optional<HandOver>& handed(int lane) const { return places_[static_cast<std::size_t>(lane)].handed; }
+    /// Whether this set has done with a realization: it has ended, or is handed over.
+    bool done(int lane) const { return outcome(lane) || handed(lane); }
     /// Frees a lane; its place is at rest and does nothing until the next `load`.
     void clear(int lane);
 
@@ -113,6 +134,9 @@ private:
         BaseMotion motion;
         std::optional<BaseMotion> vertical; ///< where it has a record of its own
         std::optional<Outcome> outcome;
+        std::optional<HandOver> handed;
+        std::uint64_t steps_before = 0,
+                      first_step = 0; ///< steps of the set that handed it over; the first one of its own
         Watch watch;
         LimitStates limits;
         std::vector<BlockMotion> moved;     ///< (blocks) at the last check
@@ -144,6 +168,7 @@ private:
     BlockMotion centre(int k, int lane) const;
     /// Where the blocks are, and when they were inside their limits last: into `Place::moved` and `Place::inside`.
     void read_motion(int lane);
+    HandOver hand_over(int lane) const;
     void end(int lane, State state, InvalidReason reason);
 
     const Study& study_;

@@ -91,6 +91,16 @@ void LimitStates::check(const Realization& r, std::uint64_t steps, const std::ve
     }
 }
 
+void LimitStates::shorten_steps(std::uint64_t times, std::uint64_t fall_steps)
+{
+    fall_steps_ = fall_steps;
+    const auto shorten = [times](std::uint64_t& step) { step = step == never ? never : step * times; };
+    for (auto* steps : {&seen_since_, &turned_since_, &fallen_since_})
+        std::for_each(steps->begin(), steps->end(), shorten);
+    shorten(unseated_since_);
+    shorten(total_since_);
+}
+
 void LimitStates::conclude(const Realization& r)
 {
     for (std::size_t i = 0; i < r.blocks.size(); ++i)

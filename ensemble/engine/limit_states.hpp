@@ -46,6 +46,11 @@ public:
     void check(const Realization& realization, std::uint64_t steps, const std::vector<BlockMotion>& moved,
                const std::vector<int>& inside, int done);
 
+    /// Counts on in steps that are so many times shorter.
+    /// @param fall_steps as of the constructor
+    void shorten_steps(std::uint64_t times, std::uint64_t fall_steps);
+
+    std::uint64_t fall_steps() const { return fall_steps_; }
     bool fallen() const { return fallen_blocks_ > 0; }
     /// A block has turned too far, and may come back.
     bool undecided() const { return undecided_; }

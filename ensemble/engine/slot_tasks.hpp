@@ -116,7 +116,8 @@ STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
 STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 {
     w.steps += static_cast<std::uint64_t>(check_steps(m.topology));
-    return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
+    return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) ||
+           leaves_beds(m.topology, m.bundle, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
            watch_rest(m.topology, m.bundle, slot, false, w);
 }
 

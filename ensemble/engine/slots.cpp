@@ -275,10 +275,10 @@ void SlotSet::take_those_that_ask()
         s.lane->read_column(0, own_->host_packed.data() + i * rows);
         s.lane->check(0, check_steps(memory_.topology));
         s.steps = s.lane->steps(0);
-        s.changed = !s.lane->outcome(0); // goes on, and the device is to hear of what the check found
+        s.changed = !s.lane->done(0); // goes on, and the device is to hear of what the check found
     });
     for (const int slot : asking)
-        if (outcome(slot))
+        if (lane(slot).done(0))
             ended_.push_back(slot);
 }
 

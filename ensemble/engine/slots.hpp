@@ -66,9 +66,10 @@ public:
 
     /// Steps all busy slots by `chunks_per_launch` chunks, those that end in between by less.
     void advance();
-    /// Slots whose realizations have ended in the last `advance`, in order.
+    /// Slots whose realizations have ended or were handed over in the last `advance`, in order.
     const std::vector<int>& ended() const { return ended_; }
     const std::optional<Outcome>& outcome(int slot) const { return lane(slot).outcome(0); }
+    const std::optional<HandOver>& handed(int slot) const { return lane(slot).handed(0); }
 
     /// A slot that has ended waits for the end of the launch: at the most 7 of the hundreds of chunks of a realization.
     static constexpr int chunks_per_launch = 8;

@@ -32,6 +32,7 @@ struct Watch {
     double rest_slip_m = 0;   ///< and slips less than this in a chunk
     double start_potential_j = 0, start_spring_j = 0, start_shear_j = 0, start_dowel_j = 0;
     std::uint64_t may_rest = 0;   ///< 1: it ends when it has come to rest
+    std::uint64_t beds_alone = 0; ///< 1: it is handed over before blocks meet otherwise than at beds (`leaves_beds`)
     std::uint64_t last_step = 0;  ///< a multiple of chunk_steps
     std::uint64_t rest_steps = 0; ///< needed in a row
     // from check to check
@@ -127,8 +128,49 @@ STYLOBATE_INLINE EnergyBalance energy_balance(const Topology& topology, const Bu
 /// Whether this check's audit, if one is due, finds the balance out of bounds.
 STYLOBATE_INLINE bool unbalanced(const Topology& topology, const Bundle& b, int lane, const Watch& w)
 {
-    return w.steps % (audit_chunks * chunk_steps) == 0 &&
+    // (what was handed over does not begin with a whole chunk)
+    return w.steps % (audit_chunks * chunk_steps) < static_cast<std::uint64_t>(check_steps(topology)) &&
            !(abs_of(energy_balance(topology, b, lane, w).residual) < energy_bound);
+}
+
+/// Whether blocks of the rigid form, whose contacts are beds, may meet otherwise before the next check or soon after
+/// it: the faces of a bed have turned far against each other or have hardly a common part left, or a watched pair is
+/// close.
+STYLOBATE_INLINE bool leaves_beds(const Topology& topology, const Bundle& b, int lane, const Watch& w)
+{
+    if (w.beds_alone == 0)
+        return false;
+    constexpr double most_turn_rad = 1; // against each other
+    const double ahead = 2.0 * check_steps(topology);
+    for (int j = 0; j < topology.beds(); ++j) {
+        const auto [lower, upper] = topology.joint[j];
+        const double common = b.at(OfRigidJoint::right_x, j, lane) - b.at(OfRigidJoint::left_x, j, lane);
+        if (abs_of(b.at(OfBlock::theta, upper, lane) - b.at(OfBlock::theta, lower, lane)) > most_turn_rad ||
+            !(common > ahead * abs_of(b.at(OfRigidJoint::sliding, j, lane))))
+            return true;
+    }
+    for (int j = topology.beds(); j < topology.joints; ++j) {
+        const auto [lower, upper] = topology.joint[j];
+        // half sizes of the boxes around them, and what the blocks can come nearer
+        double reach_x = 0, reach_y = 0, turn = 0;
+        for (const int i : {lower, upper}) {
+            const double sine = abs_of(b.at(OfBlock::sine, i, lane)),
+                         cosine = abs_of(1 - b.at(OfBlock::versine, i, lane));
+            const double half_width = b.at(OfBlock::half_width, i, lane),
+                         half_height = b.at(OfBlock::half_height, i, lane);
+            reach_x += half_width * cosine + half_height * sine;
+            reach_y += half_width * sine + half_height * cosine;
+            turn += (half_width + half_height) * abs_of(b.at(OfBlock::dtheta, i, lane));
+        }
+        const auto difference = [&](OfBlock::Field f) { return b.at(f, upper, lane) - b.at(f, lower, lane); };
+        const double margin = 1e-3 * b.at(OfRealization::skin, lane) + ahead * turn;
+        const double x = abs_of(b.at(OfJoint::reference_x, j, lane) + difference(OfBlock::x)) - reach_x;
+        const double y = abs_of(b.at(OfJoint::height, j, lane) + difference(OfBlock::y)) - reach_y;
+        if (x < margin + ahead * abs_of(difference(OfBlock::dx)) &&
+            y < margin + ahead * abs_of(difference(OfBlock::dy)))
+            return true;
+    }
+    return false;
 }
 
 /// Sees whether the realization lies still.

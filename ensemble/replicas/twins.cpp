@@ -105,9 +105,9 @@ private:
         if (left_at_ == 0 && history_.moved(now) > left_place)
             left_at_ = history_.checks();
         history_.add(now);
-        if (!lanes.outcome(lane))
+        if (!lanes.done(lane))
             return true;
-        return lanes.outcome(lane)->state != State::invalid && next(lanes, lane);
+        return !(lanes.outcome(lane) && lanes.outcome(lane)->state == State::invalid) && next(lanes, lane);
     }
 
     /// The next displaced replica, if there is one. One that begins beyond the tolerance is done at once.
@@ -143,7 +143,7 @@ private:
         if (s < study_.twins->tolerance) {
             if (left_at_ > 0 && check_ >= left_at_ && time(check_) <= shaking_s_ && s > 0)
                 growth_.add(time(check_), std::log(s));
-            if (check_ + 1 < history_.checks() && !lanes.outcome(lane))
+            if (check_ + 1 < history_.checks() && !lanes.done(lane))
                 return true;
         } else {
             pair.horizon_s = time(check_);

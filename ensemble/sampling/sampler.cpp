@@ -105,7 +105,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
                                          [](const PlacedBed& bed) { return bed.lower < 0; });
-    if (watches && study.contact.form != ContactForm::rigid) // whose contacts are beds alone
+    if (watches)
         watch_pairs();
     for (int q = 0; q < quantity_count; ++q)
         nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study, layout_, static_cast<Quantity>(q));

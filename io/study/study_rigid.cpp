@@ -44,11 +44,6 @@ void check_rigid(const KeyReader& top, const Study& study)
                                        a.name),
                            "Leave a gap between them, or give contact.form = \"two_corner\".");
         }
-    if (study.outcome.follow == Follow::rest)
-        top.table(outcome_keys::table)
-            .refuse(outcome_keys::follow.name, "= \"rest\" is not available with " + form,
-                    "The rigid form has contacts at beds alone, so that what has fallen would go through what lies "
-                    "there. Give follow = \"collapse\" in [outcome], or contact.form = \"two_corner\".");
 }
 
 } // namespace stylobate

@@ -2,6 +2,7 @@
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/replicas/twins.hpp"
+#include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/block_names.hpp"
 
 #include <cmath>
@@ -46,6 +47,23 @@ private:
     const double rate_hz_, step_s_;
 };
 
+constexpr int lane = 0;
+
+/// Steps the lane until the set has done with it.
+void record(LaneSet& lanes, double rate_hz, Trajectory& trajectory)
+{
+    Recorder recorder(trajectory, lanes.motion(lane), rate_hz, lanes.realization(lane).step_s);
+    const std::uint64_t first = lanes.steps(lane);
+    for (std::uint64_t n = first; !lanes.done(lane); ++n) {
+        const int k = static_cast<int>((n - first) % chunk_steps);
+        const bool due = recorder.due(n);
+        const Snapshot before = due ? lanes.snapshot(lane) : Snapshot{};
+        lanes.advance(k, k + 1);
+        if (due)
+            recorder.sample(n, before, lanes.snapshot(lane));
+    }
+}
+
 } // namespace
 
 FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa)
@@ -65,20 +83,20 @@ FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Is
         t.column.push_back(r.blocks[i].column);
     }
 
-    constexpr int lane = 0;
     const Study stepped = stepped_as(experiment.study(), index);
     LaneSet lanes(stepped, experiment.record(), kernels(isa), r);
     lanes.load(lane, r);
-    Recorder recorder(t, lanes.motion(lane), experiment.study().output.trajectory_rate_hz, r.step_s);
-    for (std::uint64_t n = 0; !lanes.outcome(lane); ++n) {
-        const int k = static_cast<int>(n % chunk_steps);
-        const bool due = recorder.due(n);
-        const Snapshot before = due ? lanes.snapshot(lane) : Snapshot{};
-        lanes.advance(k, k + 1);
-        if (due)
-            recorder.sample(n, before, lanes.snapshot(lane));
+    const double rate_hz = experiment.study().output.trajectory_rate_hz;
+    record(lanes, rate_hz, t);
+    if (!lanes.handed(lane)) {
+        followed.outcome = *lanes.outcome(lane);
+        return followed;
     }
-    followed.outcome = *lanes.outcome(lane);
+    const HandOver& handed = *lanes.handed(lane);
+    LaneSet taker(stepped, experiment.record(), kernels(isa), compliant_form(r));
+    taker.load(lane, handed);
+    record(taker, rate_hz, t);
+    followed.outcome = *taker.outcome(lane);
     return followed;
 }
 
