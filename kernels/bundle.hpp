@@ -202,7 +202,12 @@ struct OfRigidJoint {
         left_rate,    ///< what the last increments add to the gap [m]
         right_rate,   ///< [m]
         sliding,      ///< what they move the upper face along the lower one [m]
-        bend,         ///< second-order change of the gaps in a step [m]
+        left_tilt,    ///< slope of the upper face where the left end is a corner of the lower block, else 0
+        right_tilt,   ///< the same of the right end
+        left_lift,    ///< the left one's if the left end is the nearer one, else 0
+        right_lift,   ///< the same of the right end
+        left_bend,    ///< second-order change of the left gap in a step [m]
+        right_bend,   ///< of the right one [m]
         bend_sliding, ///< and of the sliding, at the nearer end [m]
         usable,       ///< 1 where the faces have a common part
         left_goal,    ///< gap that the increments with the contacts' forces are to add [m]

@@ -22,10 +22,13 @@ protected:
     }
 
     /// The rows of a bed: a displacement of its blocks as changes of the two gaps, and as sliding of the upper one.
+    /// Where an end is a corner of the lower block, its normal is that of the upper face; if it is the nearer end, the
+    /// sliding is along the upper face. `on_faces` says so for rows of the lower block's directions.
     struct Bed {
         int lower, upper;
         Real sine, cosine; ///< of the lower block
         Real left_x, right_x, left_arm, right_arm, upper_arm, lower_arm;
+        Real left_tilt, right_tilt, left_lift, right_lift;
     };
     STYLOBATE_INLINE Bed bed(int j) const
     {
@@ -39,15 +42,24 @@ protected:
                 get(J::left_arm, j),
                 get(J::right_arm, j),
                 get(J::upper_arm, j),
-                get(OfBlock::half_height, lower)};
+                get(OfBlock::half_height, lower),
+                get(J::left_tilt, j),
+                get(J::right_tilt, j),
+                get(J::left_lift, j),
+                get(J::right_lift, j)};
+    }
+    STYLOBATE_INLINE static V on_faces(const Bed& b, Real left, Real right, Real along)
+    {
+        return {fnma(b.left_tilt, along, left), fnma(b.right_tilt, along, right),
+                fma(b.left_lift, left, fma(b.right_lift, right, along))};
     }
     STYLOBATE_INLINE static V rates(const Bed& b, const Planar<Real>& lower, const Planar<Real>& upper)
     {
         const Real x = upper.x - lower.x, y = upper.y - lower.y;
         const Real away = fms(y, b.cosine, x * b.sine), along = fma(x, b.cosine, y * b.sine);
-        return {fma(b.left_arm, upper.theta, fnma(b.left_x, lower.theta, away)),
-                fma(b.right_arm, upper.theta, fnma(b.right_x, lower.theta, away)),
-                fma(b.upper_arm, upper.theta, fma(b.lower_arm, lower.theta, along))};
+        return on_faces(b, fma(b.left_arm, upper.theta, fnma(b.left_x, lower.theta, away)),
+                        fma(b.right_arm, upper.theta, fnma(b.right_x, lower.theta, away)),
+                        fma(b.upper_arm, upper.theta, fma(b.lower_arm, lower.theta, along)));
     }
     struct Pull {
         Planar<Real> lower, upper;
@@ -55,10 +67,13 @@ protected:
     /// Forces and moments of a bed's forces on its blocks.
     STYLOBATE_INLINE static Pull pull(const Bed& b, const V& force)
     {
-        const Real normal = force.v[0] + force.v[1], shear = force.v[2], zero(0.0);
+        // along the lower block's directions
+        const Real left = fma(b.left_lift, force.v[2], force.v[0]), right = fma(b.right_lift, force.v[2], force.v[1]);
+        const Real shear = fnma(b.left_tilt, force.v[0], fnma(b.right_tilt, force.v[1], force.v[2]));
+        const Real normal = left + right, zero(0.0);
         const Real x = fms(shear, b.cosine, normal * b.sine), y = fma(shear, b.sine, normal * b.cosine);
-        const Real on_lower = fms(b.lower_arm, shear, fma(b.left_x, force.v[0], b.right_x * force.v[1]));
-        const Real on_upper = fma(b.upper_arm, shear, fma(b.left_arm, force.v[0], b.right_arm * force.v[1]));
+        const Real on_lower = fms(b.lower_arm, shear, fma(b.left_x, left, b.right_x * right));
+        const Real on_upper = fma(b.upper_arm, shear, fma(b.left_arm, left, b.right_arm * right));
         return {{zero - x, zero - y, on_lower}, {x, y, on_upper}};
     }
     /// Increment of a block in the last step.

@@ -44,14 +44,38 @@ protected:
         const Real u[3] = {b.left_arm, b.right_arm, b.upper_arm},
                    l[3] = {zero - b.left_x, zero - b.right_x, b.lower_arm};
         const Real softening(topology_.stack ? 1 : 1 + detail::softness);
+        M m;
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column) {
+                const Real shared = (row < 2) == (column < 2) ? per_mass : zero;
+                m.m[row][column] =
+                    fma(upper_inertia * u[row], u[column], fma(lower_inertia * l[row], l[column], shared));
+            }
+        m = rows_on_faces(b, columns_on_faces(b, m));
         int at = 0;
         for (int row = 0; row < 3; ++row)
-            for (int column = row; column < 3; ++column, ++at) {
-                const Real shared = (row < 2) == (column < 2) ? per_mass : zero;
-                const Real response =
-                    fma(upper_inertia * u[row], u[column], fma(lower_inertia * l[row], l[column], shared));
-                put(J::own, j, row == column ? response * softening : response, at);
-            }
+            for (int column = row; column < 3; ++column, ++at)
+                put(J::own, j, row == column ? m.m[row][column] * softening : m.m[row][column], at);
+    }
+    STYLOBATE_INLINE static M rows_on_faces(const Bed& b, const M& m)
+    {
+        M out;
+        for (int k = 0; k < 3; ++k) {
+            const V column = Beds::on_faces(b, m.m[0][k], m.m[1][k], m.m[2][k]);
+            for (int i = 0; i < 3; ++i)
+                out.m[i][k] = column.v[i];
+        }
+        return out;
+    }
+    STYLOBATE_INLINE static M columns_on_faces(const Bed& b, const M& m)
+    {
+        M out;
+        for (int i = 0; i < 3; ++i) {
+            const V row = Beds::on_faces(b, m.m[i][0], m.m[i][1], m.m[i][2]);
+            for (int k = 0; k < 3; ++k)
+                out.m[i][k] = row.v[k];
+        }
+        return out;
     }
 
     /// What the forces of the later bed of an edge do to the conditions of the earlier one.
@@ -73,12 +97,14 @@ protected:
                                above ? p.upper_arm : p.lower_arm};
         const Real arm_k[3] = {over ? k.left_arm : zero - k.left_x, over ? k.right_arm : zero - k.right_x,
                                over ? k.upper_arm : k.lower_arm};
+        M m;
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column) {
                 // n.n' = t.t' = cosine, n.t' = sine, t.n' = -sine of the turn from one lower block to the other
                 const Real linear = (row < 2) == (column < 2) ? c : row < 2 ? s : zero - s;
-                put(E::response, e, fma(per_inertia * arm_p[row], arm_k[column], linear), 3 * row + column);
+                m.m[row][column] = fma(per_inertia * arm_p[row], arm_k[column], linear);
             }
+        store(E::response, e, rows_on_faces(p, columns_on_faces(k, m)));
     }
 
     // ---- the system of equations ----

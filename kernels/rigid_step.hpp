@@ -136,17 +136,29 @@ private:
         put(J::left, j, select(usable, get(J::left, j), zero));
         put(J::right, j, select(usable, get(J::right, j), zero));
 
+        const auto nearer = left_gap < right_gap;
+        const Real left_tilt = select(usable & (p.x - reach < zero - bl), slope, zero);
+        const Real right_tilt = select(usable & (p.x + reach > bl), slope, zero);
+        put(J::left_tilt, j, left_tilt);
+        put(J::right_tilt, j, right_tilt);
+        put(J::left_lift, j, select(nearer, left_tilt, zero));
+        put(J::right_lift, j, select(nearer, zero, right_tilt));
+
         const Bed b = bed(j);
         const Planar<Real> dl = last(lower), du = last(upper);
         const V rate = rates(b, dl, du);
         put(J::left_rate, j, rate.v[0]);
         put(J::right_rate, j, rate.v[1]);
         put(J::sliding, j, rate.v[2]);
+        // of a point of the upper face; while a corner of the lower block slides along it, it turns, too
         const Real wl = dl.theta * dl.theta, wu = du.theta * du.theta;
-        put(J::bend, j, half * fma(wu, b.upper_arm, fma(wl, b.lower_arm, zero - Real(2.0) * dl.theta * rate.v[2])));
-        const auto nearer = left_gap < right_gap;
-        put(J::bend_sliding, j,
-            half * fms(wl, select(nearer, left, right), wu * select(nearer, b.left_arm, b.right_arm)));
+        const Real gaps = half * fma(wu, b.upper_arm, fma(wl, b.lower_arm, zero - Real(2.0) * dl.theta * rate.v[2]));
+        const Real along_left = half * fms(wl, left, wu * b.left_arm),
+                   along_right = half * fms(wl, right, wu * b.right_arm);
+        put(J::left_bend, j, fnma(b.left_tilt, along_left, gaps));
+        put(J::right_bend, j, fnma(b.right_tilt, along_right, gaps));
+        const Real lift = b.left_lift + b.right_lift;
+        put(J::bend_sliding, j, fma(lift, gaps, select(nearer, along_left, along_right)));
         const Real turned = abs_of(get(OfBlock::theta, upper) - get(OfBlock::theta, lower));
         put(OfJoint::max_rotation, j, max_of(get(OfJoint::max_rotation, j), turned));
     }
@@ -194,13 +206,13 @@ private:
         for (int j = 0; j < topology_.beds(); ++j) {
             const Bed b = bed(j);
             const V rate = rates(b, free(b.lower), free(b.upper));
-            const Real bend = get(J::bend, j), restitution = get(J::restitution, j);
+            const Real restitution = get(J::restitution, j);
             const auto rebound = [&](J::Field carries, J::Field last_rate) {
                 const Real closing = get(last_rate, j);
                 return select((get(carries, j) < Real(0.5)) & (closing < least), restitution * closing, zero);
             };
-            put(J::left_goal, j, zero - rate.v[0] - bend - rebound(J::left, J::left_rate));
-            put(J::right_goal, j, zero - rate.v[1] - bend - rebound(J::right, J::right_rate));
+            put(J::left_goal, j, zero - rate.v[0] - get(J::left_bend, j) - rebound(J::left, J::left_rate));
+            put(J::right_goal, j, zero - rate.v[1] - get(J::right_bend, j) - rebound(J::right, J::right_rate));
             put(J::sliding_goal, j, zero - rate.v[2] - get(J::bend_sliding, j));
         }
     }
@@ -273,17 +285,16 @@ private:
         const Real zero(0.0), half(0.5), one(1.0);
         const Real f1 = get(J::force, j, 0), f2 = get(J::force, j, 1), shear = get(J::force, j, 2);
         const Real left = get(J::left, j), right = get(J::right, j), slips = get(J::slips, j);
-        const Real bend = get(J::bend, j);
         // A fast end that `strike` has found to be late does not meet its face in this step, but in the next one: it
         // would meet it without a time of impact.
         const Real fast = Real(2.0) * get(OfRealization::gravity_dy);
-        const auto enters = [&](J::Field next_rate, J::Field last_rate, J::Field gap) {
-            const Real rate = get(next_rate, j) + bend, before = get(last_rate, j);
+        const auto enters = [&](J::Field next_rate, J::Field bend, J::Field last_rate, J::Field gap) {
+            const Real rate = get(next_rate, j) + get(bend, j), before = get(last_rate, j);
             const Real reach = select(before < fast, max_of(rate, before), rate);
             return (get(J::usable, j) > half) & (rate < still) & (get(gap, j) < zero - half * reach);
         };
-        const Real meets_left = select(enters(J::next_left, J::left_rate, J::left_gap), one, zero);
-        const Real meets_right = select(enters(J::next_right, J::right_rate, J::right_gap), one, zero);
+        const Real meets_left = select(enters(J::next_left, J::left_bend, J::left_rate, J::left_gap), one, zero);
+        const Real meets_right = select(enters(J::next_right, J::right_bend, J::right_rate, J::right_gap), one, zero);
         const Real new_left = select(left > half, select(f1 > zero, one, zero), meets_left);
         Real new_right = select(right > half, select(f2 > zero, one, zero), meets_right);
         const Real limit = get(OfJoint::mu, j) * (f1 + f2);
