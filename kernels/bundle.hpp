@@ -187,10 +187,15 @@ struct OfRigidBlock {
 /// The same of a joint, in the frame of its lower block: its ends are those of the faces' common part, left and right.
 struct OfRigidJoint {
     enum Field : int {
-        left,        ///< 1 where the left end carries, else 0; step
-        right,       ///< the same of the right end; step
-        slips,       ///< 1 or -1: friction at its limit, on the upper block this way along the face; 0: it holds. step
-        restitution, ///< of an end's closing velocity
+        left,         ///< 1 where the left end carries, else 0; step
+        right,        ///< the same of the right end; step
+        slips,        ///< 1 or -1: friction at its limit, on the upper block this way along the face; 0: it holds. step
+        restitution,  ///< of an end's closing velocity (Newton)
+        expansion,    ///< of the impulse of the compression (Poisson)
+        left_back,    ///< force of the expansion at the left end, in the step after an impact [N]; step
+        right_back,   ///< at the right end [N]; step
+        left_before,  ///< force at the left end in the last step [N]; step
+        right_before, ///< at the right end [N]; step
         // of this step alone
         left_x,       ///< of the left end from the lower block's centre [m]
         right_x,      ///< of the right end [m]
@@ -239,8 +244,9 @@ struct OfRigidEdge {
 /// Additional fields of a realization of the rigid form.
 struct OfRigid {
     enum Field : int {
-        struck, ///< 1 if an end met its face within the last step; step
-        share,  ///< part of this step before an end meets its face
+        struck,  ///< 1 if an end met its face within the last step; step
+        share,   ///< part of this step before an end meets its face
+        expands, ///< 1 if a joint has an expansion
         count
     };
 };

@@ -13,6 +13,12 @@ enum class ContactForm : std::uint8_t {
     rigid       ///< no springs: the ends of the face may not enter it (`rigid_step.hpp`)
 };
 
+/// What a restitution is a part of.
+enum class RestitutionLaw : std::uint8_t {
+    newton, ///< of the velocity with which an end closes: it parts again with it
+    poisson ///< of the impulse with which any end is compressed in an impact: it is given back
+};
+
 struct Model {
     bool mechanisms = false; ///< an extension of a joint, a block or the base may be other than neutral
     ContactForm form = ContactForm::area;

@@ -9,7 +9,10 @@ namespace detail {
 
 /// Of rigid columns under an epistyle the forces are not unique. The diagonal of the system is larger by this part, as
 /// if every bed yielded by so much of what its own blocks would: that makes them so.
-inline constexpr double softness = 1e-9;
+template <class Number>
+inline constexpr Number softness = 1e-9;
+template <>
+inline constexpr float softness<float> = 1e-5F;
 
 } // namespace detail
 
@@ -43,7 +46,8 @@ protected:
         const Real upper_inertia = get(OfBlock::dt2_per_inertia, b.upper);
         const Real u[3] = {b.left_arm, b.right_arm, b.upper_arm},
                    l[3] = {zero - b.left_x, zero - b.right_x, b.lower_arm};
-        const Real softening(topology_.stack ? 1 : 1 + detail::softness);
+        using Number = NumberOf<Real>;
+        const Real softening(topology_.stack ? Number(1) : 1 + detail::softness<Number>);
         M m;
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column) {
@@ -112,16 +116,21 @@ protected:
     /// Which rows of a bed say what.
     struct Rule {
         Real left, right, slips, mu;
+        Real back; ///< normal force of the expansion
+        /// Whether friction acts.
+        STYLOBATE_INLINE auto touches() const { return left + right + back > Real(0.0); }
+        STYLOBATE_INLINE auto holds() const { return (abs_of(slips) < Real(0.5)) & touches(); }
     };
     STYLOBATE_INLINE Rule rule(int j) const
     {
-        return {get(J::left, j), get(J::right, j), get(J::slips, j), get(OfJoint::mu, j)};
+        return {get(J::left, j), get(J::right, j), get(J::slips, j), get(OfJoint::mu, j),
+                get(J::left_back, j) + get(J::right_back, j)};
     }
     /// Rows of conditions that do not hold are 0.
     STYLOBATE_INLINE static void keep_rows(const Rule& r, M& m)
     {
         const Real zero(0.0), half(0.5);
-        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
+        const auto holds = r.holds();
         for (int column = 0; column < 3; ++column) {
             m.m[0][column] = select(r.left > half, m.m[0][column], zero);
             m.m[1][column] = select(r.right > half, m.m[1][column], zero);
@@ -133,15 +142,17 @@ protected:
     {
         const Real a01 = get(J::own, j, 1), a02 = get(J::own, j, 2), a12 = get(J::own, j, 4);
         M m{{{get(J::own, j, 0), a01, a02}, {a01, get(J::own, j, 3), a12}, {a02, a12, get(J::own, j, 5)}}};
+        const Real a00 = m.m[0][0], a11 = m.m[1][1], a22 = m.m[2][2];
         keep_rows(r, m);
-        const Real zero(0.0), one(1.0), half(0.5);
-        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
-        m.m[0][0] = select(r.left > half, m.m[0][0], one);
-        m.m[1][1] = select(r.right > half, m.m[1][1], one);
-        const Real limit = zero - r.slips * r.mu;
+        // (each row has the size of its own response: in single precision other sizes would be lost)
+        const Real zero(0.0), half(0.5);
+        const auto holds = r.holds();
+        m.m[0][0] = select(r.left > half, m.m[0][0], a00);
+        m.m[1][1] = select(r.right > half, m.m[1][1], a11);
+        const Real limit = zero - r.slips * r.mu * a22;
         m.m[2][0] = select(holds, m.m[2][0], limit);
         m.m[2][1] = select(holds, m.m[2][1], limit);
-        m.m[2][2] = select(holds, m.m[2][2], one);
+        m.m[2][2] = select(holds, m.m[2][2], a22);
         return m;
     }
     STYLOBATE_INLINE M load(J::Field f, int j) const
@@ -178,10 +189,10 @@ protected:
         const Rule r = rule(j);
         store(J::pivot, j, own_rows(j, r));
         const auto left = r.left > half, right = r.right > half;
-        const auto holds = (abs_of(r.slips) < half) & (r.left + r.right > half);
+        const Real friction = r.slips * r.mu * get(J::own, j, 5) * r.back; // of the expansion
         store_three(J::force, j,
                     V{{select(left, get(J::left_goal, j), zero), select(right, get(J::right_goal, j), zero),
-                       select(holds, get(J::sliding_goal, j), zero)}});
+                       select(r.holds(), get(J::sliding_goal, j), friction)}});
         // until an end meets its face the blocks go on with their old increments
         store_three(J::closing, j,
                     V{{select(left, zero - fma(late, get(J::left_rate, j), get(J::left_gap, j)), zero),
@@ -216,7 +227,7 @@ protected:
             const int* const related = at;
             const int* const targets = at + 2 * count;
             at = targets + count * count;
-            const M inverse = inverse_of(load(J::pivot, j));
+            const M inverse = scaled_inverse(load(J::pivot, j), get(J::own, j, 0));
             const V force = inverse * load_three(J::force, j), closing = inverse * load_three(J::closing, j);
             store(J::inverse, j, inverse);
             store_three(J::force, j, force);
@@ -260,6 +271,23 @@ protected:
             store_three(J::force, j, load_three(J::force, j) - inverse * force);
             store_three(J::closing, j, load_three(J::closing, j) - inverse * closing);
         }
+    }
+    /// In single precision the determinant of what light and heavy blocks give is out of range.
+    STYLOBATE_INLINE static M scaled_inverse(M m, Real size)
+    {
+        if constexpr (!compensated<NumberOf<Real>>)
+            return inverse_of(m);
+        const Real zero(0.0), one(1.0);
+        const Real per = one / select(size > zero, size, one);
+        const auto scale = [per](M& of) {
+            for (auto& row : of.m)
+                for (Real& x : row)
+                    x = x * per;
+        };
+        scale(m);
+        M inverse = inverse_of(m);
+        scale(inverse);
+        return inverse;
     }
     /// Part of a step by which the end that meets its face does so after the middle of the step.
     STYLOBATE_INLINE Real part_late() const

@@ -35,13 +35,15 @@ namespace detail {
 inline constexpr int passes_of_all = 8, passes_of_one = 40;
 /// Rounds of solutions, each of which is followed by a relaxation of what has not been found, and its sweeps.
 inline constexpr int rounds = 3, relaxation_sweeps = 10;
+/// Of the last relaxation in frames, whose contacts are harder to find.
+inline constexpr int last_sweeps = 500;
 /// Faces that are turned more than this against each other are no bed: cosine.
 inline constexpr double least_bed_cosine = 0.2;
 /// Rates below this part of what gravity adds in a step are rounding.
 template <class Number>
-inline constexpr double still_rate = 1e-10;
+inline constexpr Number still_rate = 1e-10;
 template <>
-inline constexpr double still_rate<float> = 2e-4;
+inline constexpr float still_rate<float> = 2e-4F;
 
 } // namespace detail
 
@@ -69,6 +71,7 @@ public:
                 geometry(j);
             strike();
             fall_freely(step);
+            set_goals();
             for (int j = 0; j < topology_.beds(); ++j)
                 put_own_response(j);
             for (int e = 0; e < topology_.rigid_edges; ++e)
@@ -79,6 +82,7 @@ public:
     }
 
 private:
+    using Equations::add;
     using Equations::bed;
     using Equations::free;
     using Equations::get;
@@ -169,12 +173,13 @@ private:
     STYLOBATE_INLINE void strike() const
     {
         const Real zero(0.0), half(0.5), one(1.0);
-        Real fastest(0.0), its_gap(0.0);
+        const Real still = this->still();
+        Real fastest = still, its_gap(0.0);
         for (int j = 0; j < topology_.beds(); ++j) {
             const auto usable = get(J::usable, j) > half;
             const auto look_at = [&](J::Field carries, J::Field of_rate, J::Field of_gap) {
                 const Real rate = get(of_rate, j), gap = get(of_gap, j);
-                // (`fastest` is never above 0)
+                // (`fastest` is never above `still`)
                 const auto hits = usable & (get(carries, j) < half) & (gap < zero - half * rate) & (rate < fastest);
                 its_gap = select(hits, gap, its_gap);
                 fastest = select(hits, rate, fastest);
@@ -182,13 +187,13 @@ private:
             look_at(J::left, J::left_rate, J::left_gap);
             look_at(J::right, J::right_rate, J::right_gap);
         }
-        const auto struck = (get(OfRigid::struck) < half) & (fastest < zero);
+        const auto struck = (get(OfRigid::struck) < half) & (fastest < still);
         const Real when = clamp(half - its_gap / select(struck, fastest, one), zero, one);
         put(OfRigid::struck, select(struck, one, zero));
         put(OfRigid::share, select(struck, when, zero));
     }
 
-    /// The increments without the forces of the beds, and what these have to achieve.
+    /// The increments without the forces of the beds, but with those of an expansion.
     STYLOBATE_INLINE void fall_freely(int step) const
     {
         const Real share = get(OfRigid::share), rest = Real(1.0) - share;
@@ -201,6 +206,25 @@ private:
         }
         for (int i = 0; i < topology_.fixed; ++i)
             put_next(i, {Real(0.0), Real(0.0), Real(0.0)});
+        if (expands())
+            for (int j = 0; j < topology_.beds(); ++j) {
+                const Bed b = bed(j);
+                const Pull p = pull(b, {{get(J::left_back, j), get(J::right_back, j), Real(0.0)}});
+                if (is_free(b.lower))
+                    put_free(b.lower, moved_by(b.lower, free(b.lower), p.lower));
+                put_free(b.upper, moved_by(b.upper, free(b.upper), p.upper));
+            }
+    }
+    STYLOBATE_INLINE bool expands() const { return any(get(OfRigid::expands) > Real(0.5)); }
+    STYLOBATE_INLINE void put_free(int i, const Planar<Real>& d) const
+    {
+        put(B::free_x, i, d.x);
+        put(B::free_y, i, d.y);
+        put(B::free_theta, i, d.theta);
+    }
+    /// What the forces of the beds have to achieve.
+    STYLOBATE_INLINE void set_goals() const
+    {
         const Real zero(0.0);
         const Real least = get(OfRealization::gravity_dy); // slower ends do not rebound: they would not leave
         for (int j = 0; j < topology_.beds(); ++j) {
@@ -226,8 +250,15 @@ private:
             const Real open = find_contacts(round + 1 == detail::rounds);
             if (!any(open > half))
                 return;
-            relax(open > half);
+            const bool last = round + 1 == detail::rounds && !topology_.stack;
+            relax(open > half, last ? detail::last_sweeps : detail::relaxation_sweeps);
         }
+    }
+
+    /// Slower ones are rounding: negative.
+    STYLOBATE_INLINE Real still() const
+    {
+        return Real(0.0) - abs_of(get(OfRealization::gravity_dy)) * Real(detail::still_rate<NumberOf<Real>>);
     }
 
     /// Solutions with other ends that carry, until none contradicts itself.
@@ -235,7 +266,7 @@ private:
     STYLOBATE_INLINE Real find_contacts(bool patient) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
-        const Real still = zero - abs_of(get(OfRealization::gravity_dy)) * Real(detail::still_rate<NumberOf<Real>>);
+        const Real still = this->still();
         Real open(1.0);
         for (int pass = 0; pass < detail::passes_of_all + (patient ? detail::passes_of_one : 0); ++pass) {
             solve_equations();
@@ -297,13 +328,14 @@ private:
         const Real meets_right = select(enters(J::next_right, J::right_bend, J::right_rate, J::right_gap), one, zero);
         const Real new_left = select(left > half, select(f1 > zero, one, zero), meets_left);
         Real new_right = select(right > half, select(f2 > zero, one, zero), meets_right);
-        const Real limit = get(OfJoint::mu, j) * (f1 + f2);
+        const Real back = get(J::left_back, j) + get(J::right_back, j);
+        const Real limit = get(OfJoint::mu, j) * (f1 + f2 + back);
         const Real along = get(J::next_sliding, j) * slips;
         const Real slipping = select(shear > zero, one, zero - one);
         Real new_slips = select(abs_of(slips) > half, select(along > zero - still, zero, slips),
                                 select(abs_of(shear) > limit, slipping, zero));
-        new_slips = select(new_left + new_right > half, new_slips, zero); // what has parted holds when it meets again
-        new_slips = select(left + right > half, new_slips, zero);
+        new_slips = select(new_left + new_right + back > zero, new_slips, zero); // what has parted holds when it meets
+        new_slips = select(left + right + back > zero, new_slips, zero);
         if (one_at_a_time) {
             new_right = select(new_left != left, right, new_right);
             new_slips = select((new_left != left) | (new_right != right), slips, new_slips);
@@ -318,10 +350,10 @@ private:
     /// For the realizations whose contacts have not been found: forces clipped to what they may be, and relaxation bed
     /// by bed. Rare, so it is not inlined.
     template <class Mask>
-    STYLOBATE_APART void relax(Mask which) const
+    STYLOBATE_APART void relax(Mask which, int sweeps) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
-        for (int sweep = 0; sweep <= detail::relaxation_sweeps; ++sweep)
+        for (int sweep = 0; sweep <= sweeps; ++sweep)
             for (int j = 0; j < topology_.beds(); ++j) {
                 const Bed b = bed(j);
                 const bool clip = sweep == 0;
@@ -351,7 +383,8 @@ private:
                 take(now);
                 now.v[1] = select(near(J::right_gap), max_of(force.v[1] + more(1, get(J::right_goal, j)), zero), zero);
                 take(now);
-                const Real limit = get(OfJoint::mu, j) * (now.v[0] + now.v[1]);
+                const Real limit =
+                    get(OfJoint::mu, j) * (now.v[0] + now.v[1] + get(J::left_back, j) + get(J::right_back, j));
                 now.v[2] = clamp(force.v[2] + more(2, get(J::sliding_goal, j)), zero - limit, limit);
                 take(now);
                 put(J::force, j, select(which, force.v[0], before.v[0]), 0);
@@ -392,15 +425,9 @@ private:
         for (int j = 0; j < topology_.beds(); ++j) {
             const Bed b = bed(j);
             const Pull p = pull(b, load_three(J::closing, j));
-            const auto shift = [&](int i, const Planar<Real>& force) {
-                const Planar<Real> d = moved_by(i, free(i), force);
-                put(B::free_x, i, d.x);
-                put(B::free_y, i, d.y);
-                put(B::free_theta, i, d.theta);
-            };
             if (is_free(b.lower))
-                shift(b.lower, p.lower);
-            shift(b.upper, p.upper);
+                put_free(b.lower, moved_by(b.lower, free(b.lower), p.lower));
+            put_free(b.upper, moved_by(b.upper, free(b.upper), p.upper));
         }
     }
 
@@ -414,14 +441,16 @@ private:
         const Real zero(0.0), half(0.5);
         for (int j = 0; j < topology_.beds(); ++j) {
             const auto [lower, upper] = topology_.joint[j];
-            const Real f1 = get(J::force, j, 0), f2 = get(J::force, j, 1), shear = get(J::force, j, 2);
+            const Real back = get(J::left_back, j) + get(J::right_back, j), shear = get(J::force, j, 2);
+            const Real f1 = get(J::force, j, 0) + get(J::left_back, j),
+                       f2 = get(J::force, j, 1) + get(J::right_back, j);
             const Real sliding = get(J::next_sliding, j);
             impact = fnma(f1, get(J::left_rate, j) + get(J::next_left, j), impact);
             impact = fnma(f2, get(J::right_rate, j) + get(J::next_right, j), impact);
             const Real work = zero - shear * (get(J::sliding, j) + sliding);
             shear_work = shear_work + work;
             friction = fma(half, work, friction);
-            const auto touches = get(J::left, j) + get(J::right, j) > half;
+            const auto touches = get(J::left, j) + get(J::right, j) + back > zero;
             slip = slip + select(touches & (abs_of(get(J::slips, j)) > half), abs_of(sliding), zero);
             path = path + select(touches, abs_of(sliding), zero);
             const Planar<Real> du = next(upper), dl = next(lower);
@@ -435,9 +464,29 @@ private:
         put(OfRealization::rocking_path, rocking);
     }
 
+    /// After an impact the ends give back a part of the impulse with which they were compressed (Poisson): in the next
+    /// step, by which time the compression has ended at all of them.
+    STYLOBATE_INLINE void give_back() const
+    {
+        const Real zero(0.0);
+        const auto struck = get(OfRigid::struck) > Real(0.5);
+        for (int j = 0; j < topology_.beds(); ++j) {
+            const Real part = get(J::expansion, j);
+            const auto each = [&](J::Field back, J::Field before, int end) {
+                const Real force = get(J::force, j, end);
+                put(back, j, select(struck, part * max_of(force - get(before, j), zero), zero));
+                put(before, j, force);
+            };
+            each(J::left_back, J::left_before, 0);
+            each(J::right_back, J::right_before, 1);
+        }
+    }
+
     STYLOBATE_INLINE void update(int step, bool audit) const
     {
         count_losses();
+        if (expands())
+            give_back();
         close_gaps();
         const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
         const Real base = this->base(step), share = get(OfRigid::share), half(0.5);
@@ -466,8 +515,9 @@ private:
             put(OfBlock::dx, i, d.x);
             put(OfBlock::dy, i, d.y);
             put(OfBlock::dtheta, i, d.theta);
-            const Real new_y = y + (d.y + shift.y), theta = get(OfBlock::theta, i) + (d.theta + shift.theta);
-            put(OfBlock::x, i, x + (d.x + shift.x));
+            const Real new_y = add(OfRemainder::y, i, y, d.y + shift.y);
+            const Real theta = add(OfRemainder::theta, i, get(OfBlock::theta, i), d.theta + shift.theta);
+            put(OfBlock::x, i, add(OfRemainder::x, i, x, d.x + shift.x));
             put(OfBlock::y, i, new_y);
             put(OfBlock::theta, i, theta);
             turn(i, theta);

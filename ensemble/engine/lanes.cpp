@@ -101,8 +101,8 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
-        if (topology_.model.extended() || topology_.model.rigid())
-            throw std::invalid_argument("run.precision = \"single\" supports only the paper's model");
+        if (topology_.model.extended())
+            throw std::invalid_argument("run.precision = \"single\" supports only the paper's model and rigid blocks");
         single_.emplace(topology_, bundle_, kernels_);
     }
     parameters_memory_ = aligned_array<double>(9 * lanes_);
@@ -209,7 +209,11 @@ void LaneSet::store_rigid(int lane, const Realization& r)
         const bool bed = k < topology_.beds();
         bundle_.at(OfRigidJoint::left, k, lane) = bed && lean >= 0 ? 1 : 0;
         bundle_.at(OfRigidJoint::right, k, lane) = bed && lean <= 0 ? 1 : 0;
-        bundle_.at(OfRigidJoint::restitution, k, lane) = r.joints[static_cast<std::size_t>(k)].restitution;
+        const Joint& joint = r.joints[static_cast<std::size_t>(k)];
+        const bool poisson = r.restitution_law == RestitutionLaw::poisson;
+        bundle_.at(poisson ? OfRigidJoint::expansion : OfRigidJoint::restitution, k, lane) = joint.restitution;
+        if (poisson && bed && joint.restitution > 0)
+            bundle_.at(OfRigid::expands, lane) = 1;
     }
 }
 

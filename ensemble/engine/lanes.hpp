@@ -116,6 +116,8 @@ public:
     /// What has become of one of the rigid form whose blocks are about to meet otherwise than at beds: it goes on in
     /// another set (`handed_over.hpp`).
     const std::optional<HandOver>& handed(int lane) const { return places_[static_cast<std::size_t>(lane)].handed; }
+    /// The same, of a realization of the rigid form that still runs.
+    HandOver hand_over(int lane) const;
     /// Whether this set has done with a realization: it has ended, or is handed over.
     bool done(int lane) const { return outcome(lane) || handed(lane); }
     /// Frees a lane; its place is at rest and does nothing until the next `load`.
@@ -168,7 +170,6 @@ private:
     BlockMotion centre(int k, int lane) const;
     /// Where the blocks are, and when they were inside their limits last: into `Place::moved` and `Place::inside`.
     void read_motion(int lane);
-    HandOver hand_over(int lane) const;
     void end(int lane, State state, InvalidReason reason);
 
     const Study& study_;

@@ -1,5 +1,8 @@
 #include "ensemble/engine/single_bundle.hpp"
 
+#include "ensemble/engine/watch.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -66,15 +69,16 @@ void SingleBundle::fill_base(MotionFormula formula, const FormulaParameters& par
 void SingleBundle::run(int first, int last)
 {
     kernels_.run_single(topology_, own_, first, last);
-    give(last == chunk_steps);
+    give(last % check_steps(topology_) == 0);
 }
 
-void SingleBundle::give(bool whole_chunk) const
+/// @param checked a check comes next
+void SingleBundle::give(bool checked) const
 {
     const int lanes = host_.lanes;
     for (int block = topology_.fixed; block < topology_.blocks; ++block)
         for (const auto& [field, remainder] : compensated_fields) {
-            if (field >= OfBlock::dx) // of no use to the host
+            if (field >= OfBlock::dx && !topology_.model.rigid()) // of no use to the host
                 continue;
             const float* const value = &own_.at(field, block, 0);
             const float* const rest = &own_.at(remainder, block, 0);
@@ -92,16 +96,30 @@ void SingleBundle::give(bool whole_chunk) const
             for (int lane = 0; lane < lanes; ++lane)
                 to[lane] = value[lane];
         }
+    if (topology_.model.rigid())
+        give_beds();
     for (const auto field : state_fields)
         for (int lane = 0; lane < lanes; ++lane)
             host_.at(field, lane) = own_.at(field, lane);
-    if (!whole_chunk) // else the sums would depend on where a chunk was parted
+    if (!checked) // else the sums would depend on where a chunk was parted
         return;
     for (const auto field : summed_fields)
         for (int lane = 0; lane < lanes; ++lane) {
             host_.at(field, lane) += own_.at(field, lane);
             own_.at(field, lane) = 0;
         }
+}
+
+/// What tells the host whether a realization is to be handed over (`leaves_beds`).
+void SingleBundle::give_beds() const
+{
+    const auto give = [lanes = host_.lanes](const float* from, double* to) { std::copy_n(from, lanes, to); };
+    for (int block = topology_.fixed; block < topology_.blocks; ++block)
+        for (const auto field : {OfBlock::sine, OfBlock::versine})
+            give(&own_.at(field, block, 0), &host_.at(field, block, 0));
+    for (int joint = 0; joint < topology_.beds(); ++joint)
+        for (const auto field : {OfRigidJoint::left_x, OfRigidJoint::right_x, OfRigidJoint::sliding})
+            give(&own_.at(field, joint, 0), &host_.at(field, joint, 0));
 }
 
 } // namespace stylobate

@@ -4,8 +4,8 @@
 /// The host writes realizations into the bundle in double precision and reads them there, as ever: `take` rounds what
 /// it has written, `run` steps in single precision and gives back what a termination check of a realization needs.
 /// Displacements and increments go in, and displacements come out, with their remainders: with about 48 binary digits.
-/// The sums over time of slip, paths and works are kept in double precision: those of a chunk are added to them at its
-/// end.
+/// The sums over time of slip, paths and works are kept in double precision: those of the steps between two checks are
+/// added to them at the check.
 
 #include "ensemble/numerics/aligned.hpp"
 #include "kernels/isa.hpp"
@@ -27,7 +27,8 @@ public:
     void run(int first, int last);
 
 private:
-    void give(bool whole_chunk) const;
+    void give(bool checked) const;
+    void give_beds() const;
 
     const Topology& topology_;
     const Bundle& host_;

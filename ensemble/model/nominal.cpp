@@ -26,6 +26,11 @@ std::vector<double> of_blocks(const Layout& layout, Value&& value)
 
 } // namespace
 
+std::vector<double> nominal_restitution(const Study& study, const Layout& layout)
+{
+    return of_beds(layout, &BedSpec::restitution, study.contact.restitution);
+}
+
 std::vector<double> nominal_values(const Study& study, const Layout& layout, Quantity quantity)
 {
     const StructureSpec& structure = study.structure;

@@ -13,6 +13,9 @@ namespace stylobate {
 /// counted from its place as it is designed.
 std::vector<double> nominal_values(const Study& study, const Layout& layout, Quantity quantity);
 
+/// Of each bed of the layout, in its order.
+std::vector<double> nominal_restitution(const Study& study, const Layout& layout);
+
 /// `tail_after_shaking` (base_motion.hpp) of the structure as it is given, nothing drawn [s].
 double nominal_tail_s(const StructureSpec& structure);
 

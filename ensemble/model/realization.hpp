@@ -93,7 +93,7 @@ struct Joint {
     double tangential_damping_n_s_m = 0;
     double damping_chord_m = 0; ///< contact length at which the dashpots have these coefficients; 0: at any length
     double friction = 0;
-    double restitution = 0; ///< of the rigid form: part of an end's closing velocity with which it parts again
+    double restitution = 0; ///< of the rigid form, 0 to 1 (`RestitutionLaw`)
     JointExtension extension{};
 };
 
@@ -121,6 +121,7 @@ struct Realization {
     /// Vertical base motion of its own, instead of `base.vertical_ratio`; starts with the shaking. Null: none.
     std::shared_ptr<const Motion> vertical;
     ContactForm form = ContactForm::area;
+    RestitutionLaw restitution_law = RestitutionLaw::newton;
     bool extended = false; ///< run by the extended step even where every extension is neutral (`is_extended`)
     double step_s = 0;
     std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`

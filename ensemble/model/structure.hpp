@@ -20,6 +20,7 @@ struct BedSpec {
     std::optional<double> friction;                 ///< mu
     std::optional<double> normal_stiffness_n_m2;    ///< K_N
     std::optional<double> tangential_stiffness_n_m; ///< K_T
+    std::optional<double> restitution;              ///< of the rigid form
     friend bool operator==(const BedSpec&, const BedSpec&) = default;
 };
 

@@ -56,6 +56,7 @@ struct ContactSpec {
     DampingPer damping_per = DampingPer::contact;
     double friction = 0;    ///< mu
     double restitution = 0; ///< of the rigid form, which has no stiffness and no dashpot: those are then 0
+    RestitutionLaw restitution_law = RestitutionLaw::newton;
 };
 
 enum class ExcitationKind {

@@ -103,6 +103,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
         twin_.emplace(spread, "fragility.twin_m", 0.0);
     }
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
+    restitution_ = nominal_restitution(study, layout_);
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
                                          [](const PlacedBed& bed) { return bed.lower < 0; });
     if (watches)
@@ -196,6 +197,7 @@ Realization Sampler::build(std::uint64_t index, const PointSet& points) const
     Realization realization;
     realization.index = index;
     realization.gravity_m_s2 = study_->structure.gravity_m_s2;
+    realization.restitution_law = study_->contact.restitution_law;
     realization.initial_tilt_rad = study_->initial.tilt_rad;
     realization.initial_tilt_block = study_->initial.tilt_from_block;
     Values values = draw(points, index, realization.inputs);
@@ -392,7 +394,7 @@ Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int
         2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass));
     joint.tangential_damping_n_s_m = contact.tangential_damping_n_s_m.value_or(
         2 * ratio.tangential * std::sqrt(joint.tangential_stiffness_n_m * mass));
-    joint.restitution = contact.restitution;
+    joint.restitution = value < restitution_.size() ? restitution_[value] : contact.restitution;
     joint.damping_chord_m = contact.damping_per == DampingPer::chord ? chord_m : 0;
     return joint;
 }

@@ -106,6 +106,7 @@ private:
     bool has_ground_ = false;
     std::vector<std::pair<int, int>> watched_; ///< lower and upper block
     Values nominal_;
+    std::vector<double> restitution_; ///< (beds)
     Shaking shaking_;
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;

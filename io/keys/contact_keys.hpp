@@ -56,15 +56,22 @@ inline const NumberKey friction{
     "friction", friction_range, "coefficient of friction mu; stone on stone has about 0.4 to 0.8", {.example = "0.68"}};
 
 inline const NumberKey restitution{"restitution",
-                                   {0, 0.99, false, "A part of the velocity before the impact.", 0},
+                                   restitution_range,
                                    ContactSpec{}.restitution,
-                                   "part of an end's closing velocity with which it parts again after an impact",
+                                   "what an impact gives back: a part of the velocity or of the impulse",
                                    {.used = {with_forms({ContactForm::rigid})}}};
+inline const WordKey<RestitutionLaw> restitution_law{
+    "restitution_law",
+    restitution_law_names,
+    ContactSpec{}.restitution_law,
+    "whether an end that meets its face parts again with the part of its closing velocity (Newton), or every end "
+    "gives back the part of the impulse with which the impact compresses it (Poisson)",
+    {.used = {with_forms({ContactForm::rigid})}}};
 
 inline const TableKey table{"contact",
                             "the joints between blocks",
                             {&normal_stiffness, &tangential_stiffness, &normal_damping_ratio, &normal_damping,
                              &tangential_damping_ratio, &tangential_damping, &damping, &damping_per, &form, &friction,
-                             &restitution}};
+                             &restitution, &restitution_law}};
 
 } // namespace stylobate::contact_keys

@@ -23,6 +23,7 @@ inline const Range normal_stiffness_range{0, 1e15, true,
 inline const Range tangential_stiffness_range{0, 1e16, true, "K_T is in N/m.", 0};
 inline const Range damping_ratio_range{0, 2, false, "Ratios are fractions of the critical damping: 10 % is 0.1.", 0.01};
 inline const Range damping_range{0, 1e12, false, "Damping coefficients are in N s/m.", 0};
+inline const Range restitution_range{0, 0.99, false, "A part of what there is before the impact.", 0};
 inline const Range friction_range{0, 10, true, "Stone on stone has about 0.4 to 0.8.", 0.01};
 inline const Range frequency_range{0.001, 1000, false, "Frequencies are in Hz.", 0};
 inline const Range acceleration_range{0, 10000, true, "Accelerations are in m/s2.", 0.01};

@@ -38,6 +38,10 @@ inline const NumberKey bed_tangential_stiffness{"tangential_stiffness_n_m",
                                                 tangential_stiffness_range,
                                                 "K_T of the bed under the block",
                                                 {.absent = "contact.tangential_stiffness_n_m"}};
+inline const NumberKey bed_restitution{"restitution",
+                                       restitution_range,
+                                       "restitution of the bed under the block, of rigid contacts",
+                                       {.absent = "contact.restitution"}};
 inline const WholeKey count{"count", {1, most_blocks, "Equal drums, one on the other."}, 1, "number of equal drums"};
 
 // of a column, and of all columns
@@ -54,7 +58,7 @@ inline const WholeKey fixed_blocks{"fixed_blocks",
 inline const TableKey drums{"drums",
                             "the drums one by one from the bottom, instead of `blocks`",
                             {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
-                             &bed_tangential_stiffness, &count},
+                             &bed_tangential_stiffness, &bed_restitution, &count},
                             {.absent = "equal drums"},
                             KeyType::tables};
 inline const NumberKey drum_width{"drum_width_m",
@@ -74,11 +78,11 @@ inline const NumberKey density_of_all{"density_kg_m3",
                                       density_range,
                                       "density of all blocks that have no mass and no density of their own",
                                       {.absent = "masses are given", .example = "2700"}};
-inline const TableKey capital{
-    "capital",
-    "an additional block on top of the column",
-    {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness, &bed_tangential_stiffness},
-    {.absent = "no capital"}};
+inline const TableKey capital{"capital",
+                              "an additional block on top of the column",
+                              {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
+                               &bed_tangential_stiffness, &bed_restitution},
+                              {.absent = "no capital"}};
 inline const NumberKey gravity{"gravity_m_s2", gravity_range, StructureSpec{}.gravity_m_s2, "acceleration of gravity"};
 
 // of a colonnade
@@ -118,7 +122,8 @@ inline const NumberKey seat_friction{
 inline const TableKey epistyles{"epistyles",
                                 "the epistyles one by one from the left; [] for none",
                                 {&first_column, &last_column, &epistyle_x, &length, &own_epistyle_height, &mass,
-                                 &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness},
+                                 &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
+                                 &bed_restitution},
                                 colonnade_facts("equal pieces over all columns"),
                                 KeyType::tables};
 inline const WholeKey epistyle_bays{"epistyle_bays",

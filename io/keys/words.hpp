@@ -48,6 +48,8 @@ inline constexpr std::array damping_at_names = {Name<DampingAt>{"centroid", Damp
 inline constexpr std::array contact_form_names = {
     Name<ContactForm>{"area", ContactForm::area}, Name<ContactForm>{"two_corner", ContactForm::two_corner},
     Name<ContactForm>{"points", ContactForm::points}, Name<ContactForm>{"rigid", ContactForm::rigid}};
+inline constexpr std::array restitution_law_names = {Name<RestitutionLaw>{"newton", RestitutionLaw::newton},
+                                                     Name<RestitutionLaw>{"poisson", RestitutionLaw::poisson}};
 inline constexpr std::array damping_per_names = {Name<DampingPer>{"contact", DampingPer::contact},
                                                  Name<DampingPer>{"chord", DampingPer::chord}};
 inline constexpr std::array step_basis_names = {Name<StepBasis>{"block", StepBasis::block},

@@ -62,6 +62,7 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, 
         c.normal_damping_ratio = c.tangential_damping_ratio = 0;
         c.friction = keys.read(friction);
         c.restitution = keys.read(restitution);
+        c.restitution_law = keys.read(restitution_law);
         return c;
     }
     c.normal_stiffness_n_m2 = keys.read(normal_stiffness);
@@ -201,12 +202,14 @@ void check_precision(const KeyReader& keys, const Study& study)
 {
     const auto refuse = [&](const std::string& why, const char* what) {
         keys.refuse(run_keys::precision.name, "is not available with " + why,
-                    std::string("Single precision supports only the paper's model: remove ") + what +
+                    std::string("Single precision supports only the paper's model and rigid columns: remove ") + what +
                         ", or give precision = \"double\".");
     };
     if (!study.mechanisms.empty())
         refuse(fmt::format("mechanisms.{}", to_string(study.mechanisms.front().mechanism)), "it");
-    if (study.contact.form != ContactForm::area)
+    if (study.contact.form == ContactForm::rigid && study.structure.kind == StructureKind::colonnade)
+        refuse("rigid contacts and epistyles, whose loops need double precision", "the epistyles");
+    if (study.contact.form != ContactForm::area && study.contact.form != ContactForm::rigid)
         refuse(fmt::format("contact.form = \"{}\"", word_for(contact_form_names, study.contact.form)), "it");
     if (study.contact.damping != DampingAt::centroid)
         refuse("contact.damping = \"ends\"", "it");
@@ -350,6 +353,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.run = read_run(top.table(run_keys::table), study.contact.form);
     if (study.contact.form == ContactForm::rigid)
         check_rigid(top, study);
+    else
+        refuse_restitution(top, study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
     if (top.has("twins")) {

@@ -12,6 +12,28 @@
 
 namespace stylobate {
 
+namespace {
+
+/// @param names of the blocks' key
+void refuse_restitution_of(const KeyReader& top, const BedSpec& bed, const char* names)
+{
+    if (bed.restitution)
+        top.table(structure_keys::table)
+            .refuse(names, "gives a bed a restitution, which only contact.form = \"rigid\" uses",
+                    "Remove it, or give contact.form = \"rigid\".");
+}
+
+} // namespace
+
+void refuse_restitution(const KeyReader& top, const Study& study)
+{
+    for (const ColumnSpec& column : study.structure.columns)
+        for (const DrumSpec& drum : column.drums)
+            refuse_restitution_of(top, drum.bed, "drums");
+    for (const EpistyleSpec& epistyle : study.structure.epistyles)
+        refuse_restitution_of(top, epistyle.bed, "epistyles");
+}
+
 void check_rigid(const KeyReader& top, const Study& study)
 {
     const std::string form = "contact.form = \"rigid\"";

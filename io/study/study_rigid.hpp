@@ -13,4 +13,7 @@ namespace stylobate {
 /// @throws InputError
 void check_rigid(const KeyReader& top, const Study& study);
 
+/// Refuses the restitution of a bed with contacts that yield.
+void refuse_restitution(const KeyReader& top, const Study& study);
+
 } // namespace stylobate

@@ -87,6 +87,7 @@ void add(Entries& entries, const BedSpec& bed)
     entries.add(structure_keys::bed_friction, bed.friction);
     entries.add(structure_keys::bed_normal_stiffness, bed.normal_stiffness_n_m2);
     entries.add(structure_keys::bed_tangential_stiffness, bed.tangential_stiffness_n_m);
+    entries.add(structure_keys::bed_restitution, bed.restitution);
 }
 
 Entries entries_of(const DrumSpec& drum)
@@ -190,6 +191,8 @@ Entries entries_of(const ContactSpec& contact)
         out.add(form, contact.form);
         out.add(friction, contact.friction);
         out.add(restitution, contact.restitution);
+        if (contact.restitution_law != RestitutionLaw::newton)
+            out.add(restitution_law, contact.restitution_law);
         return out;
     }
     out.add(normal_stiffness, contact.normal_stiffness_n_m2);

@@ -66,6 +66,16 @@ void run_model(const Topology& topology, const Bundle& bundle, int first, int la
     }
 }
 
+/// The same in single precision, which has the paper's model and rigid blocks.
+template <class Single, class Here>
+void run_single_model(const Topology& topology, const BundleOf<float>& bundle, int first, int last)
+{
+    if (topology.model.rigid())
+        run_rigid<Single, Here>(topology, bundle, first, last);
+    else
+        run_steps<Single, OfFile<Here, Baseline>>(topology, bundle, first, last);
+}
+
 /// @tparam Single the register of `Real`'s instruction set in single precision
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
 template <class Real, class Single, class Here>
@@ -75,7 +85,7 @@ constexpr KernelTable kernel_table(Isa isa)
             Lanes<Real>::count,
             Lanes<Single>::count,
             run_model<Real, Here>,
-            run_steps<Single, OfFile<Here, Baseline>>,
+            run_single_model<Single, Here>,
             fill_base_table<Real, Here>,
             fill_single_base_table<Real, Single, Here>,
             peak_fma<Real, Here>};

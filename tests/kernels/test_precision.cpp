@@ -211,6 +211,44 @@ TEST(Precision, OutcomesAgreeOnASmallSurface)
     agrees(laid_by_hand(small_surface(24)), "surface 4 x 4", 3.1, 1e-3);
 }
 
+/// One cell of rigid blocks. Their step is fixed, so that another one can be compared.
+Study rigid_cell(int realizations, double step_s)
+{
+    Study study = cell(realizations, 4, 5);
+    ContactSpec rigid;
+    rigid.form = ContactForm::rigid;
+    rigid.normal_damping_ratio = rigid.tangential_damping_ratio = 0;
+    rigid.friction = study.contact.friction;
+    study.contact = rigid;
+    study.run.step_s = step_s;
+    return study;
+}
+
+TEST(Precision, RigidBlocksHaveTheSameBitsForEveryWidthAndThreadCount)
+{
+    Study study = rigid_cell(12, 1e-3);
+    same_everywhere(study);
+    study.outcome.follow = Follow::rest;
+    same_everywhere(study);
+}
+
+TEST(Precision, RigidBlocksAgree)
+{
+    const Study study = rigid_cell(512, 1e-3);
+    const auto here = run(study, Precision::double_, 1), single = run(study, Precision::single, 1),
+               finer = run(rigid_cell(512, 0.8e-3), Precision::double_, 1);
+    const Difference digits = difference(here, single), steps = difference(here, finer);
+    fmt::print("rigid: {} of {} collapse; alone in one run: {} with single precision ({:+}), {} with 0.8 of the step "
+               "({:+})\n",
+               collapse_times(here).size(), here.size(), digits.discordant, digits.more, steps.discordant, steps.more);
+    EXPECT_LE(std::fabs(digits.more), 3.1 * std::sqrt(digits.discordant) + 1);
+    EXPECT_GT(same_distribution(collapse_times(here), collapse_times(single)), 1e-3);
+    for (const Outcome& o : single) {
+        EXPECT_NE(o.state, State::invalid);
+        EXPECT_LT(std::fabs(o.energy_residual), 0.1);
+    }
+}
+
 TEST(PrecisionLong, OutcomesAgreeOnASurface)
 {
     Study study = laid_by_hand(small_surface(64));

@@ -155,9 +155,8 @@ TEST(Rigid, FramesMoveFromTheAccelerationOnThatLimitAnalysisGives)
             bed.mu = mu;
             const Realization r = rigid(model::colonnade(c, bed, 1e-3, false), 1e-3);
             const double limit = verification::limit_acceleration(r).acceleration_m_s2;
-            // Of three columns the contacts are not always found (docs/rigid_limit.md); with 0.7 the limit depends on
-            // friction and rocking alike, and more than one state is at rest.
-            const auto [part, still] = c.columns == 2 && mu != 0.7 ? std::pair(0.999, 1e-6) : std::pair(0.99, 1e-4);
+            // Of three columns the contacts are not always found (docs/rigid_limit.md).
+            const auto [part, still] = c.columns == 2 || mu < 1 ? std::pair(0.999, 1e-6) : std::pair(0.99, 1e-4);
             EXPECT_LT(moved_under(r, part * limit), still) << mu << ' ' << c.columns << ' ' << c.drums;
             EXPECT_GT(moved_under(r, 1.01 * limit), 1e-3) << mu << ' ' << c.columns << ' ' << c.drums;
         }
@@ -258,7 +257,7 @@ TEST(Rigid, ConvergesWithTheSquareOfTheStep)
 /// A block by itself above a fixed one, with every field open.
 class FallingBlock {
 public:
-    FallingBlock(double height_m, double restitution, double step_s)
+    FallingBlock(double height_m, double restitution, double step_s, double expansion = 0) : height_m_(height_m)
     {
         topology_.blocks = 2;
         topology_.fixed = topology_.joints = topology_.top = 1;
@@ -283,15 +282,35 @@ public:
         bundle_.at(OfJoint::height, 0, 0) = 0.06;
         bundle_.at(OfJoint::mu, 0, 0) = 0.5;
         bundle_.at(OfRigidJoint::restitution, 0, 0) = restitution;
+        bundle_.at(OfRigidJoint::expansion, 0, 0) = expansion;
+        bundle_.at(OfRigid::expands, 0) = expansion > 0;
         bundle_.at(OfRealization::gravity_dy, 0) = -dt2 * gravity;
     }
+    /// How high it comes after it has met the face.
+    double rebound_m()
+    {
+        double y = height_m_, before = y;
+        do {
+            before = y;
+            y = step();
+        } while (y < before);
+        EXPECT_NEAR(before, 0, 0.02 * height_m_); // within the path of a step
+        double highest = y;
+        for (int n = 0; n < 100 && y >= highest; ++n) {
+            y = step();
+            highest = std::max(highest, y);
+        }
+        return highest;
+    }
+
+private:
     double step()
     {
         kernels(Isa::scalar).run(topology_, bundle_, 0, 1);
         return bundle_.at(OfBlock::y, 1, 0);
     }
 
-private:
+    const double height_m_;
     const TopologyJoint joint_{0, 1};
     Topology topology_;
     RigidOrder order_;
@@ -305,18 +324,136 @@ TEST(Rigid, ABlockThatFallsFlatReboundsByItsRestitution)
     constexpr double height_m = 0.05, step_s = 1e-3;
     for (const double e : {0.0, 0.3, 0.7}) {
         FallingBlock block(height_m, e, step_s);
-        double y = height_m, before = y;
-        do {
-            before = y;
-            y = block.step();
-        } while (y < before);
-        EXPECT_NEAR(before, 0, 0.02 * height_m) << e; // within the path of a step
-        double highest = y;
-        for (int n = 0; n < 100 && y >= highest; ++n) {
-            y = block.step();
-            highest = std::max(highest, y);
+        EXPECT_NEAR(block.rebound_m(), e * e * height_m, 0.03 * height_m) << e;
+    }
+}
+
+/// Poisson's law is the same there: nothing else is compressed.
+TEST(Rigid, ABlockThatFallsFlatReboundsByItsExpansion)
+{
+    constexpr double height_m = 0.05, step_s = 1e-3;
+    for (const double e : {0.3, 0.7}) {
+        FallingBlock block(height_m, 0, step_s, e);
+        EXPECT_NEAR(block.rebound_m(), e * e * height_m, 0.03 * height_m) << e;
+    }
+}
+
+/// The rate of rotation after the first impact of a rocking block, over the one before it, by impulses at the new
+/// corner: a plastic impact, then the part of its normal impulse that is given back while friction holds.
+double poisson_rate_ratio(const model::Stone& stone, double part)
+{
+    const double b = stone.width / 2, h = stone.height / 2;
+    const double inertia_per_mass = (b * b + h * h) / 3;
+    // about the old corner (-b, -h) with rate -1: the centre's velocity is (-h, b) x rate... of a unit rate
+    const double vx = h, vy = -b, w = -1;
+    // velocity of the new corner (b, -h), and its response to unit impulses per mass, along x and y
+    const double cx = vx + w * h, cy = vy + w * b;
+    const double xx = 1 + h * h / inertia_per_mass, yy = 1 + b * b / inertia_per_mass, xy = h * b / inertia_per_mass;
+    const double determinant = xx * yy - xy * xy;
+    const double jx = -(yy * cx - xy * cy) / determinant, jy = -(xx * cy - xy * cx) / determinant;
+    const double back_y = part * jy, back_x = -xy * back_y / xx;
+    return (w + (b * (jy + back_y) + h * (jx + back_x)) / inertia_per_mass) / w;
+}
+
+TEST(Rigid, AnImpactGivesBackItsPartOfTheImpulse)
+{
+    for (const double part : {0.0, 0.2, 0.5}) {
+        Realization r = leaned(0.5, 1.0 / 16000);
+        r.restitution_law = RestitutionLaw::poisson;
+        r.joints[0].restitution = part;
+        const Study study = model::still(2);
+        LaneSet set(study, nullptr, kernels(Isa::scalar), r);
+        set.load(0, r);
+        std::vector<double> turned{set.snapshot(0).theta_rad[1]};
+        int after = 0; // steps since upright
+        for (int n = 0; after < 6; ++n) {
+            set.advance(n % chunk_steps, n % chunk_steps + 1);
+            turned.push_back(set.snapshot(0).theta_rad[1]);
+            after += turned.back() * turned.front() <= 0 || after > 0;
         }
-        EXPECT_NEAR(highest, e * e * height_m, 0.03 * height_m) << e;
+        const std::size_t last = turned.size() - 1;
+        const double before = turned[last - 7] - turned[last - 8], now = turned[last] - turned[last - 1];
+        EXPECT_NEAR(now / before, poisson_rate_ratio(mono_stone, part), 5e-3) << part;
+    }
+}
+
+/// A plank without friction that tips over the corner of what is below it slides along that corner: the corner presses
+/// across the plank. Lagrange's equations of the plank with this one condition, by Runge and Kutta.
+struct Plank {
+    double half_height, inertia_per_mass;
+    std::array<double, 6>
+    rates(const std::array<double, 6>& s) const ///< x, y from the corner, rotation; and their rates
+    {
+        const double sine = std::sin(s[2]), cosine = std::cos(s[2]), w = s[5];
+        const double along =
+            -(s[0] * cosine + s[1] * sine); // d (distance of the corner from the plank's middle) / d turn
+        const double whirl = 2 * w * (s[3] * cosine + s[4] * sine);
+        const double force = (gravity * cosine + whirl + w * w * half_height) / (1 + along * along / inertia_per_mass);
+        return {s[3], s[4], s[5], -sine * force, cosine * force - gravity, along * force / inertia_per_mass};
+    }
+    void step(std::array<double, 6>& s, double dt) const
+    {
+        const auto moved = [&](const std::array<double, 6>& by, double t) {
+            std::array<double, 6> out = s;
+            for (std::size_t i = 0; i < 6; ++i)
+                out[i] += t * by[i];
+            return out;
+        };
+        const auto k1 = rates(s), k2 = rates(moved(k1, dt / 2)), k3 = rates(moved(k2, dt / 2)),
+                   k4 = rates(moved(k3, dt));
+        for (std::size_t i = 0; i < 6; ++i)
+            s[i] += dt / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+    }
+};
+
+TEST(Rigid, APlankSlidesAlongTheCornerThatItTipsOver)
+{
+    constexpr double beyond_m = 0.1, end_s = 0.3;
+    const model::Stone stone{1, 0.04, 1, 0.05 + beyond_m};
+    model::Bed bed;
+    bed.mu = 0;
+    double before = 0;
+    for (const double rate_hz : {500.0, 2000.0}) {
+        const Realization r = rigid(model::single(stone, bed, 1 / rate_hz, 0.1), 1 / rate_hz);
+        const Study study = model::still(1);
+        LaneSet set(study, nullptr, kernels(Isa::scalar), r);
+        set.load(0, r);
+        const int steps = static_cast<int>(end_s * rate_hz);
+        for (int n = 0; n < steps; ++n)
+            set.advance(n % chunk_steps, n % chunk_steps + 1);
+        const Snapshot now = set.snapshot(0);
+        const Plank plank{stone.height / 2, (1 + stone.height * stone.height) / 12};
+        std::array<double, 6> wanted{beyond_m, stone.height / 2, 0, 0, 0, 0};
+        for (int n = 0; n < 3000; ++n)
+            plank.step(wanted, end_s / 3000);
+        EXPECT_LT(wanted[2], -0.3) << "it hardly turns";
+        const double error = std::hypot(now.x_m[1] - 0.05 - wanted[0], now.y_m[1] - wanted[1]) +
+                             0.1 * std::fabs(now.theta_rad[1] - wanted[2]);
+        EXPECT_LT(error, 2 / rate_hz);
+        before = error;
+    }
+    EXPECT_LT(before, 5e-4);
+}
+
+/// Blocks that fall go on as contacts by area have it, and lie at last.
+TEST(Rigid, AToppledBlockLiesOnItsSide)
+{
+    Study study = model::still(4);
+    study.outcome.follow = Follow::rest;
+    for (const double rate_hz : {500.0, 1000.0}) {
+        Realization r = rigid(model::single(mono_stone, {}, 1 / rate_hz, 2), 1 / rate_hz);
+        r.initial_tilt_rad = 1.02 * model::slenderness(mono_stone);
+        const Outcome o = model::run_one(study, r);
+        EXPECT_EQ(o.state, State::collapsed);
+        EXPECT_LT(std::fabs(o.energy_residual), 0.1); // it comes down flat, in few steps
+        // it has lost the height of its centre
+        const double fell_m =
+            std::hypot(mono_stone.width, mono_stone.height) / 2 * std::cos(0.02 * model::slenderness(mono_stone)) -
+            mono_stone.width / 2;
+        EXPECT_NEAR(o.energy_potential_j, -mono_stone.mass * gravity * fell_m,
+                    0.01 * mono_stone.mass * gravity * fell_m);
+        EXPECT_LT(o.energy_kinetic_j, 1e-3);
+        EXPECT_NEAR(o.end_time_s, 4, 0.1);
     }
 }
 

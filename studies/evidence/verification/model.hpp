@@ -5,6 +5,7 @@
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
 #include "ensemble/engine/lanes.hpp"
+#include "ensemble/statics/compliant_form.hpp"
 #include "ensemble/statics/static_state.hpp"
 
 #include <algorithm>
@@ -120,6 +121,17 @@ inline Study harmonic(double cycles, double ramp_cycles)
 /// Called after every chunk of steps of a realization that is still running, with its place in the list.
 using Look = std::function<void(std::size_t index, const Snapshot&)>;
 
+/// Runs one that rigid contacts have handed over to its end.
+inline Outcome finish(const Study& study, const HandOver& handed, const Motion* record = nullptr)
+{
+    const Realization pattern = compliant_form(handed.realization);
+    LaneSet taker(study, record, kernels(best_isa()), pattern);
+    taker.load(0, handed);
+    while (!taker.outcome(0))
+        taker.advance();
+    return *taker.outcome(0);
+}
+
 /// Runs each realization to its end, a register at a time, on the widest instruction set; outcomes in their order.
 /// @param record of a study whose excitation is one
 inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realization>& realizations,
@@ -135,7 +147,7 @@ inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realiz
         const auto running = [&] {
             bool any = false;
             for (std::size_t i = 0; i < count; ++i)
-                if (!set.outcome(static_cast<int>(i))) {
+                if (!set.done(static_cast<int>(i))) {
                     any = true;
                     if (look)
                         look(begin + i, set.snapshot(static_cast<int>(i)));
@@ -145,8 +157,9 @@ inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realiz
         while (running())
             set.advance();
         for (std::size_t i = 0; i < count; ++i) {
-            outcomes.push_back(*set.outcome(static_cast<int>(i)));
-            set.clear(static_cast<int>(i));
+            const int lane = static_cast<int>(i);
+            outcomes.push_back(set.outcome(lane) ? *set.outcome(lane) : finish(study, *set.handed(lane), record));
+            set.clear(lane);
         }
     }
     return outcomes;

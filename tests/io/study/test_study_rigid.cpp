@@ -1,5 +1,6 @@
 /// Studies with rigid contacts: what they have, and what is refused with them.
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/io/study/study_lines.hpp"
@@ -27,7 +28,47 @@ TEST(StudyFileRigid, HasFrictionAndRestitutionAlone)
     EXPECT_EQ(plain.contact.normal_stiffness_n_m2, 0);
     EXPECT_EQ(plain.contact.restitution, 0);
     lines[13] = "friction = 0.68\nrestitution = 0.3";
-    EXPECT_EQ(parse_study(joined(lines), "study.toml").contact.restitution, 0.3);
+    const Study newton = parse_study(joined(lines), "study.toml");
+    EXPECT_EQ(newton.contact.restitution, 0.3);
+    EXPECT_EQ(newton.contact.restitution_law, RestitutionLaw::newton);
+    lines[13] = "friction = 0.68\nrestitution = 0.3\nrestitution_law = \"poisson\"";
+    EXPECT_EQ(parse_study(joined(lines), "study.toml").contact.restitution_law, RestitutionLaw::poisson);
+}
+
+TEST(StudyFileRigid, EachBedMayHaveItsOwnRestitution)
+{
+    auto lines = rigid_lines();
+    for (const int line : {5, 7, 8, 10})
+        lines.erase(line);
+    lines[5] = "drums = [ { width_m = 0.05, height_m = 0.03, mass_kg = 1, count = 2 },\n"
+               "          { width_m = 0.05, height_m = 0.03, mass_kg = 1, restitution = 0.4 } ]";
+    lines[13] = "friction = 0.68\nrestitution = 0.1";
+    const Study study = parse_study(joined(lines), "study.toml");
+    const Realization r = Experiment(study).sampler().realization(0);
+    ASSERT_EQ(r.beds(), 2);
+    EXPECT_EQ(r.joints[0].restitution, 0.1);
+    EXPECT_EQ(r.joints[1].restitution, 0.4);
+    // the study's own text says the same
+    EXPECT_EQ(Experiment(parse_study(study.text, "text")).sampler().realization(0).joints[1].restitution, 0.4);
+    lines[12] = "normal_stiffness_n_m2 = 1e8";
+    lines[13] = "friction = 0.68";
+    try {
+        parse_study(joined(lines), "study.toml");
+        ADD_FAILURE() << "accepted with contacts that yield";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("restitution"), std::string::npos) << error.what();
+    }
+}
+
+/// What has fallen is handed over to contacts that yield, and single precision steps columns.
+TEST(StudyFileRigid, MayFollowWhatFallsAndBeInSinglePrecision)
+{
+    auto lines = rigid_lines();
+    lines[22] = "[outcome]\nfollow = \"rest\"\n[run]\nprecision = \"single\"";
+    const Study study = parse_study(joined(lines), "study.toml");
+    EXPECT_EQ(study.outcome.follow, Follow::rest);
+    EXPECT_EQ(study.run.precision, Precision::single);
+    EXPECT_GT(Experiment(study).sampler().realization(0).watched, 0);
 }
 
 TEST(StudyFileRigid, RefusesWhatNeedsAContactThatYields)
@@ -53,16 +94,12 @@ TEST(StudyFileRigid, RefusesWhatNeedsAContactThatYields)
     lines = rigid_lines();
     lines[22] = "[mechanisms]\nstribeck = { dynamic_friction = 0.5, velocity_m_s = 0.01 }";
     refused(lines, {"stribeck", "is not available with contact.form = \"rigid\"", "two_corner"});
-    for (const auto& [text, word] : {std::pair{"step_fraction = 0.5", "run.step_fraction"},
-                                     {"step_bound = \"structure\"", "run.step_bound"},
-                                     {"precision = \"single\"", "run.precision"}}) {
+    for (const auto& [text, word] :
+         {std::pair{"step_fraction = 0.5", "run.step_fraction"}, {"step_bound = \"structure\"", "run.step_bound"}}) {
         lines = rigid_lines();
         lines[22] = std::string("[run]\n") + text;
         refused(lines, {word, "rigid"});
     }
-    lines = rigid_lines();
-    lines[22] = "[outcome]\nfollow = \"rest\"";
-    refused(lines, {"outcome.follow", "two_corner"});
     lines = rigid_lines();
     lines[12] = "normal_stiffness_n_m2 = 1e8"; // contacts by area have dashpots
     lines[13] = "friction = 0.68\nrestitution = 0.3";
