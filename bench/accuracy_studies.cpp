@@ -7,6 +7,8 @@
 ///   stylobate_accuracy_studies precision               single precision, less double
 ///   stylobate_accuracy_studies bound                   the step bound of the structure, less that of the blocks
 ///   stylobate_accuracy_studies stiffness               two corners, less those ten times as stiff
+///   stylobate_accuracy_studies limit                   the limit of contact by area, extrapolated from three softer
+///                                                      runs, less contacts 256 times as stiff
 ///       [--draws N] [--study NAME] [--inputs FOLDER]
 
 #include "bench/processor.hpp"
@@ -20,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -208,6 +211,55 @@ std::string difference(const Answer& a, const Answer& b)
     return fmt::format("{:+.4f} ± {:.4f}", sum / valid, std::sqrt(apart - sum * sum / valid) / valid);
 }
 
+/// The limit of probabilities a, b, c at K_N / 4, K_N and 4 K_N, less that of `far`, of the same draws.
+/// @param exponent of the error over K_N; 0: by Aitken's formula, whose linear part the standard error is of
+std::string extrapolated(const std::array<const Answer*, 3>& of, const Answer& far, double exponent)
+{
+    const double b = of[1]->probability - of[0]->probability, c = of[2]->probability - of[1]->probability;
+    // the limit is c + part x (c - b)
+    const double part = exponent > 0 ? 1 / (std::pow(4, exponent) - 1) : c / (b - c);
+    // of Aitken's formula the derivatives by a, b and c
+    const double d = b - c;
+    const std::array<double, 3> weight =
+        exponent > 0 ? std::array<double, 3>{0, -part, 1 + part}
+                     : std::array<double, 3>{c * c / (d * d), -2 * b * c / (d * d), b * b / (d * d)};
+    double n = 0, sum = 0, squares = 0;
+    for (std::size_t i = 0; i < far.fallen.size(); ++i) {
+        if (std::min({of[0]->fallen[i], of[1]->fallen[i], of[2]->fallen[i], far.fallen[i]}) < 0)
+            continue;
+        double one = -far.fallen[i];
+        for (std::size_t k = 0; k < 3; ++k)
+            one += weight[k] * of[k]->fallen[i];
+        ++n;
+        sum += one;
+        squares += one * one;
+    }
+    return fmt::format("{:+.4f} ± {:.4f}", of[2]->probability + part * c - far.probability,
+                       std::sqrt((squares / n - sum / n * sum / n) / n));
+}
+
+/// Three stiffnesses 4 times apart, their limit by several formulas, and one 256 times as stiff.
+void answer_limit(const Place& place, const std::string& inputs, std::uint64_t draws)
+{
+    const double strength = strength_of(place, inputs, [](Study&) {});
+    const auto stiffer = [&](double times) {
+        Study study = study_of(place, inputs, strength, draws);
+        study.contact.normal_stiffness_n_m2 *= times;
+        study.contact.tangential_stiffness_n_m *= times;
+        return run(study);
+    };
+    const Answer soft = stiffer(0.25), middle = stiffer(1), stiff = stiffer(4), far = stiffer(256);
+    std::string row = fmt::format("{} | {:g}", place.name, strength);
+    for (const Answer* a : {&soft, &middle, &stiff})
+        row += " | " + difference(*a, far);
+    for (const double exponent : {0.4, 0.5, 0.0})
+        row += " | " + extrapolated({&soft, &middle, &stiff}, far, exponent);
+    row += fmt::format(" | {:.3f} | {:.3g}", far.probability,
+                       (soft.seconds + middle.seconds + stiff.seconds) / far.seconds);
+    fmt::print("{}", markdown_row("{}", row));
+    std::fflush(stdout);
+}
+
 void answer(const std::string& asked, double accuracy, const Place& place, const std::string& inputs,
             std::uint64_t draws)
 {
@@ -238,20 +290,23 @@ int main(int argc, char** argv)
     std::uint64_t draws = 2048;
     app.add_option("QUESTION", asked, "which choice")
         ->required()
-        ->check(CLI::IsMember({"rigid", "compliant", "tangential", "precision", "bound", "stiffness"}));
+        ->check(CLI::IsMember({"rigid", "compliant", "tangential", "precision", "bound", "stiffness", "limit"}));
     app.add_option("--accuracy", accuracy, "of rigid contacts")->check(CLI::Range(0.001, 0.2));
     app.add_option("--draws", draws, "realizations of each")->check(CLI::Range(64, 1000000));
     app.add_option("--study", only, "one alone");
     app.add_option("--inputs", inputs, "folder of the studies")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
+    const bool limit = asked == "limit";
     try {
-        fmt::print(
-            "{} draws each, {}; less: {}\n\n{}", draws, processor(), question(asked, accuracy).reference.name,
-            markdown_head("study | strength | numerics | step [s] | probability | difference | ms a realization | "
-                          "of the study as it stands"));
+        fmt::print("{} draws each, {}; less: {}\n\n{}", draws, processor(),
+                   limit ? "256 K_N" : question(asked, accuracy).reference.name,
+                   markdown_head(limit ? "study | strength | K_N / 4 | K_N | 4 K_N | K_N, 4 K_N: exponent 0.4 | "
+                                         "exponent 0.5 | all three: Aitken | probability at 256 K_N | part of its time"
+                                       : "study | strength | numerics | step [s] | probability | difference | ms a "
+                                         "realization | of the study as it stands"));
         for (const Place& place : places())
             if (only.empty() || place.name == only)
-                answer(asked, accuracy, place, inputs, draws);
+                limit ? answer_limit(place, inputs, draws) : answer(asked, accuracy, place, inputs, draws);
     } catch (const InputError& e) {
         fmt::print(stderr, "stylobate_accuracy_studies: {}\n", e.what());
         return 2;

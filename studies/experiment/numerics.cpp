@@ -43,6 +43,15 @@ PilotRun run_pilot(const Experiment& experiment, const RunOptions& options, cons
 
 Study twice_as_fine(Study study)
 {
+    // what an accuracy has chosen counts as numerics too
+    if (study.chose("run.precision"))
+        study.run.precision = Precision::double_;
+    if (study.chose("run.step_bound"))
+        study.run.step_bound = StepBasis::block;
+    if (study.chose("contact.normal_stiffness_n_m2")) {
+        study.contact.normal_stiffness_n_m2 *= 4;
+        study.contact.tangential_stiffness_n_m *= 4;
+    }
     if (study.run.step_s)
         study.run.step_s = *study.run.step_s / 2;
     else if (study.contact.form == ContactForm::rigid)

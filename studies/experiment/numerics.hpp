@@ -19,7 +19,8 @@ struct NumericsCheck {
     double seconds = 0, finer_seconds = 0; ///< that the two took
 };
 
-/// The study with steps half as long.
+/// The study with steps half as long, and without what `run.accuracy` has chosen beside them: in double precision, by
+/// the bound of the blocks, with four times the stiffness.
 Study twice_as_fine(Study study);
 
 /// All is 0 if the observer asks to stop.

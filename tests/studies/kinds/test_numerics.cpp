@@ -68,6 +68,25 @@ TEST(Numerics, AnAccuracyChoosesTheStep)
     fixed.run.accuracy.reset();
     fixed.run.step_s = 1e-3;
     EXPECT_DOUBLE_EQ(step(twice_as_fine(fixed)), 5e-4);
+    // 1 / (120 p) of a drum of 48 x 29 mm, p2 = 3 g / (4 R): 1/1944 s; drums of other sizes by a few per mille
+    EXPECT_NEAR(1 / step(rigid_surface({"run.accuracy=0.05"})), 1944, 15);
+}
+
+/// What an accuracy has chosen is a part of the numerics, and what a study gives is not.
+TEST(Numerics, TheFinerPilotIsWithoutWhatWasChosen)
+{
+    const std::string column = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/small_scale_column.toml";
+    const Study area = twice_as_fine(read_study(column, {"run.accuracy=0.05"}));
+    EXPECT_EQ(area.run.precision, Precision::double_);
+    EXPECT_DOUBLE_EQ(area.run.step_fraction, RunSpec{}.step_fraction / 2);
+    EXPECT_DOUBLE_EQ(area.contact.normal_stiffness_n_m2, 1e8);
+    const Study given = twice_as_fine(read_study(column, {"run.accuracy=0.05", "run.precision=\"single\""}));
+    EXPECT_EQ(given.run.precision, Precision::single);
+    const Study ends = twice_as_fine(read_study(column, {"run.accuracy=0.05", "contact.damping=\"ends\""}));
+    EXPECT_EQ(ends.run.step_bound, StepBasis::block);
+    const Study rest = rigid_surface({"contact.form=\"two_corner\"", "run.accuracy=0.1"});
+    EXPECT_DOUBLE_EQ(twice_as_fine(rest).contact.normal_stiffness_n_m2, 4 * rest.contact.normal_stiffness_n_m2);
+    EXPECT_DOUBLE_EQ(twice_as_fine(rest).contact.tangential_stiffness_n_m, 4 * rest.contact.tangential_stiffness_n_m);
 }
 
 /// Without a stiffness the blocks are rigid; with one they keep their form, and only the step is chosen.
