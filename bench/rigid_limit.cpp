@@ -17,6 +17,8 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <vector>
 
 using namespace stylobate;
@@ -158,7 +160,7 @@ Answer run(const Study& study, int threads)
     return out;
 }
 
-/// The share that fell, and its standard error.
+/// The share of the valid ones that fell, and its standard error.
 std::string probability(const Answer& answer)
 {
     double fallen = 0, valid = 0;
@@ -167,7 +169,9 @@ std::string probability(const Answer& answer)
         valid += one >= 0;
     }
     const double p = fallen / valid;
-    return fmt::format("{:.4f} ± {:.4f}", p, std::sqrt(p * (1 - p) / valid));
+    const auto invalid = static_cast<double>(answer.fallen.size()) - valid;
+    return fmt::format("{:.4f} ± {:.4f}{}", p, std::sqrt(p * (1 - p) / valid),
+                       invalid > 0 ? fmt::format(" ({:.0f} invalid)", invalid) : "");
 }
 
 /// How much larger the share of `a` is than that of `b`, of the same draws, and its standard error by the pairs.
@@ -191,6 +195,7 @@ int main(int argc, char** argv)
     std::uint64_t draws = 512;
     int threads = 1;
     std::string only;
+    std::optional<double> stiffness, damping;
     bool steps = false, stiff = false, cost = false;
     app.add_flag("--steps", steps, "rigid blocks over the step alone");
     app.add_flag("--stiff", stiff, "two corners of much higher stiffness alone")->excludes("--steps");
@@ -198,6 +203,8 @@ int main(int argc, char** argv)
     app.add_option("--draws", draws, "realizations of each")->check(CLI::Range(8, 1000000));
     app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
     app.add_option("--cell", only, "one structure and shaking alone");
+    app.add_option("--stiffness", stiffness, "rows of one K_N alone [N/m2]");
+    app.add_option("--damping-ratio", damping, "rows of one damping ratio alone");
     CLI11_PARSE(app, argc, argv);
     const Table table = cost ? Table::cost : steps ? Table::steps : stiff ? Table::stiff : Table::limit;
     std::vector<Cell> all = cells;
@@ -215,6 +222,9 @@ int main(int argc, char** argv)
     fmt::print("{} draws each, {}\n\n{}", draws, processor(), markdown_head(head));
     std::vector<std::vector<Answer>> answers; // (laws) of the cells
     for (const Law& law : laws(table)) {
+        if (law.stiffness_n_m2 != stiffness.value_or(law.stiffness_n_m2) ||
+            law.damping_ratio != damping.value_or(law.damping_ratio))
+            continue;
         std::string row = text_of(law);
         answers.emplace_back();
         for (const Cell& cell : chosen) {

@@ -33,13 +33,13 @@ std::string numerics_text(const Study& study, double step_s)
 /// What the second run of the pilot is.
 std::string finer_text(const Study& study)
 {
-    std::string text = "steps half as long";
+    std::string text = study.contact.form == ContactForm::rigid ? "steps a quarter as long" : "steps half as long";
     if (study.chose("run.precision"))
         text += ", in double precision";
     if (study.chose("run.step_bound"))
         text += ", by the bound of the blocks";
     if (study.chose("contact.normal_stiffness_n_m2"))
-        text += ", four times the stiffness";
+        text += ", ten times the stiffness";
     return text;
 }
 
@@ -47,10 +47,8 @@ Json choices_of(const Study& study)
 {
     Json all = Json::list();
     for (const NumericsChoice& choice : study.chosen)
-        all.item(Json::object()
-                     .member("key", choice.key)
-                     .member("value", choice.value)
-                     .member("reason", choice.reason));
+        all.item(
+            Json::object().member("key", choice.key).member("value", choice.value).member("reason", choice.reason));
     return all;
 }
 
