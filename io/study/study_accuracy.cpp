@@ -112,7 +112,8 @@ void choose_steps(const KeyReader& keys, Study& study)
                fmt::format("steps of {:g} change probabilities by up to {:g}", 2 * run.step_fraction,
                            usual_step_accuracy));
     }
-    const bool column = study.outcome.follow == Follow::collapse, area = study.contact.form == ContactForm::area;
+    const bool column = study.structure.kind == StructureKind::column && study.outcome.follow == Follow::collapse;
+    const bool area = study.contact.form == ContactForm::area;
     if (!keys.has(step_bound) && area && study.contact.damping == DampingAt::ends &&
         *run.accuracy >= structure_accuracy) {
         run.step_bound = StepBasis::structure;

@@ -117,12 +117,19 @@ TEST(StudyAccuracy, StepsAndPrecisionOfAGivenStiffness)
     EXPECT_EQ(with({stiff, "run.precision=\"double\""}).run.precision, Precision::double_);
     EXPECT_EQ(with({stiff, "outcome.follow=\"rest\""}).run.precision, Precision::double_); // it gains nothing there
     EXPECT_EQ(with({stiff, "contact.form=\"two_corner\""}).run.precision, Precision::double_);
+    const Study colonnade =
+        read_study(std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/full_scale_colonnade_two.toml",
+                   {"outcome.follow=\"collapse\"", "run.accuracy=0.05"});
+    EXPECT_EQ(colonnade.run.precision, Precision::double_); // nor there
+    EXPECT_EQ(chosen(colonnade), Keys{});
 
     const Study at_ends = with({stiff, ends});
     EXPECT_EQ(at_ends.run.step_bound, StepBasis::structure);
     EXPECT_EQ(at_ends.run.precision, Precision::double_); // is not available there
     EXPECT_EQ(chosen(at_ends), Keys{"run.step_bound"});
     EXPECT_EQ(with({stiff, ends, "run.step_bound=\"block\""}).run.step_bound, StepBasis::block);
+
+    EXPECT_EQ(with({stiff, ends, "run.accuracy=0.04"}).run.step_bound, StepBasis::block);
 
     const Study fine = with({stiff, "run.accuracy=0.01"});
     EXPECT_DOUBLE_EQ(fine.run.step_fraction, RunSpec{}.step_fraction / 2);
