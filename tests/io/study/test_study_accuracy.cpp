@@ -117,9 +117,8 @@ TEST(StudyAccuracy, StepsAndPrecisionOfAGivenStiffness)
     EXPECT_EQ(with({stiff, "run.precision=\"double\""}).run.precision, Precision::double_);
     EXPECT_EQ(with({stiff, "outcome.follow=\"rest\""}).run.precision, Precision::double_); // it gains nothing there
     EXPECT_EQ(with({stiff, "contact.form=\"two_corner\""}).run.precision, Precision::double_);
-    const Study colonnade =
-        read_study(std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/full_scale_colonnade_two.toml",
-                   {"outcome.follow=\"collapse\"", "run.accuracy=0.05"});
+    const Study colonnade = read_study(STYLOBATE_SOURCE_DIR "/studies/inputs/full_scale_colonnade_two.toml",
+                                       {"outcome.follow=\"collapse\"", "run.accuracy=0.05"});
     EXPECT_EQ(colonnade.run.precision, Precision::double_); // nor there
     EXPECT_EQ(chosen(colonnade), Keys{});
 
