@@ -2,7 +2,9 @@
 /// ever stiffer contacts at two corners, over stiffness and damping. All on the same draws.
 ///
 ///   stylobate_rigid_limit [--draws N] [--threads N] [--cell NAME]     tables for docs/rigid_limit.md
-///   stylobate_rigid_limit --steps ...                                 of rigid blocks over the step alone
+///   stylobate_rigid_limit --steps ...                                 of rigid blocks over the step alone, and the
+///                                                                     paired differences from the finest step
+///   stylobate_rigid_limit --stiff ...                                 of much stiffer contacts, far slower
 ///   stylobate_rigid_limit --cost ...                                  realizations per second of processor time
 
 #include "bench/processor.hpp"
@@ -15,6 +17,9 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 using namespace stylobate;
 
@@ -97,7 +102,7 @@ std::string text_of(const Law& law)
     return fmt::format("two_corner, damping ratio {:g} | K_N {:.0e}", law.damping_ratio, law.stiffness_n_m2);
 }
 
-enum class Table { limit, steps, cost };
+enum class Table { limit, steps, stiff, cost };
 
 std::vector<Law> laws(Table table)
 {
@@ -110,8 +115,14 @@ std::vector<Law> laws(Table table)
         return all;
     }
     if (table == Table::steps) {
-        for (const double rate : {120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0})
+        for (const double rate : {120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0, 15360.0})
             all.push_back({.step_s = 1 / rate});
+        return all;
+    }
+    if (table == Table::stiff) {
+        for (const double K_n : {1e10, 1e11})
+            for (const double xi : {1.0, 4.0})
+                all.push_back({ContactForm::two_corner, K_n, xi});
         return all;
     }
     for (const double e : {0.0, 0.1, 0.3})
@@ -127,27 +138,53 @@ std::vector<Law> laws(Table table)
 }
 
 struct Answer {
-    double probability = 0, error = 0; ///< and its standard error
+    std::vector<signed char> fallen; ///< (draws) 1, 0, or -1: invalid
     double rate = 0; ///< realizations of 10 s per second of processor time; one that falls counts by its time
 };
 
 Answer run(const Study& study, int threads)
 {
-    std::uint64_t fallen = 0, valid = 0;
+    Answer out;
+    out.fallen.resize(study.realizations);
     double simulated_s = 0;
     RunPlan plan;
     plan.total = study.realizations;
-    plan.sink = [&](const Realization&, const Outcome& o) {
-        fallen += o.state == State::collapsed;
-        valid += o.state != State::invalid;
+    plan.sink = [&](const Realization& r, const Outcome& o) {
+        out.fallen[r.index] = o.state == State::invalid ? -1 : o.state == State::collapsed;
         simulated_s += o.end_time_s;
     };
     Observer quiet;
     const std::clock_t begin = std::clock();
     run_ensemble(Experiment(study), {best_isa(), threads}, plan, quiet);
-    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    const double p = static_cast<double>(fallen) / static_cast<double>(valid);
-    return {p, std::sqrt(p * (1 - p) / static_cast<double>(valid)), simulated_s / 10 / seconds};
+    out.rate = simulated_s / 10 / (static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    return out;
+}
+
+/// The share of the valid ones that fell, and its standard error.
+std::string probability(const Answer& answer)
+{
+    double fallen = 0, valid = 0;
+    for (const signed char one : answer.fallen) {
+        fallen += one > 0;
+        valid += one >= 0;
+    }
+    const double p = fallen / valid;
+    const auto invalid = static_cast<double>(answer.fallen.size()) - valid;
+    return fmt::format("{:.4f} ± {:.4f}{}", p, std::sqrt(p * (1 - p) / valid),
+                       invalid > 0 ? fmt::format(" ({:.0f} invalid)", invalid) : "");
+}
+
+/// How much larger the share of `a` is than that of `b`, of the same draws, and its standard error by the pairs.
+std::string difference(const Answer& a, const Answer& b)
+{
+    double sum = 0, apart = 0, valid = 0;
+    for (std::size_t i = 0; i < a.fallen.size(); ++i)
+        if (a.fallen[i] >= 0 && b.fallen[i] >= 0) {
+            sum += a.fallen[i] - b.fallen[i];
+            apart += a.fallen[i] != b.fallen[i];
+            ++valid;
+        }
+    return fmt::format("{:+.4f} ± {:.4f}", sum / valid, std::sqrt(apart - sum * sum / valid) / valid);
 }
 
 } // namespace
@@ -158,14 +195,18 @@ int main(int argc, char** argv)
     std::uint64_t draws = 512;
     int threads = 1;
     std::string only;
-    bool steps = false, cost = false;
+    std::optional<double> stiffness, damping;
+    bool steps = false, stiff = false, cost = false;
     app.add_flag("--steps", steps, "rigid blocks over the step alone");
-    app.add_flag("--cost", cost, "realizations per second of processor time")->excludes("--steps");
+    app.add_flag("--stiff", stiff, "two corners of much higher stiffness alone")->excludes("--steps");
+    app.add_flag("--cost", cost, "realizations per second of processor time")->excludes("--steps")->excludes("--stiff");
     app.add_option("--draws", draws, "realizations of each")->check(CLI::Range(8, 1000000));
     app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
     app.add_option("--cell", only, "one structure and shaking alone");
+    app.add_option("--stiffness", stiffness, "rows of one K_N alone [N/m2]");
+    app.add_option("--damping-ratio", damping, "rows of one damping ratio alone");
     CLI11_PARSE(app, argc, argv);
-    const Table table = cost ? Table::cost : steps ? Table::steps : Table::limit;
+    const Table table = cost ? Table::cost : steps ? Table::steps : stiff ? Table::stiff : Table::limit;
     std::vector<Cell> all = cells;
     if (steps)
         all.push_back(alike);
@@ -179,13 +220,28 @@ int main(int argc, char** argv)
             head += fmt::format(" | {}, {:g} Hz, {:g} m/s2", cell.name, cell.frequency_hz, cell.pga_m_s2);
         }
     fmt::print("{} draws each, {}\n\n{}", draws, processor(), markdown_head(head));
+    std::vector<std::vector<Answer>> answers; // (laws) of the cells
     for (const Law& law : laws(table)) {
+        if (law.stiffness_n_m2 != stiffness.value_or(law.stiffness_n_m2) ||
+            law.damping_ratio != damping.value_or(law.damping_ratio))
+            continue;
         std::string row = text_of(law);
+        answers.emplace_back();
         for (const Cell& cell : chosen) {
-            const Answer a = run(study_of(cell, law, draws), threads);
-            row += cost ? fmt::format(" | {:.0f}", a.rate) : fmt::format(" | {:.3f} ± {:.3f}", a.probability, a.error);
+            answers.back().push_back(run(study_of(cell, law, draws), threads));
+            const Answer& a = answers.back().back();
+            row += " | " + (cost ? fmt::format("{:.0f}", a.rate) : probability(a));
         }
         fmt::print("{}", markdown_row("{}", row));
         std::fflush(stdout);
+    }
+    if (!steps)
+        return 0;
+    fmt::print("\nLess the finest step\n\n{}", markdown_head(head));
+    for (std::size_t i = 0; i + 1 < answers.size(); ++i) {
+        std::string row = text_of(laws(table)[i]);
+        for (std::size_t k = 0; k < chosen.size(); ++k)
+            row += " | " + difference(answers[i][k], answers.back()[k]);
+        fmt::print("{}", markdown_row("{}", row));
     }
 }

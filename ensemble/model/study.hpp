@@ -379,10 +379,18 @@ struct RunSpec {
     double step_fraction = 0.9; ///< of the safe bound of each realization (see README.md of this folder)
     StepBasis step_bound = StepBasis::block;
     std::optional<double> step_s; ///< a fixed step instead
-    /// What the numerics may change in a collapse probability; they are chosen for it (`Sampler::step`).
+    /// What the numerics may change in a collapse probability; they are chosen for it where the study gives nothing
+    /// (`Study::chosen`).
     std::optional<double> accuracy;
     bool allow_step_above_bound = false; ///< run such a step all the same
     double max_invalid_fraction = 0.001; ///< more invalid realizations than this: exit status 3
+};
+
+/// A part of the numerics that `run.accuracy` has chosen, because the study does not give it.
+struct NumericsChoice {
+    std::string key;    ///< "contact.form"
+    std::string value;  ///< as in a study file
+    std::string reason; ///< a sentence without its full stop
 };
 
 /// What a results file holds of the realizations.
@@ -418,6 +426,13 @@ struct Study {
     OutputSpec output;
     OutcomeSpec outcome;
     RunSpec run;
+
+    std::vector<NumericsChoice> chosen; ///< by `run.accuracy`; in the text they are values like others
+    /// Whether it was chosen, by its key.
+    bool chose(const std::string& key) const
+    {
+        return std::any_of(chosen.begin(), chosen.end(), [&](const NumericsChoice& one) { return one.key == key; });
+    }
 
     std::string text; ///< canonical TOML of all the above: two studies are the same if this is
 

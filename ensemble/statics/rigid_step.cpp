@@ -7,10 +7,11 @@ namespace stylobate {
 
 namespace {
 
-// Of 1 / p, p2 = 3 g / (4 R) the rocking frequency of the smallest free block.
-constexpr double part_of_rocking = 1.0 / 60;
+// For `usual_accuracy`, which the worst cell of `stylobate_rigid_limit --steps` reaches just so: of 1 / p, p2 = 3 g /
+// (4 R) the rocking frequency of the smallest free block.
+constexpr double part_of_rocking = 1.0 / 120;
 // Of a period of the shaking.
-constexpr double part_of_period = 1.0 / 200;
+constexpr double part_of_period = 1.0 / 400;
 
 } // namespace
 

@@ -10,8 +10,8 @@ namespace stylobate {
 inline constexpr double usual_accuracy = 0.05;
 
 /// A part of the time in which the smallest free block falls over, and of the shortest period of the shaking: the
-/// shorter of the two. It is in proportion to the accuracy, as the measured errors of collapse probabilities are
-/// (`docs/rigid_limit.md`).
+/// shorter of the two. It is in proportion to the accuracy: the measured errors of collapse probabilities fall at least
+/// so fast where they are smaller than the usual accuracy (`docs/rigid_limit.md`).
 /// @param accuracy of a collapse probability   @return [s]
 double rigid_step_s(const Realization& realization, double accuracy = usual_accuracy);
 

@@ -12,6 +12,7 @@
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
 #include "io/keys/study_tables.hpp"
+#include "io/study/study_accuracy.hpp"
 #include "io/study/study_axis.hpp"
 #include "io/study/study_excitation.hpp"
 #include "io/study/study_fragility.hpp"
@@ -36,9 +37,6 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 constexpr std::size_t most_title_bytes = 200;
-/// Compliant contacts at the usual part of the safe step change collapse probabilities by up to this
-/// (`docs/work_precision.md`).
-constexpr double step_accuracy = 0.02;
 
 /// A dashpot's ratio or its coefficient.
 void read_damping(const KeyReader& keys, const NumberKey& ratio_key, const NumberKey& coefficient_key, double& ratio,
@@ -50,12 +48,12 @@ void read_damping(const KeyReader& keys, const NumberKey& ratio_key, const Numbe
     coefficient = keys.maybe(coefficient_key);
 }
 
-/// @param accurate an accuracy is asked for: contacts without a stiffness are then rigid
-ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, bool accurate)
+/// @param chosen by an accuracy
+ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, const ChosenContact& chosen)
 {
     using namespace contact_keys;
     ContactSpec c;
-    c.form = accurate && !keys.has(form) && !keys.has(normal_stiffness) ? ContactForm::rigid : keys.read(form);
+    c.form = chosen.form ? *chosen.form : keys.read(form);
     const char* word = word_for(contact_form_names, c.form);
     keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
     if (c.form == ContactForm::rigid) {
@@ -65,7 +63,7 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, 
         c.restitution_law = keys.read(restitution_law);
         return c;
     }
-    c.normal_stiffness_n_m2 = keys.read(normal_stiffness);
+    c.normal_stiffness_n_m2 = chosen.stiffness_n_m2 ? *chosen.stiffness_n_m2 : keys.read(normal_stiffness);
     double widest = 0;
     for (const DrumSpec& drum : structure.columns[0].drums)
         widest = std::max(widest, drum.width_m);
@@ -244,9 +242,6 @@ RunSpec read_run(const KeyReader& keys, ContactForm form)
         keys.refuse(accuracy.name,
                     fmt::format("and {} exclude each other", (r.step_s ? step.name : step_fraction.name)),
                     "Give one of the two.");
-    if (r.accuracy && *r.accuracy < step_accuracy)
-        r.step_fraction /= 2;
-
     r.max_invalid_fraction = keys.read(max_invalid);
     return r;
 }
@@ -313,8 +308,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains use their own random numbers.");
 
     study.structure = read_structure(top.table(structure_keys::table));
-    study.contact = read_contact(top.table(contact_keys::table), study.structure,
-                                 top.table(run_keys::table).has(run_keys::accuracy));
+    study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
+    study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
     study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
     if (is_surface) {
         if (!top.has("surface"))
@@ -349,12 +344,14 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 
     study.initial = read_initial(top.table(initial_keys::table), study.structure);
     read_output(top.table(output_keys::table), study);
-    study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
     study.run = read_run(top.table(run_keys::table), study.contact.form);
-    if (study.contact.form == ContactForm::rigid)
-        check_rigid(top, study);
-    else
+    if (study.contact.form == ContactForm::rigid) {
+        if (const auto obstacle = rigid_obstacle(top, study.structure))
+            obstacle->refuse();
+    } else {
         refuse_restitution(top, study);
+    }
+    choose_steps(top.table(run_keys::table), study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
     if (top.has("twins")) {

@@ -23,6 +23,13 @@ void refuse_restitution_of(const KeyReader& top, const BedSpec& bed, const char*
                     "Remove it, or give contact.form = \"rigid\".");
 }
 
+/// A mechanism that acts on the base alone, or moves a block.
+bool is_supported(Mechanism mechanism)
+{
+    return mechanism == Mechanism::drum_offset || mechanism == Mechanism::sensor_gain ||
+           mechanism == Mechanism::time_offset || mechanism == Mechanism::harmonic_distortion;
+}
+
 } // namespace
 
 void refuse_restitution(const KeyReader& top, const Study& study)
@@ -34,38 +41,41 @@ void refuse_restitution(const KeyReader& top, const Study& study)
         refuse_restitution_of(top, epistyle.bed, "epistyles");
 }
 
-void check_rigid(const KeyReader& top, const Study& study)
+std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const StructureSpec& structure)
 {
     const std::string form = "contact.form = \"rigid\"";
-    for (const MechanismSpec& spec : study.mechanisms)
-        if (spec.mechanism != Mechanism::drum_offset && spec.mechanism != Mechanism::sensor_gain &&
-            spec.mechanism != Mechanism::time_offset && spec.mechanism != Mechanism::harmonic_distortion)
-            top.table(mechanisms_table())
-                .refuse(to_string(spec.mechanism), "is not available with " + form,
-                        "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
-                        "it, or give contact.form = \"two_corner\" with a high stiffness.");
+    const KeyReader mechanisms = top.table(mechanisms_table().name);
+    for (const MechanismRule& rule : mechanism_rules())
+        if (mechanisms.has(rule.name) && !is_supported(rule.mechanism))
+            return RigidObstacle{
+                mechanisms, rule.name, "is not available with " + form,
+                "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
+                "it, or give contact.form = \"two_corner\" with a high stiffness."};
     const auto stiff = [](const BedSpec& bed) { return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m; };
-    for (const ColumnSpec& column : study.structure.columns)
+    const KeyReader of_structure = top.table(structure_keys::table.name);
+    for (const ColumnSpec& column : structure.columns)
         for (const DrumSpec& drum : column.drums)
             if (stiff(drum.bed))
-                top.table(structure_keys::table)
-                    .refuse("drums", "gives a bed a stiffness, which is not used by " + form, "Remove it.");
-    for (const EpistyleSpec& epistyle : study.structure.epistyles)
+                return RigidObstacle{of_structure, "drums", "gives a bed a stiffness, which is not used by " + form,
+                                     "Remove it."};
+    for (const EpistyleSpec& epistyle : structure.epistyles)
         if (stiff(epistyle.bed))
-            top.table(structure_keys::table)
-                .refuse("epistyles", "gives a seat a stiffness, which is not used by " + form, "Remove it.");
-    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+            return RigidObstacle{of_structure, "epistyles", "gives a seat a stiffness, which is not used by " + form,
+                                 "Remove it."};
+    const std::vector<PlacedBlock> blocks = lay_out(structure).blocks;
     for (std::size_t i = 0; i < blocks.size(); ++i)
         for (std::size_t k = i + 1; k < blocks.size(); ++k) {
             const PlacedBlock &a = blocks[i], &b = blocks[k];
             const double beside = std::max(a.left(), b.left()) - std::min(a.right(), b.right());
             const double over = std::max(a.bottom(), b.bottom()) - std::min(a.top(), b.top());
             if (over < -1e-9 && beside < 1e-9)
-                top.refuse(contact_keys::table.name,
-                           fmt::format("form = \"rigid\" has contacts at beds alone, and {} stands against {}", b.name,
-                                       a.name),
-                           "Leave a gap between them, or give contact.form = \"two_corner\".");
+                return RigidObstacle{
+                    top, contact_keys::table.name,
+                    fmt::format("form = \"rigid\" has contacts at beds alone, and {} stands against {}", b.name,
+                                a.name),
+                    "Leave a gap between them, or give contact.form = \"two_corner\"."};
         }
+    return std::nullopt;
 }
 
 } // namespace stylobate

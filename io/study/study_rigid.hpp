@@ -5,13 +5,23 @@
 
 #include "ensemble/model/study.hpp"
 
+#include <optional>
+#include <string>
+
 namespace stylobate {
 
-/// Refuses what needs a contact that yields, and what the step of the rigid form leaves out. (Keys that only other
-/// forms use are refused where they are read.)
-/// @param top of the file   @param study whose structure, contacts, mechanisms and outcome have been read
-/// @throws InputError
-void check_rigid(const KeyReader& top, const Study& study);
+/// What needs a contact that yields, or what the step of the rigid form leaves out. (Keys that only other forms use
+/// are refused where they are read.)
+struct RigidObstacle {
+    KeyReader where; ///< the table of the key
+    std::string key, what, todo;
+
+    [[noreturn]] void refuse() const { where.refuse(key, what, todo); }
+};
+
+/// The first one of a study; none: its contacts may be rigid.
+/// @param top of the file
+std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const StructureSpec& structure);
 
 /// Refuses the restitution of a bed with contacts that yield.
 void refuse_restitution(const KeyReader& top, const Study& study);

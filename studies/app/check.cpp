@@ -30,6 +30,28 @@ std::string numerics_text(const Study& study, double step_s)
                        word_for(contact_form_names, study.contact.form), step_s, 1 / step_s);
 }
 
+/// What the second run of the pilot is.
+std::string finer_text(const Study& study)
+{
+    std::string text = study.contact.form == ContactForm::rigid ? "steps a quarter as long" : "steps half as long";
+    if (study.chose("run.precision"))
+        text += ", in double precision";
+    if (study.chose("run.step_bound"))
+        text += ", by the bound of the blocks";
+    if (study.chose("contact.normal_stiffness_n_m2"))
+        text += ", ten times the stiffness";
+    return text;
+}
+
+Json choices_of(const Study& study)
+{
+    Json all = Json::list();
+    for (const NumericsChoice& choice : study.chosen)
+        all.item(
+            Json::object().member("key", choice.key).member("value", choice.value).member("reason", choice.reason));
+    return all;
+}
+
 } // namespace
 
 int check_command(const CommonOptions& options, const std::string& file, std::uint64_t pilot)
@@ -60,6 +82,7 @@ int check_command(const CommonOptions& options, const std::string& file, std::ui
         fmt::print("{}\n", Json::object()
                                .member("form", word_for(contact_form_names, study.contact.form))
                                .member("mean_step_s", check.step_s)
+                               .member("chosen", choices_of(study))
                                .member("realizations", study.total())
                                .member("pilot", check.realizations)
                                .member("collapse_probability", share)
@@ -71,15 +94,16 @@ int check_command(const CommonOptions& options, const std::string& file, std::ui
         return missed ? exit_invalid : exit_done;
     }
     fmt::print("{}: {} realizations; {}\n", file, study.total(), numerics_text(study, check.step_s));
-    fmt::print("pilot: {} of them, {:.3g} of these collapsed; with steps half as long {:.3g}\n", check.realizations,
-               share, n > 0 ? static_cast<double>(check.finer) / n : 0);
+    for (const NumericsChoice& choice : study.chosen)
+        fmt::print("chosen: {} = {}: {}\n", choice.key, choice.value, choice.reason);
+    fmt::print("pilot: {} of them, {:.3g} of these collapsed; with {} {:.3g}\n", check.realizations, share,
+               finer_text(study), n > 0 ? static_cast<double>(check.finer) / n : 0);
     fmt::print("error of the numerics: {:+.4f} ± {:.4f} of the collapse probability (difference of the two, and its "
                "standard error)\n",
                check.difference, check.sd);
     if (per_s > 0)
-        fmt::print(
-            "about {:.3g} s for all realizations with these threads; with steps half as long {:.2g} times that\n",
-            static_cast<double>(study.total()) / per_s, check.finer_seconds / check.seconds);
+        fmt::print("about {:.3g} s for all realizations with these threads; the finer ones {:.2g} times that\n",
+                   static_cast<double>(study.total()) / per_s, check.finer_seconds / check.seconds);
     if (missed)
         fmt::print("run.accuracy = {:g} is not reached: give a smaller one.\n", wanted);
     else if (wanted > 0 && check.sd > wanted)

@@ -116,7 +116,7 @@ private:
         auto* check = app_.add_subcommand(
             "check", "say how a study would be run, and what its numerics change in its collapse probability");
         check->add_option("STUDY", file_, "study file (TOML)")->required();
-        check->add_option("--pilot", pilot_, "realizations that are run twice, the second time twice as fine")
+        check->add_option("--pilot", pilot_, "realizations that are run twice, the second time with finer numerics")
             ->check(CLI::Range(16, 10'000'000))
             ->capture_default_str();
         add_set(*check, options_);

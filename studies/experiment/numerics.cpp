@@ -41,14 +41,24 @@ PilotRun run_pilot(const Experiment& experiment, const RunOptions& options, cons
 
 } // namespace
 
-Study twice_as_fine(Study study)
+Study finer(Study study)
 {
+    const bool rigid = study.contact.form == ContactForm::rigid;
+    const double parts = rigid ? 4 : 2;
     if (study.run.step_s)
-        study.run.step_s = *study.run.step_s / 2;
-    else if (study.contact.form == ContactForm::rigid)
-        study.run.accuracy = study.run.accuracy.value_or(usual_accuracy) / 2;
+        study.run.step_s = *study.run.step_s / parts;
+    else if (rigid)
+        study.run.accuracy = study.run.accuracy.value_or(usual_accuracy) / parts;
     else
-        study.run.step_fraction /= 2;
+        study.run.step_fraction /= parts;
+    if (study.chose("run.precision"))
+        study.run.precision = Precision::double_;
+    if (study.chose("run.step_bound"))
+        study.run.step_bound = StepBasis::block;
+    if (study.chose("contact.normal_stiffness_n_m2")) {
+        study.contact.normal_stiffness_n_m2 *= 10;
+        study.contact.tangential_stiffness_n_m *= 10;
+    }
     return study;
 }
 
@@ -62,21 +72,21 @@ NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& opt
     const PilotRun plain = run_pilot(experiment, options, indices, observer);
     if (observer.stop_requested())
         return {};
-    const Experiment fine(twice_as_fine(experiment.study()), experiment.motions());
-    const PilotRun finer = run_pilot(fine, options, indices, observer);
+    const Experiment fine(finer(experiment.study()), experiment.motions());
+    const PilotRun of_fine = run_pilot(fine, options, indices, observer);
 
     NumericsCheck out;
     out.step_s = plain.step_s / static_cast<double>(count);
     out.seconds = plain.seconds;
-    out.finer_seconds = finer.seconds;
+    out.finer_seconds = of_fine.seconds;
     double alone = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (!plain.collapsed[i] || !finer.collapsed[i])
+        if (!plain.collapsed[i] || !of_fine.collapsed[i])
             continue;
         ++out.realizations;
         out.collapsed += *plain.collapsed[i];
-        out.finer += *finer.collapsed[i];
-        alone += *plain.collapsed[i] != *finer.collapsed[i];
+        out.finer += *of_fine.collapsed[i];
+        alone += *plain.collapsed[i] != *of_fine.collapsed[i];
     }
     if (out.realizations == 0)
         return out;

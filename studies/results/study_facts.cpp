@@ -173,15 +173,22 @@ std::vector<std::pair<std::string, std::string>> study_facts(const Study& study,
     for (std::size_t i = 0; i < study.mechanisms.size(); ++i)
         if (const Mechanism m = study.mechanisms[i].mechanism; i == 0 || study.mechanisms[i - 1].mechanism != m)
             mechanisms += fmt::format("{}{} ({})", i == 0 ? "" : ", ", to_string(m), rule_of(m).says);
-    return {{"Structure", structure_text(study, layout)},
-            {"Contact", contact_text(study.contact)},
-            {"Excitation", excitation_text(study, one)},
-            {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
-            one ? std::pair<std::string, std::string>{"Drawn in this realization", drawn.empty() ? "nothing" : drawn}
-                : std::pair<std::string, std::string>{"Drawn anew in each realization",
-                                                      perturbed.empty() ? "nothing" : perturbed},
-            {"Collapse", collapse_criterion(study.outcome)},
-            {"Followed", followed_until(study.outcome)}};
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"Structure", structure_text(study, layout)},
+        {"Contact", contact_text(study.contact)},
+        {"Excitation", excitation_text(study, one)},
+        {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
+        one ? std::pair<std::string, std::string>{"Drawn in this realization", drawn.empty() ? "nothing" : drawn}
+            : std::pair<std::string, std::string>{"Drawn anew in each realization",
+                                                  perturbed.empty() ? "nothing" : perturbed},
+        {"Collapse", collapse_criterion(study.outcome)},
+        {"Followed", followed_until(study.outcome)}};
+    std::string chosen;
+    for (const NumericsChoice& choice : study.chosen)
+        chosen += fmt::format("{}{} = {} ({})", chosen.empty() ? "" : "; ", choice.key, choice.value, choice.reason);
+    if (!chosen.empty())
+        facts.emplace_back("Chosen by run.accuracy", chosen);
+    return facts;
 }
 
 Html structure_svg(const Study& study)

@@ -41,12 +41,12 @@ TEST(Numerics, ThePilotCountsWhatTheRunsGive)
     const Study study = rigid_surface();
     Observer quiet;
     const NumericsCheck check = check_numerics(Experiment(study), {best_isa(), 2}, 24, quiet);
-    const auto plain = collapsed_of(study), finer = collapsed_of(twice_as_fine(study));
+    const auto plain = collapsed_of(study), fine = collapsed_of(finer(study));
     std::uint64_t first = 0, second = 0, apart = 0;
     for (std::uint64_t i = 0; i < 24; ++i) { // of 72: every third
         first += plain.at(3 * i);
-        second += finer.at(3 * i);
-        apart += plain.at(3 * i) != finer.at(3 * i);
+        second += fine.at(3 * i);
+        apart += plain.at(3 * i) != fine.at(3 * i);
     }
     EXPECT_EQ(check.realizations, 24U);
     EXPECT_EQ(check.collapsed, first);
@@ -63,11 +63,30 @@ TEST(Numerics, AnAccuracyChoosesTheStep)
     const auto step = [](const Study& study) { return Experiment(study).sampler().realization(0).step_s; };
     const double coarse = step(rigid_surface({"run.accuracy=0.02"}));
     EXPECT_DOUBLE_EQ(step(rigid_surface({"run.accuracy=0.01"})), coarse / 2);
-    EXPECT_DOUBLE_EQ(step(twice_as_fine(rigid_surface({"run.accuracy=0.02"}))), coarse / 2);
+    EXPECT_DOUBLE_EQ(step(finer(rigid_surface({"run.accuracy=0.02"}))), coarse / 4);
     Study fixed = rigid_surface();
     fixed.run.accuracy.reset();
     fixed.run.step_s = 1e-3;
-    EXPECT_DOUBLE_EQ(step(twice_as_fine(fixed)), 5e-4);
+    EXPECT_DOUBLE_EQ(step(finer(fixed)), 2.5e-4);
+    // 1 / (120 p) of a drum of 48 x 29 mm, p2 = 3 g / (4 R): 1/1944 s; drums of other sizes by a few per mille
+    EXPECT_NEAR(1 / step(rigid_surface({"run.accuracy=0.05"})), 1944, 15);
+}
+
+/// What an accuracy has chosen is a part of the numerics, and what a study gives is not.
+TEST(Numerics, TheFinerPilotIsWithoutWhatWasChosen)
+{
+    const std::string column = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/small_scale_column.toml";
+    const Study area = finer(read_study(column, {"run.accuracy=0.05"}));
+    EXPECT_EQ(area.run.precision, Precision::double_);
+    EXPECT_DOUBLE_EQ(area.run.step_fraction, RunSpec{}.step_fraction / 2);
+    EXPECT_DOUBLE_EQ(area.contact.normal_stiffness_n_m2, 1e8);
+    const Study given = finer(read_study(column, {"run.accuracy=0.05", "run.precision=\"single\""}));
+    EXPECT_EQ(given.run.precision, Precision::single);
+    const Study ends = finer(read_study(column, {"run.accuracy=0.05", "contact.damping=\"ends\""}));
+    EXPECT_EQ(ends.run.step_bound, StepBasis::block);
+    const Study rest = rigid_surface({"contact.form=\"two_corner\"", "run.accuracy=0.1"});
+    EXPECT_DOUBLE_EQ(finer(rest).contact.normal_stiffness_n_m2, 10 * rest.contact.normal_stiffness_n_m2);
+    EXPECT_DOUBLE_EQ(finer(rest).contact.tangential_stiffness_n_m, 10 * rest.contact.tangential_stiffness_n_m);
 }
 
 /// Without a stiffness the blocks are rigid; with one they keep their form, and only the step is chosen.
