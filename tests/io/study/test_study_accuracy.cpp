@@ -74,15 +74,11 @@ TEST(StudyAccuracy, BlocksAreRigidWhereNothingMustYield)
 /// 2 x 2700 kg x 9.81 m/s2 over a width of 1 m, a sinkage of 1e-5 m: 5.3e9 N/m2.
 TEST(StudyAccuracy, TwoCornersAndTheirStiffnessWhereSomethingMustYield)
 {
-    for (const std::vector<std::string>& settings :
-         {std::vector<std::string>{"outcome.follow=\"rest\""},
-          {"mechanisms.stribeck.dynamic_friction=0.5", "mechanisms.stribeck.velocity_m_s=0.01"}}) {
-        const Study study = with(settings);
-        EXPECT_EQ(study.contact.form, ContactForm::two_corner);
-        EXPECT_DOUBLE_EQ(study.contact.normal_stiffness_n_m2, 5.3e9);
-        EXPECT_EQ(chosen(study), (Keys{"contact.form", "contact.normal_stiffness_n_m2"}));
-        EXPECT_EQ(parse_study(study.text, "again.toml").text, study.text);
-    }
+    const Study study = with({"mechanisms.stribeck.dynamic_friction=0.5", "mechanisms.stribeck.velocity_m_s=0.01"});
+    EXPECT_EQ(study.contact.form, ContactForm::two_corner);
+    EXPECT_DOUBLE_EQ(study.contact.normal_stiffness_n_m2, 5.3e9);
+    EXPECT_EQ(chosen(study), (Keys{"contact.form", "contact.normal_stiffness_n_m2"}));
+    EXPECT_EQ(parse_study(study.text, "again.toml").text, study.text);
     const Study given = with({"contact.form=\"two_corner\""});
     EXPECT_DOUBLE_EQ(given.contact.normal_stiffness_n_m2, 5.3e9);
     EXPECT_EQ(chosen(given), Keys{"contact.normal_stiffness_n_m2"});
@@ -92,13 +88,14 @@ TEST(StudyAccuracy, RefusesWhatNoChoiceReaches)
 {
     refused({"contact.form=\"area\""}, {"contact.normal_stiffness_n_m2 is missing", "two_corner"});
     refused({"contact.form=\"points\""}, {"contact.normal_stiffness_n_m2 is missing", "points"});
-    refused({"outcome.follow=\"rest\"", "run.accuracy=0.09"}, {"run.accuracy", "not reached by any stiffness", "rest"});
+    refused({"mechanisms.drag.coefficient_n_s2_m2=1", "run.accuracy=0.09"},
+            {"run.accuracy", "not reached by any stiffness", "drag"});
     refused({"mechanisms.hertz.exponent=1.5"}, {"mechanisms.hertz", "how contacts yield", "normal_stiffness_n_m2"});
     refused({"mechanisms.rate_damping.rate_s_m=1"}, {"mechanisms.rate_damping", "how contacts yield"});
     refused({"mechanisms.face_damping.share=0.5"}, {"mechanisms.face_damping", "how contacts yield"});
-    refused(
-        {"outcome.follow=\"rest\"", "perturbation.normal_stiffness={ distribution = \"lognormal\", sigma_ln = 0.7 }"},
-        {"perturbation.normal_stiffness", "a stiffness that the study does not give"});
+    refused({"mechanisms.drag.coefficient_n_s2_m2=1",
+             "perturbation.normal_stiffness={ distribution = \"lognormal\", sigma_ln = 0.7 }"},
+            {"perturbation.normal_stiffness", "a stiffness that the study does not give"});
     refused({"run.step_s=1e-4"}, {"run.accuracy", "step_s exclude each other"});
 }
 
