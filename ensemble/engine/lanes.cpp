@@ -71,8 +71,9 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
             order_.push_back(block);
         }
     };
-    for (const Joint& joint : pattern.joints)
-        for (int block : {joint.lower, joint.upper})
+    // from the end: those on which others rest come last, next to the free blocks, as `Topology::stack` asks
+    for (auto joint = pattern.joints.rbegin(); joint != pattern.joints.rend(); ++joint)
+        for (int block : {joint->lower, joint->upper})
             if (pattern.blocks[static_cast<std::size_t>(block)].fixed)
                 take(block);
     topology_.fixed = static_cast<int>(order_.size());
