@@ -30,7 +30,7 @@ void peak_fma(benchmark::State& state, Isa isa)
 double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
 {
     const Sampler sampler(study, nullptr);
-    LaneSet lanes(study, nullptr, kernels(isa), sampler.realization(0));
+    LaneSet lanes(study, nullptr, kernels(isa), sampler.realization(0), study.realizations);
     std::uint64_t next = 0;
     const auto start = [&](int lane) {
         lanes.clear(lane);

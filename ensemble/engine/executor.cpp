@@ -30,7 +30,7 @@ class Run {
 public:
     Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
-          kernels_(kernels(options.isa)), plan_(plan), observer_(observer), order_(plan.total),
+          kernels_(kernels(options.isa)), threads_(options.threads), plan_(plan), observer_(observer), order_(plan.total),
           done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done), pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
@@ -45,7 +45,7 @@ public:
     void work() noexcept
     {
         guarded([this] {
-            LaneSet lanes(study_, record_, kernels_, pattern_);
+            LaneSet lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
             for (int lane = 0; lane < lanes.lanes(); ++lane)
                 refill(lanes, lane);
             while (lanes.active() > 0 && !stopped_) {
@@ -67,9 +67,8 @@ public:
     {
         guarded([&] {
             // no more slots than this device's share of what is to do
-            const std::uint64_t left = plan_.total - std::min(plan_.total, before_);
             const auto most =
-                static_cast<int>(std::min<std::uint64_t>(left / static_cast<std::uint64_t>(share) + 1, most_slots));
+                static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
             SlotSet set(study_, record_, pattern_, device, slots, most);
             tbb::parallel_for(0, set.slots(), [&](int slot) { refill(set, slot); });
             for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
@@ -124,6 +123,9 @@ private:
         lane_chunks_ += static_cast<std::uint64_t>(lanes);
         active_chunks_ += static_cast<std::uint64_t>(active);
     }
+
+    /// Realizations that were to be run at the beginning.
+    std::uint64_t left() const { return plan_.total - std::min(plan_.total, before_); }
 
     Realization realize(std::uint64_t index) const
     {
@@ -184,6 +186,7 @@ private:
     const Sampler& sampler_;
     const Motion* record_;
     const KernelTable& kernels_;
+    const int threads_;
     const RunPlan& plan_;
     Observer& observer_;
     const Clock::time_point start_ = Clock::now();

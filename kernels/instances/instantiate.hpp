@@ -6,6 +6,8 @@
 #include "kernels/rigid_step.hpp"
 #include "kernels/step.hpp"
 
+#include <type_traits>
+
 namespace stylobate {
 
 /// `count` multiply-adds on registers.
@@ -66,19 +68,34 @@ void run_model(const Topology& topology, const Bundle& bundle, int first, int la
     }
 }
 
+/// Steps a stack of the paper's model without watched pairs.
+template <class Real, class Here>
+void run_stack(const Topology& topology, const Bundle& bundle, int first, int last)
+{
+    Stepper<Real, OfFile<Here, Baseline>, false, true>(topology, bundle).run(first, last);
+}
+
 /// @tparam Single the register of `Real`'s instruction set in single precision
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
-template <class Real, class Single, class Here>
-constexpr KernelTable kernel_table(Isa isa)
+/// @tparam Two two registers at a time (`Twice<Real>`); void: none
+/// @param twice_blocks up to so many free blocks `Two` is faster (`docs/performance.md`)
+template <class Real, class Single, class Here, class Two = void>
+constexpr KernelTable kernel_table(Isa isa, int twice_blocks = 0)
 {
-    return {isa,
-            Lanes<Real>::count,
-            Lanes<Single>::count,
-            run_model<Real, Here>,
-            run_steps<Single, OfFile<Here, Baseline>>,
-            fill_base_table<Real, Here>,
-            fill_single_base_table<Real, Single, Here>,
-            peak_fma<Real, Here>};
+    KernelTable table{isa,
+                      Lanes<Real>::count,
+                      Lanes<Single>::count,
+                      run_model<Real, Here>,
+                      run_steps<Single, OfFile<Here, Baseline>>,
+                      fill_base_table<Real, Here>,
+                      fill_single_base_table<Real, Single, Here>,
+                      peak_fma<Real, Here>};
+    if constexpr (!std::is_void_v<Two>) {
+        table.twice_blocks = twice_blocks;
+        table.run_twice = run_stack<Two, Here>;
+        table.fill_twice = fill_base_table<Two, Here>;
+    }
+    return table;
 }
 
 } // namespace stylobate
