@@ -116,7 +116,17 @@ protected:
             return b_.close[n];
     }
 
-    const Topology topology_;
+    /// Forces besides those of the beds are summed up in the blocks' rows: from here on.
+    STYLOBATE_INLINE void clear_forces() const
+    {
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            put(OfBlock::force_x, i, Real(0.0));
+            put(OfBlock::force_y, i, Real(0.0));
+            put(OfBlock::moment, i, Real(0.0));
+        }
+    }
+
+    const Topology topology_; ///< a copy: what stores might change would be read again after each of them
 };
 
 } // namespace stylobate

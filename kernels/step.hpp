@@ -17,6 +17,9 @@
 /// Beds go through the phases in every step. Watched pairs (`topology.hpp`) do where their bounding boxes meet; which
 /// pairs come so close is determined only when a block has strayed. Neither changes a bit of the result: a pair that
 /// does not touch adds nothing, whether or not it is evaluated because of another lane.
+///
+/// What is not inlined gets a copy of the stepper: if its address were known elsewhere, the compiler would read its
+/// pointers again after every store.
 
 #include "kernels/contact.hpp"
 #include "kernels/mechanism.hpp"
@@ -57,7 +60,7 @@ public:
             const bool audit = step + 1 == last;
             [[maybe_unused]] bool others = Mechanism::extended;
             if constexpr (Mechanism::extended)
-                clear_forces();
+                Near::clear_forces();
             for (int begin = 0; begin < beds; begin += joint_group)
                 contacts<detail::Bed>(
                     beds - begin < joint_group ? beds - begin : joint_group, [begin](int j) { return begin + j; },
@@ -448,40 +451,26 @@ private:
     /// @return whether one met: there are then forces in the blocks' rows
     STYLOBATE_APART static bool pairs(Stepper self, int close, Scratch* scratch, bool audit)
     {
-        return self.evaluate_pairs(close, scratch, audit);
-    }
-
-    STYLOBATE_INLINE bool evaluate_pairs(int close, Scratch* scratch, bool audit) const
-    {
         bool met = false;
         if (audit)
-            for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
-                put(OfJoint::elastic, joint, Real(0.0));
+            for (int joint = self.topology_.beds(); joint < self.topology_.joints; ++joint)
+                self.put(OfJoint::elastic, joint, Real(0.0));
         // boxes that touch to rounding are included
-        const Real margin = get(OfRealization::skin) * Real(1e-3);
+        const Real margin = self.get(OfRealization::skin) * Real(1e-3);
         for (int next = 0; next < close;) {
             int group[joint_group] = {}, count = 0;
             for (; next < close && count < joint_group; ++next)
-                if (any(Near::meets(Near::listed(next), margin)))
-                    group[count++] = Near::listed(next);
+                if (any(self.meets(self.listed(next), margin)))
+                    group[count++] = self.listed(next);
             if (count == 0)
                 continue;
             if (!Mechanism::extended && !met)
-                clear_forces();
+                self.clear_forces();
             met = true;
-            contacts<detail::Pair>(
+            self.template contacts<detail::Pair>(
                 count, [&group](int j) { return group[j]; }, scratch, audit);
         }
         return met;
-    }
-
-    STYLOBATE_INLINE void clear_forces() const
-    {
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            put(OfBlock::force_x, i, Real(0.0));
-            put(OfBlock::force_y, i, Real(0.0));
-            put(OfBlock::moment, i, Real(0.0));
-        }
     }
 
     /// Sum of the contact forces on a block, its beds in the order of the list.

@@ -75,6 +75,20 @@ void run_stack(const Topology& topology, const Bundle& bundle, int first, int la
     Stepper<Real, OfFile<Here, Baseline>, false, true>(topology, bundle).run(first, last);
 }
 
+/// Fills the table of base motion of two registers, one after the other.
+template <class Real, class Here>
+void fill_twice(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+{
+    constexpr int lanes = Lanes<Real>::count;
+    alignas(64) double one[chunk_steps * lanes];
+    for (int at = 0; at < 2 * lanes; at += lanes) {
+        fill_base_table<Real, Here>(formula, p.of_lane(at), first_step + at, one);
+        for (int step = 0; step < chunk_steps; ++step)
+            for (int lane = 0; lane < lanes; ++lane)
+                table[2 * step * lanes + at + lane] = one[step * lanes + lane];
+    }
+}
+
 /// @tparam Single the register of `Real`'s instruction set in single precision
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
 /// @tparam Two two registers at a time (`Twice<Real>`); void: none
@@ -93,7 +107,7 @@ constexpr KernelTable kernel_table(Isa isa, int twice_blocks = 0)
     if constexpr (!std::is_void_v<Two>) {
         table.twice_blocks = twice_blocks;
         table.run_twice = run_stack<Two, Here>;
-        table.fill_twice = fill_base_table<Two, Here>;
+        table.fill_twice = fill_twice<Real, Here>;
     }
     return table;
 }
