@@ -30,8 +30,9 @@ class Run {
 public:
     Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
-          kernels_(kernels(options.isa)), threads_(options.threads), plan_(plan), observer_(observer), order_(plan.total),
-          done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done), pattern_(realize(plan.index(0)))
+          kernels_(kernels(options.isa)), threads_(options.threads), plan_(plan), observer_(observer),
+          order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
+          pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
         progress_.done = before_ = before.end;
