@@ -30,7 +30,7 @@ void peak_fma(benchmark::State& state, Isa isa)
 double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
 {
     const Sampler sampler(study, nullptr);
-    LaneSet lanes(study, nullptr, kernels(isa), sampler.realization(0));
+    LaneSet lanes(study, nullptr, kernels(isa), sampler.realization(0), study.realizations);
     std::uint64_t next = 0;
     const auto start = [&](int lane) {
         lanes.clear(lane);
@@ -103,7 +103,7 @@ const bool registered = [] {
     for (const Isa isa : usable_isas()) {
         const std::string name = to_string(isa);
         benchmark::RegisterBenchmark(("BM_PeakFma/" + name).c_str(), peak_fma, isa);
-        for (const int blocks : {2, 4, 7, 13, 25, 49}) {
+        for (const int blocks : {2, 3, 4, 7, 13, 25, 49}) {
             const std::string tail = "/" + name + "/" + std::to_string(blocks);
             benchmark::RegisterBenchmark(("BM_Kernel" + tail).c_str(), kernel, isa, blocks);
             benchmark::RegisterBenchmark(("BM_Step" + tail).c_str(), step, isa, blocks, Precision::double_);

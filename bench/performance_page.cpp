@@ -33,7 +33,7 @@ void kernel(const ResultsFile& file)
                "checks as in the ensemble (with all); best of the repetitions.\n\n"
                "| free blocks | steps: scalar | AVX2 | AVX-512 | with all: scalar | AVX2 | AVX-512 |\n"
                "|---:|---:|---:|---:|---:|---:|---:|\n");
-    for (const int blocks : {2, 4, 7, 13, 25, 49}) {
+    for (const int blocks : {2, 3, 4, 7, 13, 25, 49}) {
         fmt::print("| {} |", blocks - 1);
         for (const char* family : {"BM_Kernel", "BM_Step"})
             for (const char* isa : isas)

@@ -14,7 +14,7 @@ class WarmKernel {
 public:
     WarmKernel(Isa isa, int blocks)
         : table_(kernels(isa)), seen_(seen()), study_(rocking_column(blocks)), sampler_(study_, nullptr),
-          lanes_(study_, nullptr, seen_, sampler_.realization(0)),
+          lanes_(study_, nullptr, seen_, sampler_.realization(0), study_.realizations),
           block_steps_(lanes_.lanes() * (blocks - 1) * chunk_steps)
     {
         for (int lane = 0; lane < lanes_.lanes(); ++lane)
@@ -26,7 +26,9 @@ public:
     }
 
     /// One chunk, always with the same base motion: not for long without `restart`.
-    void run() const { table_.run(topology, bundle, 0, chunk_steps); }
+    void run() const { (twice() ? table_.run_twice : table_.run)(topology, bundle, 0, chunk_steps); }
+    /// Whether two registers are stepped at a time.
+    bool twice() const { return lanes_.lanes() > table_.lanes; }
     void restart() const { std::copy(start_.begin(), start_.end(), bundle.blocks); }
     /// Of one chunk.
     int block_steps() const { return block_steps_; }
@@ -35,12 +37,18 @@ private:
     // what the lanes give the kernel, looked at on its way
     inline static Topology topology;
     inline static Bundle bundle;
-    inline static decltype(KernelTable::run) forward = nullptr;
+    inline static decltype(KernelTable::run) forward = nullptr, forward_twice = nullptr;
 
     KernelTable seen() const
     {
         forward = table_.run;
+        forward_twice = table_.run_twice;
         KernelTable seen = table_;
+        seen.run_twice = [](const Topology& t, const Bundle& b, int first, int last) {
+            topology = t;
+            bundle = b;
+            forward_twice(t, b, first, last);
+        };
         seen.run = [](const Topology& t, const Bundle& b, int first, int last) {
             topology = t;
             bundle = b;

@@ -92,16 +92,6 @@ struct OfRealization {
     };
 };
 
-/// Where a block was when the close pairs were last listed; present only with watched pairs.
-struct OfNeighbourhood {
-    enum Field : int {
-        x,     ///< [m] step
-        y,     ///< [m] step
-        theta, ///< [rad] step
-        count
-    };
-};
-
 /// Fields of a block's extensions (`mechanisms/`); present only with an extended model. In it the displacements of
 /// `OfBlock` are those of the centre of mass. All zero is neutral.
 struct OfBlockExtension {
@@ -283,13 +273,12 @@ inline constexpr bool compensated<float> = true;
 template <class Number>
 struct BundleOf {
     int lanes = 0;
-    Number* blocks = nullptr;        ///< (blocks x OfBlock::count x lanes)
-    Number* joints = nullptr;        ///< (joints x OfJoint::count x lanes)
-    Number* realizations = nullptr;  ///< (OfRealization::count x lanes)
-    Number* neighbourhood = nullptr; ///< (blocks x OfNeighbourhood::count x lanes), with watched pairs
-    int* close = nullptr;            ///< (watched) the close pairs, for the kernel alone
-    Number* base_table = nullptr;    ///< (chunk_steps x lanes) second difference of the base displacement [m]
-    Number* remainders = nullptr;    ///< (blocks x OfRemainder::count x lanes), in single precision
+    Number* blocks = nullptr;       ///< (blocks x OfBlock::count x lanes)
+    Number* joints = nullptr;       ///< (joints x OfJoint::count x lanes)
+    Number* realizations = nullptr; ///< (OfRealization::count x lanes)
+    int* close = nullptr;           ///< (watched) the close pairs, for the kernel alone
+    Number* base_table = nullptr;   ///< (chunk_steps x lanes) second difference of the base displacement [m]
+    Number* remainders = nullptr;   ///< (blocks x OfRemainder::count x lanes), in single precision
     // with an extended model:
     Number* block_extensions = nullptr;       ///< (blocks x OfBlockExtension::count x lanes)
     Number* joint_extensions = nullptr;       ///< (joints x OfJointExtension::count x lanes)
@@ -354,7 +343,6 @@ inline std::size_t table_registers(const Topology& topology)
 template <class Number = double>
 std::size_t bundle_registers(const Topology& topology)
 {
-    const int neighbourhood = topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0;
     const int extensions = topology.model.extended()
                                ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
                                      OfRealizationExtension::count
@@ -365,7 +353,7 @@ std::size_t bundle_registers(const Topology& topology)
                           : 0;
     const int remainders = compensated<Number> ? topology.blocks * OfRemainder::count : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + neighbourhood + extensions + rigid + remainders) +
+                                    OfRealization::count + extensions + rigid + remainders) +
            table_registers(topology);
 }
 
@@ -399,7 +387,6 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
     b.blocks = take(topology.blocks * OfBlock::count);
     b.joints = take(topology.joints * OfJoint::count);
     b.realizations = take(OfRealization::count);
-    b.neighbourhood = take(topology.watched > 0 ? topology.blocks * OfNeighbourhood::count : 0);
     if (topology.model.extended()) {
         b.block_extensions = take(topology.blocks * OfBlockExtension::count);
         b.joint_extensions = take(topology.joints * OfJointExtension::count);
@@ -426,7 +413,6 @@ constexpr Bundle lane_of(Bundle b, int lane)
     move(b.blocks);
     move(b.joints);
     move(b.realizations);
-    move(b.neighbourhood);
     move(b.close);
     move(b.base_table);
     move(b.block_extensions);

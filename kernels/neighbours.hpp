@@ -38,22 +38,44 @@ protected:
             return get(OfBlock::y, i);
     }
 
-    /// Whether a block of any realization has moved so far since `look_around` that an unlisted pair may be close.
-    STYLOBATE_INLINE bool strayed() const
-    {
-        const Real skin = get(OfRealization::skin);
-        auto far = skin < skin;
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            const Real x = abs_of(get(OfBlock::x, i) - get(OfNeighbourhood::x, i));
-            const Real y = abs_of(get(OfBlock::y, i) - get(OfNeighbourhood::y, i));
-            const Real turned = abs_of(get(OfBlock::theta, i) - get(OfNeighbourhood::theta, i));
-            Real radius = get(OfBlock::half_width, i) + get(OfBlock::half_height, i);
-            if constexpr (Mechanism::extended)
-                radius = radius + abs_of(get(OfBlockExtension::eccentricity, i));
-            far = far | (fma(radius, turned, max_of(x, y)) > skin);
+    /// How far the blocks may have strayed since the close pairs were listed. By Cauchy's inequality the path of any
+    /// point in n steps is at the most the root of 2 n (sum of x2 + y2 + r2 theta2), over the increments of all blocks:
+    /// three multiply-adds of a block and step.
+    class Path {
+    public:
+        STYLOBATE_INLINE explicit Path(const Neighbours& blocks) : blocks_(blocks)
+        {
+            for (int i = blocks.topology_.fixed; i < blocks.topology_.blocks; ++i) {
+                Real radius = blocks.get(OfBlock::half_width, i) + blocks.get(OfBlock::half_height, i);
+                if constexpr (Mechanism::extended)
+                    radius = radius + abs_of(blocks.get(OfBlockExtension::eccentricity, i));
+                radius_ = max_of(radius_, radius);
+            }
         }
-        return any(far);
-    }
+        STYLOBATE_INLINE void restart()
+        {
+            steps_ = 0;
+            moved_ = turned_ = Real(0.0);
+        }
+        STYLOBATE_INLINE void add(const Planar<Real>& increment)
+        {
+            moved_ = fma(increment.x, increment.x, fma(increment.y, increment.y, moved_));
+            turned_ = fma(increment.theta, increment.theta, turned_);
+        }
+        STYLOBATE_INLINE void end_step() { ++steps_; }
+        /// Whether in any realization an unlisted pair may be close.
+        STYLOBATE_INLINE bool strayed() const
+        {
+            const Real skin = blocks_.get(OfRealization::skin);
+            const Real sum = fma(radius_ * radius_, turned_, moved_);
+            return any(sum * Real(2.0 * steps_) > skin * skin);
+        }
+
+    private:
+        const Neighbours& blocks_;
+        int steps_ = 0;
+        Real radius_{0.0}, moved_{0.0}, turned_{0.0};
+    };
 
     /// Whether the bounding boxes of a pair are less than `margin` apart, or it still carries a force to be ended.
     STYLOBATE_INLINE auto meets(int joint, Real margin) const
@@ -77,11 +99,6 @@ protected:
     /// @return their number
     STYLOBATE_INLINE int look_around() const
     {
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            put(OfNeighbourhood::x, i, get(OfBlock::x, i));
-            put(OfNeighbourhood::y, i, get(OfBlock::y, i));
-            put(OfNeighbourhood::theta, i, get(OfBlock::theta, i));
-        }
         const Real margin = get(OfRealization::skin) * Real(2.0);
         int close = 0;
         for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
@@ -99,7 +116,17 @@ protected:
             return b_.close[n];
     }
 
-    const Topology& topology_;
+    /// Forces besides those of the beds are summed up in the blocks' rows: from here on.
+    STYLOBATE_INLINE void clear_forces() const
+    {
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            put(OfBlock::force_x, i, Real(0.0));
+            put(OfBlock::force_y, i, Real(0.0));
+            put(OfBlock::moment, i, Real(0.0));
+        }
+    }
+
+    const Topology topology_; ///< a copy: what stores might change would be read again after each of them
 };
 
 } // namespace stylobate

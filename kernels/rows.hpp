@@ -36,10 +36,6 @@ public:
     STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
     STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
     STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * stride()]); }
-    STYLOBATE_INLINE Real get(OfNeighbourhood::Field f, int i) const
-    {
-        return L::load(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)]);
-    }
     STYLOBATE_INLINE Real get(OfBlockExtension::Field f, int i) const
     {
         return L::load(&b_.block_extensions[row(i, OfBlockExtension::count, f)]);
@@ -86,10 +82,6 @@ public:
         L::store(&b_.joints[row(i, OfJoint::count, f)], v);
     }
     STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * stride()], v); }
-    STYLOBATE_INLINE void put(OfNeighbourhood::Field f, int i, Real v) const
-    {
-        L::store(&b_.neighbourhood[row(i, OfNeighbourhood::count, f)], v);
-    }
     STYLOBATE_INLINE void put(OfJointExtension::Field f, int i, Real v) const
     {
         L::store(&b_.joint_extensions[row(i, OfJointExtension::count, f)], v);

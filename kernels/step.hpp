@@ -17,6 +17,9 @@
 /// Beds go through the phases in every step. Watched pairs (`topology.hpp`) do where their bounding boxes meet; which
 /// pairs come so close is determined only when a block has strayed. Neither changes a bit of the result: a pair that
 /// does not touch adds nothing, whether or not it is evaluated because of another lane.
+///
+/// What is not inlined gets a copy of the stepper: if its address were known elsewhere, the compiler would read its
+/// pointers again after every store.
 
 #include "kernels/contact.hpp"
 #include "kernels/mechanism.hpp"
@@ -47,6 +50,7 @@ public:
         Scratch scratch[joint_group];
         const int beds = topology_.beds();
         [[maybe_unused]] int close = -1;
+        [[maybe_unused]] typename Near::Path path(*this);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             turn(i, get(OfBlock::theta, i));
             if (first == 0)
@@ -54,19 +58,22 @@ public:
         }
         for (int step = first; step < last; ++step) {
             const bool audit = step + 1 == last;
-            if constexpr (others)
-                for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-                    put(OfBlock::force_x, i, Real(0.0));
-                    put(OfBlock::force_y, i, Real(0.0));
-                    put(OfBlock::moment, i, Real(0.0));
-                }
+            [[maybe_unused]] bool others = Mechanism::extended;
+            if constexpr (Mechanism::extended)
+                Near::clear_forces();
             for (int begin = 0; begin < beds; begin += joint_group)
                 contacts<detail::Bed>(
                     beds - begin < joint_group ? beds - begin : joint_group, [begin](int j) { return begin + j; },
                     scratch, audit);
-            if constexpr (watching)
-                close = pairs(close, scratch, audit);
-            update(step, audit);
+            if constexpr (watching) {
+                if (close < 0 || path.strayed()) {
+                    close = Near::look_around();
+                    path.restart();
+                }
+                if (close > 0 || audit)
+                    others |= pairs(*this, close, scratch, audit);
+            }
+            update(step, audit, others, path);
         }
     }
 
@@ -74,8 +81,6 @@ private:
     static constexpr int joint_group = Layout::joint_group;
     using Scratch = detail::JointScratch<Real, Mechanism::points>;
 
-    /// Whether forces act on the blocks besides those of the beds: these are summed up in the blocks' rows.
-    static constexpr bool others = watching || Mechanism::extended;
     /// Whether beds use the paper's contact: the closed form of their overlap.
     static constexpr bool paper = !Mechanism::extended && Mechanism::form == ContactForm::area;
 
@@ -87,12 +92,16 @@ private:
     using Near::centre_y;
     using Near::topology_;
 
+    /// In a stack: blocks below the lowest bed's lower one. Without watched pairs there are none (a number that the
+    /// compiler is to know).
+    STYLOBATE_INLINE int below_beds() const { return watching ? topology_.fixed - 1 : 0; }
+
     /// The blocks of a joint.
     template <class Kind>
     STYLOBATE_INLINE TopologyJoint ends(int joint) const
     {
         if constexpr (stack && Kind::at_rest)
-            return {joint, joint + 1};
+            return {below_beds() + joint, below_beds() + joint + 1};
         else
             return topology_.joint[joint];
     }
@@ -203,7 +212,7 @@ private:
             if (audit)
                 s.met.elastic = s.met.moment_depth;
             if (any(!fits)) [[unlikely]]
-                fall_back(joint, fits, s.met);
+                fall_back(*this, joint, fits, s.met);
         }
     }
 
@@ -250,8 +259,8 @@ private:
     }
 
     template <class Mask, int count>
-    STYLOBATE_APART void fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits,
-                                   Overlap<Real>& o, FormPoints<Real, count>& points) const
+    STYLOBATE_APART static void fall_back(const Placement<Real>& place, const PairSizes<Real>& sizes, Mask fits,
+                                          Overlap<Real>& o, FormPoints<Real, count>& points)
     {
         take_general(place, sizes, fits, o, points);
     }
@@ -266,11 +275,12 @@ private:
 
     /// The general overlap, for the realizations whose closed form does not hold. Rare, so it is not inlined.
     template <class Mask>
-    STYLOBATE_APART void fall_back(int joint, Mask fits, Overlap<Real>& o) const
+    STYLOBATE_APART static void fall_back(Stepper self, int joint, Mask fits, Overlap<Real>& o)
     {
         Real x, y;
-        const auto [lower, upper] = topology_.joint[joint];
-        const Overlap<Real> g = general(joint, placement<detail::Bed>(joint, pose(lower), pose(upper), x, y));
+        const auto [lower, upper] = self.topology_.joint[joint];
+        const Overlap<Real> g =
+            self.general(joint, self.template placement<detail::Bed>(joint, self.pose(lower), self.pose(upper), x, y));
         o.area = select(fits, o.area, g.area);
         o.moment_x = select(fits, o.moment_x, g.moment_x);
         o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
@@ -437,33 +447,38 @@ private:
     }
 
     /// The watched pairs that meet, in the order of the list. Separate from the beds, so as not to slow them down.
-    /// @param close number of pairs listed as close; -1: no list yet
-    /// @return their number now
-    STYLOBATE_APART int pairs(int close, Scratch* scratch, bool audit) const
+    /// @param close number of pairs listed as close
+    /// @return whether one met: there are then forces in the blocks' rows
+    STYLOBATE_APART static bool pairs(Stepper self, int close, Scratch* scratch, bool audit)
     {
-        if (close < 0 || Near::strayed())
-            close = Near::look_around();
+        bool met = false;
         if (audit)
-            for (int joint = topology_.beds(); joint < topology_.joints; ++joint)
-                put(OfJoint::elastic, joint, Real(0.0));
+            for (int joint = self.topology_.beds(); joint < self.topology_.joints; ++joint)
+                self.put(OfJoint::elastic, joint, Real(0.0));
         // boxes that touch to rounding are included
-        const Real margin = get(OfRealization::skin) * Real(1e-3);
+        const Real margin = self.get(OfRealization::skin) * Real(1e-3);
         for (int next = 0; next < close;) {
             int group[joint_group] = {}, count = 0;
             for (; next < close && count < joint_group; ++next)
-                if (any(Near::meets(Near::listed(next), margin)))
-                    group[count++] = Near::listed(next);
-            contacts<detail::Pair>(
+                if (any(self.meets(self.listed(next), margin)))
+                    group[count++] = self.listed(next);
+            if (count == 0)
+                continue;
+            if (!Mechanism::extended && !met)
+                self.clear_forces();
+            met = true;
+            self.template contacts<detail::Pair>(
                 count, [&group](int j) { return group[j]; }, scratch, audit);
         }
-        return close;
+        return met;
     }
 
     /// Sum of the contact forces on a block, its beds in the order of the list.
-    STYLOBATE_INLINE Planar<Real> sum(int i) const
+    /// @param others whether there are forces besides those of the beds, in the blocks' rows
+    STYLOBATE_INLINE Planar<Real> sum(int i, bool others) const
     {
         Planar<Real> force{Real(0.0), Real(0.0), Real(0.0)};
-        if constexpr (others)
+        if (others)
             force = {get(OfBlock::force_x, i), get(OfBlock::force_y, i), get(OfBlock::moment, i)};
         const auto rests_on = [&](int bed) {
             force.x = force.x + get(OfJoint::force_x, bed);
@@ -476,9 +491,9 @@ private:
             force.theta = force.theta - get(OfJoint::lower_moment, bed);
         };
         if constexpr (stack) {
-            rests_on(i - 1);
+            rests_on(i - below_beds() - 1);
             if (i + 1 < topology_.blocks)
-                carries(i);
+                carries(i - below_beds());
             return force;
         }
         const int* const lists = topology_.bed_lists;
@@ -494,7 +509,8 @@ private:
 
     /// Energies at the positions that the step starts from. The kinetic one is the product of the velocities half a
     /// step before and after: with it, and the works as above, the balance of the scheme is exact.
-    STYLOBATE_INLINE void update(int step, bool audit) const
+    /// @param path of the blocks since the close pairs were listed
+    STYLOBATE_INLINE void update(int step, bool audit, bool others, typename Near::Path& path) const
     {
         const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
         const Real base = this->base(step);
@@ -508,7 +524,7 @@ private:
         const Real now(static_cast<NumberOf<Real>>(step));
         Real kinetic(0.0), potential(0.0), momentum(0.0);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            const Planar<Real> force = sum(i);
+            const Planar<Real> force = sum(i, others);
             const Real dx = get(OfBlock::dx, i), dy = get(OfBlock::dy, i), dtheta = get(OfBlock::dtheta, i);
             const Real x = get(OfBlock::x, i), y = get(OfBlock::y, i);
             const Real per_mass = get(OfBlock::dt2_per_mass, i), mass = get(OfBlock::mass, i);
@@ -533,6 +549,8 @@ private:
                 put(OfBlock::force_y, i, force.y);
                 put(OfBlock::moment, i, force.theta);
             }
+            if constexpr (watching)
+                path.add(e);
             put(OfBlock::dx, i, e.x);
             put(OfBlock::dy, i, e.y);
             put(OfBlock::dtheta, i, e.theta);
@@ -558,6 +576,8 @@ private:
             put(OfRealization::kinetic, kinetic);
             put(OfRealization::potential, potential);
         }
+        if constexpr (watching)
+            path.end_step();
     }
 };
 

@@ -28,9 +28,9 @@ struct Topology {
     int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
     Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
     const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes
-    bool stack = false;                   ///< the beds are those of one column: bed j has block j below, j + 1 above
-    const int* rigid_order = nullptr;     ///< of the rigid form: what `rigid_order` makes (`rigid_order.hpp`)
-    int rigid_edges = 0;                  ///< and the pairs of beds in it
+    bool stack = false; ///< the beds are those of one column: bed j lies between block fixed - 1 + j and the next one
+    const int* rigid_order = nullptr; ///< of the rigid form: what `rigid_order` makes (`rigid_order.hpp`)
+    int rigid_edges = 0;              ///< and the pairs of beds in it
     constexpr int beds() const { return joints - watched; }
     constexpr int free_blocks() const { return blocks - fixed; }
 };
@@ -47,9 +47,11 @@ inline int bed_lists_size(const Topology& topology)
 /// @param lists (`bed_lists_size`) the caller's, to live as long as the topology
 inline void list_beds(Topology& topology, int* lists)
 {
-    topology.stack = topology.fixed == 1 && topology.blocks == topology.beds() + 1;
+    topology.stack = topology.free_blocks() == topology.beds() && topology.fixed > 0 &&
+                     (topology.fixed == 1 || topology.watched > 0);
     for (int bed = 0; bed < topology.beds(); ++bed)
-        topology.stack &= topology.joint[bed].lower == bed && topology.joint[bed].upper == bed + 1;
+        topology.stack &=
+            topology.joint[bed].lower == topology.fixed - 1 + bed && topology.joint[bed].upper == topology.fixed + bed;
     int at = topology.blocks + 1;
     for (int i = 0; i < topology.blocks; ++i) {
         lists[i] = at;

@@ -31,8 +31,9 @@ class Run {
 public:
     Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
-          kernels_(kernels(options.isa)), plan_(plan), observer_(observer), order_(plan.total),
-          done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done), pattern_(realize(plan.index(0)))
+          kernels_(kernels(options.isa)), threads_(options.threads), plan_(plan), observer_(observer),
+          order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
+          pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
         progress_.done = before_ = before.end;
@@ -46,7 +47,7 @@ public:
     void work() noexcept
     {
         guarded([this] {
-            LaneSet lanes(study_, record_, kernels_, pattern_);
+            LaneSet lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
             std::optional<HandedOver> handed_over = taker();
             for (int lane = 0; lane < lanes.lanes(); ++lane)
                 refill(lanes, lane);
@@ -68,9 +69,8 @@ public:
     {
         guarded([&] {
             // no more slots than this device's share of what is to do
-            const std::uint64_t left = plan_.total - std::min(plan_.total, before_);
             const auto most =
-                static_cast<int>(std::min<std::uint64_t>(left / static_cast<std::uint64_t>(share) + 1, most_slots));
+                static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
             SlotSet set(study_, record_, pattern_, device, slots, most);
             std::optional<HandedOver> handed_over = taker();
             tbb::parallel_for(0, set.slots(), [&](int slot) { refill(set, slot); });
@@ -163,6 +163,9 @@ private:
         active_chunks_ += static_cast<std::uint64_t>(active);
     }
 
+    /// Realizations that were to be run at the beginning.
+    std::uint64_t left() const { return plan_.total - std::min(plan_.total, before_); }
+
     Realization realize(std::uint64_t index) const
     {
         return plan_.realize ? plan_.realize(index) : sampler_.realization(index);
@@ -222,6 +225,7 @@ private:
     const Sampler& sampler_;
     const Motion* record_;
     const KernelTable& kernels_;
+    const int threads_;
     const RunPlan& plan_;
     Observer& observer_;
     const Clock::time_point start_ = Clock::now();

@@ -60,10 +60,9 @@ std::vector<double> bed_offsets(const Realization& r, const std::vector<BlockMot
 
 } // namespace
 
-LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern)
-    : study_(study), record_(record), kernels_(kernels),
-      lanes_(static_cast<std::size_t>(is_single(study) ? kernels.single_lanes : kernels.lanes)),
-      place_of_(pattern.blocks.size(), -1), places_(lanes_)
+LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern,
+                 std::uint64_t waiting)
+    : study_(study), record_(record), kernels_(kernels), place_of_(pattern.blocks.size(), -1)
 {
     const auto take = [&](int block) {
         if (place_of_[static_cast<std::size_t>(block)] < 0) {
@@ -71,8 +70,9 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
             order_.push_back(block);
         }
     };
-    for (const Joint& joint : pattern.joints)
-        for (int block : {joint.lower, joint.upper})
+    // from the end: those on which others rest come last, next to the free blocks, as `Topology::stack` asks
+    for (auto joint = pattern.joints.rbegin(); joint != pattern.joints.rend(); ++joint)
+        for (int block : {joint->lower, joint->upper})
             if (pattern.blocks[static_cast<std::size_t>(block)].fixed)
                 take(block);
     topology_.fixed = static_cast<int>(order_.size());
@@ -98,6 +98,10 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
         topology_.rigid_edges = rigid_order_.edges;
     }
 
+    twice_ = !is_single(study) && topology_.model == Model{} && topology_.stack && topology_.watched == 0 &&
+             topology_.free_blocks() <= kernels.twice_blocks && waiting > static_cast<std::uint64_t>(kernels.lanes);
+    lanes_ = static_cast<std::size_t>(is_single(study) ? kernels.single_lanes : (twice_ ? 2 : 1) * kernels.lanes);
+    places_.resize(lanes_);
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
@@ -315,7 +319,7 @@ void LaneSet::run(int first, int last)
     if (single_)
         single_->run(first, last);
     else
-        kernels_.run(topology_, bundle_, first, last);
+        (twice_ ? kernels_.run_twice : kernels_.run)(topology_, bundle_, first, last);
 }
 
 void LaneSet::fill_tables()
@@ -333,7 +337,7 @@ void LaneSet::fill_tables()
     } else if (single_) {
         single_->fill_base(formula, parameters_, first_step_);
     } else {
-        kernels_.fill(formula, parameters_, first_step_, bundle_.base_table);
+        (twice_ ? kernels_.fill_twice : kernels_.fill)(formula, parameters_, first_step_, bundle_.base_table);
     }
     if (topology_.model.extended())
         each_busy([this](int lane) { fill_extension(lane); });

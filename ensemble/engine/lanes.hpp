@@ -13,6 +13,7 @@
 #include "kernels/isa.hpp"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,9 +43,12 @@ struct HandOver {
 class LaneSet {
 public:
     /// @param record may be null unless the excitation is one
+    /// @param waiting realizations that are to be put in: where they do not fit into one register, and the structure is
+    ///        so small that two registers at a time are faster, there are twice as many lanes
     /// @throws std::invalid_argument if the study asks for single precision and the pattern for more than the paper's
     ///         model
-    LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);
+    LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern,
+            std::uint64_t waiting = 1);
 
     /// What an empty lane has in place of blocks: faces of this half width, that may touch so deep [m]. The closed form
     /// of every contact form holds for them, so that the bundle does not take the general overlap, which is many times
@@ -175,7 +179,8 @@ private:
     const Study& study_;
     const Motion* record_;
     const KernelTable& kernels_;
-    const std::size_t lanes_;
+    std::size_t lanes_ = 0;
+    bool twice_ = false;        ///< whether two registers are stepped at a time
     std::vector<int> order_;    ///< kernel's block -> realization's block: the fixed ones first
     std::vector<int> place_of_; ///< realization's block -> kernel's block, -1 for one that touches no free block
     std::vector<TopologyJoint> joints_;

@@ -224,7 +224,8 @@ std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOp
     };
 
     const auto work = [&](int) {
-        LaneSet lanes(study, experiment.record(), kernels(options.isa), pattern);
+        LaneSet lanes(study, experiment.record(), kernels(options.isa), pattern,
+                      all / static_cast<std::uint64_t>(options.threads));
         std::vector<std::unique_ptr<Group>> groups(static_cast<std::size_t>(lanes.lanes()));
         std::vector<std::uint64_t> task(groups.size());
         const auto refill = [&](int lane) {

@@ -6,6 +6,8 @@
 #include "kernels/rigid_step.hpp"
 #include "kernels/step.hpp"
 
+#include <type_traits>
+
 namespace stylobate {
 
 /// `count` multiply-adds on registers.
@@ -76,19 +78,48 @@ void run_single_model(const Topology& topology, const BundleOf<float>& bundle, i
         run_steps<Single, OfFile<Here, Baseline>>(topology, bundle, first, last);
 }
 
+/// Steps a stack of the paper's model without watched pairs.
+template <class Real, class Here>
+void run_stack(const Topology& topology, const Bundle& bundle, int first, int last)
+{
+    Stepper<Real, OfFile<Here, Baseline>, false, true>(topology, bundle).run(first, last);
+}
+
+/// Fills the table of base motion of two registers, one after the other.
+template <class Real, class Here>
+void fill_twice(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+{
+    constexpr int lanes = Lanes<Real>::count;
+    alignas(64) double one[chunk_steps * lanes];
+    for (int at = 0; at < 2 * lanes; at += lanes) {
+        fill_base_table<Real, Here>(formula, p.of_lane(at), first_step + at, one);
+        for (int step = 0; step < chunk_steps; ++step)
+            for (int lane = 0; lane < lanes; ++lane)
+                table[2 * step * lanes + at + lane] = one[step * lanes + lane];
+    }
+}
+
 /// @tparam Single the register of `Real`'s instruction set in single precision
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
-template <class Real, class Single, class Here>
-constexpr KernelTable kernel_table(Isa isa)
+/// @tparam Two two registers at a time (`Twice<Real>`); void: none
+/// @param twice_blocks up to so many free blocks `Two` is faster (`docs/performance.md`)
+template <class Real, class Single, class Here, class Two = void>
+constexpr KernelTable kernel_table(Isa isa, int twice_blocks = 0)
 {
-    return {isa,
-            Lanes<Real>::count,
-            Lanes<Single>::count,
-            run_model<Real, Here>,
-            run_single_model<Single, Here>,
-            fill_base_table<Real, Here>,
-            fill_single_base_table<Real, Single, Here>,
-            peak_fma<Real, Here>};
+    KernelTable table{isa,
+                      Lanes<Real>::count,
+                      Lanes<Single>::count,
+                      run_model<Real, Here>,
+                      run_single_model<Single, Here>,
+                      fill_base_table<Real, Here>,
+                      fill_single_base_table<Real, Single, Here>,
+                      peak_fma<Real, Here>};
+    if constexpr (!std::is_void_v<Two>) {
+        table.twice_blocks = twice_blocks;
+        table.run_twice = run_stack<Two, Here>;
+        table.fill_twice = fill_twice<Real, Here>;
+    }
+    return table;
 }
 
 } // namespace stylobate

@@ -1,5 +1,5 @@
 #include "kernels/instances/instantiate.hpp"
-#include "kernels/wide.hpp"
+#include "kernels/twice.hpp"
 
 namespace stylobate {
 
@@ -8,6 +8,7 @@ struct Here {};
 using Arch = xsimd::avx512dq;
 } // namespace
 
-extern const KernelTable avx512_kernels = kernel_table<Wide<Arch>, Wide<Arch, float>, Here>(Isa::avx512);
+extern const KernelTable avx512_kernels =
+    kernel_table<Wide<Arch>, Wide<Arch, float>, Here, Twice<Wide<Arch>>>(Isa::avx512, 2);
 
 } // namespace stylobate

@@ -5,7 +5,17 @@
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/block_names.hpp"
 
-#include <cmath>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 namespace stylobate {
 
@@ -22,6 +32,14 @@ public:
     double next_time() const { return static_cast<double>(trajectory_.time_s.size()) / rate_hz_; }
     /// Whether the stretch that ends at step n + 1 has a sample.
     bool due(std::uint64_t n) const { return next_time() <= static_cast<double>(n + 1) * step_s_; }
+    /// The first step from n on whose stretch has one.
+    std::uint64_t next_due(std::uint64_t n) const
+    {
+        n = std::max(n, static_cast<std::uint64_t>(std::max(next_time() / step_s_ - 2, 0.0)));
+        while (!due(n))
+            ++n;
+        return n;
+    }
 
     void sample(std::uint64_t n, const Snapshot& before, const Snapshot& after)
     {
@@ -47,57 +65,246 @@ private:
     const double rate_hz_, step_s_;
 };
 
-constexpr int lane = 0;
-
-/// Steps the lane until the set has done with it.
-void record(LaneSet& lanes, double rate_hz, Trajectory& trajectory)
-{
-    Recorder recorder(trajectory, lanes.motion(lane), rate_hz, lanes.realization(lane).step_s);
-    const std::uint64_t first = lanes.steps(lane);
-    for (std::uint64_t n = first; !lanes.done(lane); ++n) {
-        const int k = static_cast<int>((n - first) % chunk_steps);
-        const bool due = recorder.due(n);
-        const Snapshot before = due ? lanes.snapshot(lane) : Snapshot{};
-        lanes.advance(k, k + 1);
-        if (due)
-            recorder.sample(n, before, lanes.snapshot(lane));
+/// Realizations in the lanes of a bundle, each with its trajectory if it is recorded.
+class Follower {
+public:
+    Follower(const Experiment& experiment, const Study& stepped, Isa isa, const Realization& pattern,
+             std::uint64_t waiting)
+        : experiment_(experiment), stepped_(stepped), isa_(isa),
+          lanes_(stepped, experiment.record(), kernels(isa), pattern, waiting),
+          places_(static_cast<std::size_t>(lanes_.lanes()))
+    {
     }
-}
+
+    int lanes() const { return lanes_.lanes(); }
+    int active() const { return lanes_.active(); }
+
+    void load(int lane, Realization realization, bool record)
+    {
+        Place& place = places_[static_cast<std::size_t>(lane)];
+        place.steps = 0;
+        place.followed = {};
+        if (record)
+            begin(place.followed.trajectory, realization);
+        lanes_.load(lane, std::move(realization));
+        place.recorder.reset();
+        if (record)
+            place.recorder.emplace(place.followed.trajectory, lanes_.motion(lane),
+                                   experiment_.study().output.trajectory_rate_hz, lanes_.realization(lane).step_s);
+    }
+
+    /// A chunk, from sample to sample of any of them: where the steps are parted changes no bit.
+    void advance()
+    {
+        for (int k = 0; k < chunk_steps;) {
+            int until = chunk_steps - k;
+            for (int lane = 0; lane < lanes(); ++lane)
+                until = std::min(until, steps_to_sample(lane, k));
+            lanes_.advance(k, k + until);
+            k += until;
+            for (int lane = 0; lane < lanes(); ++lane) {
+                Place& place = places_[static_cast<std::size_t>(lane)];
+                if (place.due)
+                    place.recorder->sample(place.steps + static_cast<std::uint64_t>(k - 1), place.before,
+                                           lanes_.snapshot(lane));
+            }
+        }
+        for (Place& place : places_)
+            place.steps += chunk_steps;
+    }
+
+    bool ended(int lane) const { return !lanes_.free(lane) && lanes_.done(lane); }
+    /// Frees the lane of one that has ended. One that is handed over is followed to its end before.
+    FollowedRealization take(int lane)
+    {
+        Place& place = places_[static_cast<std::size_t>(lane)];
+        place.followed.realization = lanes_.realization(lane);
+        if (lanes_.handed(lane))
+            finish(*lanes_.handed(lane), place.recorder.has_value(), place.followed);
+        else
+            place.followed.outcome = *lanes_.outcome(lane);
+        place.recorder.reset();
+        lanes_.clear(lane);
+        return std::move(place.followed);
+    }
+
+private:
+    struct Place {
+        FollowedRealization followed;
+        std::optional<Recorder> recorder; ///< of the trajectory that is recorded
+        std::uint64_t steps = 0;          ///< of the realization, before this chunk
+        bool due = false;                 ///< the next step has a sample
+        Snapshot before;                  ///< and begins here
+    };
+
+    void begin(Trajectory& t, const Realization& r) const
+    {
+        t.index = r.index;
+        t.name = block_names(experiment_.study());
+        for (std::size_t i = 0; i < t.name.size(); ++i) { // the ground is not recorded
+            t.rest_x_m.push_back(r.blocks[i].x_m);
+            t.rest_y_m.push_back(r.blocks[i].y_m);
+            t.half_width_m.push_back(r.blocks[i].half_width_m);
+            t.half_height_m.push_back(r.blocks[i].half_height_m);
+            t.role.push_back(r.blocks[i].role);
+            t.column.push_back(r.blocks[i].column);
+        }
+    }
+
+    void finish(const HandOver& handed, bool recorded, FollowedRealization& followed) const
+    {
+        constexpr int lane = 0;
+        LaneSet taker(stepped_, experiment_.record(), kernels(isa_), compliant_form(handed.realization));
+        taker.load(lane, handed);
+        Recorder recorder(followed.trajectory, taker.motion(lane), experiment_.study().output.trajectory_rate_hz,
+                          taker.realization(lane).step_s);
+        std::uint64_t now = taker.steps(lane);
+        for (int k = 0; !taker.outcome(lane); k %= chunk_steps) {
+            const auto left = static_cast<std::uint64_t>(chunk_steps - k);
+            const std::uint64_t wait = recorded ? recorder.next_due(now) - now : left;
+            const auto steps = static_cast<int>(std::clamp<std::uint64_t>(wait, 1, left));
+            const Snapshot before = wait == 0 ? taker.snapshot(lane) : Snapshot{};
+            taker.advance(k, k + steps);
+            if (wait == 0)
+                recorder.sample(now, before, taker.snapshot(lane));
+            k += steps;
+            now += static_cast<std::uint64_t>(steps);
+        }
+        followed.outcome = *taker.outcome(lane);
+    }
+
+    /// How many steps may be done at once after the first `k` of the chunk: up to the step that has a sample, or that
+    /// one alone, for which the snapshot before it is taken.
+    int steps_to_sample(int lane, int k)
+    {
+        Place& place = places_[static_cast<std::size_t>(lane)];
+        place.due = false;
+        if (!place.recorder || lanes_.done(lane))
+            return chunk_steps;
+        const std::uint64_t now = place.steps + static_cast<std::uint64_t>(k);
+        if (const std::uint64_t wait = place.recorder->next_due(now) - now; wait > 0)
+            return static_cast<int>(std::min<std::uint64_t>(wait, chunk_steps));
+        place.due = true;
+        place.before = lanes_.snapshot(lane);
+        return 1;
+    }
+
+    const Experiment& experiment_;
+    const Study& stepped_;
+    const Isa isa_;
+    LaneSet lanes_;
+    std::vector<Place> places_;
+};
+
+/// What the threads of `follow_all` share.
+class FollowRun {
+public:
+    FollowRun(const Experiment& experiment, const RunOptions& options, const FollowPlan& plan)
+        : experiment_(experiment), options_(options), plan_(plan)
+    {
+    }
+
+    void work() noexcept
+    {
+        try {
+            const Sampler& sampler = experiment_.sampler();
+            const std::uint64_t count = plan_.indices.size();
+            Follower lanes(experiment_, experiment_.study(), options_.isa, sampler.realization(plan_.indices[0]),
+                           count / static_cast<std::uint64_t>(options_.threads));
+            std::vector<std::size_t> number(static_cast<std::size_t>(lanes.lanes()));
+            const auto refill = [&](int lane) {
+                const std::size_t next = next_++;
+                if (next >= count)
+                    return;
+                const std::uint64_t index = plan_.indices[next];
+                number[static_cast<std::size_t>(lane)] = next;
+                lanes.load(lane, sampler.realization(index), index < plan_.recorded);
+            };
+            for (int lane = 0; lane < lanes.lanes(); ++lane)
+                refill(lane);
+            while (lanes.active() > 0 && !stopped_) {
+                lanes.advance();
+                for (int lane = 0; lane < lanes.lanes(); ++lane)
+                    if (lanes.ended(lane)) {
+                        deliver(number[static_cast<std::size_t>(lane)], lanes.take(lane));
+                        refill(lane);
+                    }
+                look(lanes.lanes(), lanes.active());
+            }
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!error_)
+                error_ = std::current_exception();
+            stopped_ = true;
+        }
+    }
+
+    /// @returns false if it was stopped
+    bool finish()
+    {
+        if (error_)
+            std::rethrow_exception(error_);
+        for (auto& [number, followed] : ended_) // those that wait for one that was stopped
+            plan_.sink(std::move(followed));
+        return delivered_ + ended_.size() == plan_.indices.size();
+    }
+
+private:
+    void deliver(std::size_t number, FollowedRealization followed)
+    {
+        const std::lock_guard lock(mutex_);
+        ended_.emplace(number, std::move(followed));
+        while (!ended_.empty() && ended_.begin()->first == delivered_) {
+            plan_.sink(std::move(ended_.begin()->second));
+            ended_.erase(ended_.begin());
+            ++delivered_;
+        }
+    }
+
+    void look(int lanes, int active)
+    {
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (lock.owns_lock() && plan_.stop && plan_.stop(static_cast<double>(active) / lanes))
+            stopped_ = true;
+    }
+
+    const Experiment& experiment_;
+    const RunOptions& options_;
+    const FollowPlan& plan_;
+    std::atomic<std::size_t> next_ = 0;
+    std::atomic<bool> stopped_ = false;
+    std::mutex mutex_; ///< guards the plan's functions and what follows
+    std::map<std::size_t, FollowedRealization> ended_;
+    std::size_t delivered_ = 0;
+    std::exception_ptr error_;
+};
 
 } // namespace
 
 FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa)
 {
-    FollowedRealization followed;
-    followed.realization = experiment.sampler().realization(index);
-    const Realization& r = followed.realization;
-    Trajectory& t = followed.trajectory;
-    t.index = index;
-    t.name = block_names(experiment.study());
-    for (std::size_t i = 0; i < t.name.size(); ++i) { // the ground is not recorded
-        t.rest_x_m.push_back(r.blocks[i].x_m);
-        t.rest_y_m.push_back(r.blocks[i].y_m);
-        t.half_width_m.push_back(r.blocks[i].half_width_m);
-        t.half_height_m.push_back(r.blocks[i].half_height_m);
-        t.role.push_back(r.blocks[i].role);
-        t.column.push_back(r.blocks[i].column);
-    }
-
+    const Realization r = experiment.sampler().realization(index);
     const Study stepped = stepped_as(experiment.study(), index);
-    LaneSet lanes(stepped, experiment.record(), kernels(isa), r);
-    lanes.load(lane, r);
-    const double rate_hz = experiment.study().output.trajectory_rate_hz;
-    record(lanes, rate_hz, t);
-    if (!lanes.handed(lane)) {
-        followed.outcome = *lanes.outcome(lane);
-        return followed;
-    }
-    const HandOver& handed = *lanes.handed(lane);
-    LaneSet taker(stepped, experiment.record(), kernels(isa), compliant_form(r));
-    taker.load(lane, handed);
-    record(taker, rate_hz, t);
-    followed.outcome = *taker.outcome(lane);
-    return followed;
+    Follower lanes(experiment, stepped, isa, r, 1);
+    lanes.load(0, r, true);
+    while (!lanes.ended(0))
+        lanes.advance();
+    return lanes.take(0);
+}
+
+bool follow_all(const Experiment& experiment, const RunOptions& options, const FollowPlan& plan)
+{
+    if (plan.indices.empty())
+        return true;
+    FollowRun run(experiment, options, plan);
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(options.threads));
+    tbb::task_arena arena(options.threads);
+    arena.execute([&] {
+        tbb::parallel_for(
+            0, options.threads, [&](int) { run.work(); }, tbb::simple_partitioner());
+    });
+    return run.finish();
 }
 
 ResultRow result_row(const Study& study, const Realization& realization, const Outcome& outcome)

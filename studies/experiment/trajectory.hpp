@@ -1,6 +1,7 @@
 #pragma once
-/// One realization, followed through time.
+/// Realizations followed through time, with their trajectories.
 
+#include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
@@ -8,6 +9,8 @@
 #include "kernels/isa.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace stylobate {
 
@@ -20,6 +23,22 @@ struct FollowedRealization {
 /// Runs one realization to its end. Its trajectory is sampled at `output.trajectory_rate_hz`, from 0 on, linear between
 /// the two steps about each sample.
 FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa);
+
+/// Which realizations to follow, and where they go.
+struct FollowPlan {
+    std::vector<std::uint64_t> indices;
+    std::uint64_t recorded = 0; ///< those with a lower index have their trajectory recorded
+    /// Takes one after the other, in the order of `indices`.
+    std::function<void(FollowedRealization)> sink;
+    /// Asked now and then whether to stop; told the share of the lanes that are busy. May be empty.
+    std::function<bool(double occupancy)> stop;
+};
+
+/// Runs realizations of a study without replicas to their ends, several in a register and on several threads: the same
+/// bits as `follow` gives one by one. The plan's functions are called from one thread at a time.
+/// @return false if it was stopped; the sink has then been given all that had ended
+/// @throws what `Sampler::realization` or the plan's functions throw, after all threads have stopped
+bool follow_all(const Experiment& experiment, const RunOptions& options, const FollowPlan& plan);
 
 /// The row of a results file.
 ResultRow result_row(const Study& study, const Realization& realization, const Outcome& outcome);

@@ -31,7 +31,8 @@ public:
     /// returns. (Rows of an earlier part of the run were given to it before the first round.)
     /// @returns false if the user has asked to stop
     virtual bool run(const Round& round) = 0;
-    /// Runs all realizations of the study one by one, and keeps the trajectories of the first so many.
+    /// Runs all realizations of the study, and keeps the trajectories of the first so many. The rows come in the order
+    /// of their indices.
     virtual bool follow(std::uint64_t kept_trajectories) = 0;
 
     const Experiment& experiment;

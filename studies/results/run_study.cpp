@@ -87,32 +87,52 @@ public:
     bool follow(std::uint64_t kept_trajectories) override
     {
         const auto begin = std::chrono::steady_clock::now();
-        std::uint64_t run_now = 0;
+        const auto seconds = [begin] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        };
         progress.total = experiment.study().total();
-        progress.occupancy = 1.0 / kernels(options.isa).lanes;
-        for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
-            std::optional<State> state = store_.state(index);
-            if (!state) {
-                const FollowedRealization f = stylobate::follow(experiment, index, options.isa);
-                if (index < kept_trajectories)
-                    store_.add(f.trajectory); // before its row: where the row is, it is
-                take(result_row(experiment.study(), f.realization, f.outcome));
-                state = f.outcome.state;
-                ++run_now;
-                progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
-            }
-            ++progress.done;
-            progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-            progress.rate = static_cast<double>(run_now) / progress.seconds;
-            progress.collapsed += state == State::collapsed;
-            progress.invalid += state == State::invalid;
-            estimate_share(progress, progress.done - progress.invalid, progress.collapsed);
-            observer.progress(progress);
+        FollowPlan plan;
+        plan.recorded = kept_trajectories;
+        for (std::uint64_t index = 0; index < progress.total; ++index) {
+            if (const std::optional<State> state = store_.state(index))
+                count(*state);
+            else
+                plan.indices.push_back(index);
         }
-        return progress.done == progress.total;
+        std::uint64_t run_now = 0;
+        plan.sink = [&](const FollowedRealization& f) {
+            if (f.realization.index < kept_trajectories)
+                store_.add(f.trajectory); // before its row: where the row is, it is
+            take(result_row(experiment.study(), f.realization, f.outcome));
+            progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
+            progress.seconds = seconds();
+            progress.rate = static_cast<double>(++run_now) / progress.seconds;
+            count(f.outcome.state);
+        };
+        double next_report_s = 0;
+        plan.stop = [&](double occupancy) {
+            if (seconds() < next_report_s)
+                return false;
+            next_report_s = seconds() + 0.1;
+            progress.occupancy = occupancy;
+            observer.progress(progress);
+            return observer.stop_requested();
+        };
+        const bool complete = !observer.stop_requested() && follow_all(experiment, options, plan);
+        observer.progress(progress);
+        return complete;
     }
 
 private:
+    /// One more has ended, of a fair sample of the study.
+    void count(State state)
+    {
+        ++progress.done;
+        progress.collapsed += state == State::collapsed;
+        progress.invalid += state == State::invalid;
+        estimate_share(progress, progress.done - progress.invalid, progress.collapsed);
+    }
+
     static std::uint64_t free_blocks(const Realization& realization)
     {
         return static_cast<std::uint64_t>(std::count_if(realization.blocks.begin(), realization.blocks.end(),

@@ -23,6 +23,23 @@ namespace {
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// Of all usable instruction sets; and those that step two registers at a time as tables of their own.
+std::vector<KernelTable> tables()
+{
+    std::vector<KernelTable> found;
+    for (const Isa isa : usable_isas()) {
+        found.push_back(kernels(isa));
+        KernelTable twice = kernels(isa);
+        if (twice.run_twice == nullptr)
+            continue;
+        twice.lanes *= 2;
+        twice.run = twice.run_twice;
+        twice.fill = twice.fill_twice;
+        found.push_back(twice);
+    }
+    return found;
+}
+
 /// Steps one realization with the scalar kernel.
 State alone(const Column& column, const State& start, int first, int last)
 {
@@ -67,8 +84,7 @@ TEST(Wide, EachLaneHasTheBitsOfTheScalarKernel)
     for (int blocks = 1; blocks <= 20; ++blocks) {
         const Column column(blocks);
         for (int round = 0; round < 6; ++round)
-            for (Isa isa : usable_isas()) {
-                const KernelTable& table = kernels(isa);
+            for (const KernelTable& table : tables()) {
                 std::vector<State> starts;
                 for (int lane = 0; lane < table.lanes; ++lane) {
                     starts.push_back(maker.make(column, any_pose(maker)));
@@ -80,7 +96,8 @@ TEST(Wide, EachLaneHasTheBitsOfTheScalarKernel)
                 const std::vector<State> ends = together(column, table, starts, 0, last);
                 for (std::size_t lane = 0; lane < starts.size(); ++lane)
                     ASSERT_EQ(first_difference(ends[lane], alone(column, starts[lane], 0, last)), -1)
-                        << to_string(isa) << ", lane " << lane << ", " << blocks << " blocks";
+                        << to_string(table.isa) << " x " << table.lanes << ", lane " << lane << ", " << blocks
+                        << " blocks";
             }
     }
     // both ways through the overlap were taken, often
@@ -122,8 +139,7 @@ TEST(Wide, NeighboursDoNotMatter)
 {
     StateMaker maker(3);
     const std::vector<double> poison{nan_value, infinite, -infinite, 1e308, -1e308, 5e-324, 0.0, -0.0};
-    for (Isa isa : usable_isas()) {
-        const KernelTable& table = kernels(isa);
+    for (const KernelTable& table : tables()) {
         for (int blocks : {1, 6, 8, 9, 17}) {
             const Column column(blocks);
             for (int round = 0; round < 40; ++round) {
@@ -142,7 +158,8 @@ TEST(Wide, NeighboursDoNotMatter)
                 const std::size_t lane = maker.word() % starts.size();
                 starts[lane] = start;
                 ASSERT_EQ(first_difference(together(column, table, starts, 0, chunk_steps)[lane], want), -1)
-                    << to_string(isa) << ", lane " << lane << ", " << blocks << " blocks, round " << round;
+                    << to_string(table.isa) << " x " << table.lanes << ", lane " << lane << ", " << blocks
+                    << " blocks, round " << round;
             }
         }
     }
@@ -151,8 +168,7 @@ TEST(Wide, NeighboursDoNotMatter)
 TEST(Wide, AChunkInPiecesMovesTheBlocksAlike)
 {
     StateMaker maker(4);
-    for (Isa isa : usable_isas()) {
-        const KernelTable& table = kernels(isa);
+    for (const KernelTable& table : tables()) {
         const Column column(7);
         std::vector<State> starts;
         for (int lane = 0; lane < table.lanes; ++lane)
@@ -162,7 +178,8 @@ TEST(Wide, AChunkInPiecesMovesTheBlocksAlike)
         got = together(column, table, got, 1, 40);
         got = together(column, table, got, 40, chunk_steps);
         for (std::size_t lane = 0; lane < starts.size(); ++lane)
-            ASSERT_EQ(first_difference(got[lane], want[lane]), -1) << to_string(isa) << ", lane " << lane;
+            ASSERT_EQ(first_difference(got[lane], want[lane]), -1)
+                << to_string(table.isa) << " x " << table.lanes << ", lane " << lane;
     }
 }
 
@@ -249,8 +266,7 @@ TEST(Wide, BaseMotionHasTheSameBitsInEveryLane)
     StateMaker maker(6);
     double largest = 0;
     for (MotionFormula formula : {MotionFormula::still, MotionFormula::harmonic, MotionFormula::pulse})
-        for (Isa isa : usable_isas()) {
-            const KernelTable& table = kernels(isa);
+        for (const KernelTable& table : tables()) {
             for (int round = 0; round < 100; ++round) {
                 std::vector<Drive> drives;
                 std::vector<double> first;
@@ -273,7 +289,7 @@ TEST(Wide, BaseMotionHasTheSameBitsInEveryLane)
                     for (std::size_t k = 0; k < want.size(); ++k) {
                         ASSERT_EQ(std::bit_cast<std::uint64_t>(got[k * drives.size() + lane]),
                                   std::bit_cast<std::uint64_t>(want[k]))
-                            << to_string(isa) << ", lane " << lane << ", step " << k;
+                            << to_string(table.isa) << " x " << table.lanes << ", lane " << lane << ", step " << k;
                         largest = std::max(largest, std::fabs(want[k]));
                     }
                 }

@@ -139,27 +139,22 @@ inline std::vector<Outcome> run_all(const Study& study, const std::vector<Realiz
 {
     LaneSet set(study, record, kernels(best_isa()), realizations.front());
     const auto lanes = static_cast<std::size_t>(set.lanes());
-    std::vector<Outcome> outcomes;
+    std::vector<Outcome> outcomes(realizations.size());
     for (std::size_t begin = 0; begin < realizations.size(); begin += lanes) {
-        const std::size_t count = std::min(lanes, realizations.size() - begin);
-        for (std::size_t i = 0; i < count; ++i)
-            set.load(static_cast<int>(i), realizations[begin + i]);
-        const auto running = [&] {
-            bool any = false;
-            for (std::size_t i = 0; i < count; ++i)
-                if (!set.done(static_cast<int>(i))) {
-                    any = true;
-                    if (look)
-                        look(begin + i, set.snapshot(static_cast<int>(i)));
-                }
-            return any;
-        };
-        while (running())
+        for (std::size_t i = begin; i < std::min(begin + lanes, realizations.size()); ++i)
+            set.load(static_cast<int>(i - begin), realizations[i]);
+        while (set.active() > 0) {
+            for (std::size_t i = 0; i < lanes; ++i)
+                if (look && !set.free(static_cast<int>(i)))
+                    look(begin + i, set.snapshot(static_cast<int>(i)));
             set.advance();
-        for (std::size_t i = 0; i < count; ++i) {
-            const int lane = static_cast<int>(i);
-            outcomes.push_back(set.outcome(lane) ? *set.outcome(lane) : finish(study, *set.handed(lane), record));
-            set.clear(lane);
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const int lane = static_cast<int>(i);
+                if (set.free(lane) || !set.done(lane))
+                    continue;
+                outcomes[begin + i] = set.outcome(lane) ? *set.outcome(lane) : finish(study, *set.handed(lane), record);
+                set.clear(lane); // a heap would slow the others
+            }
         }
     }
     return outcomes;

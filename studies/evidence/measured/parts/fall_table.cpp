@@ -64,7 +64,7 @@ std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studi
     if (motion.empty())
         return falls;
     const auto realization = [&](std::size_t i) { return Sampler(studies[i], &motion).realization(0); };
-    LaneSet set(studies.front(), &motion, kernels(isa), realization(0));
+    LaneSet set(studies.front(), &motion, kernels(isa), realization(0), studies.size());
     std::vector<std::size_t> in_lane(static_cast<std::size_t>(set.lanes()));
     std::size_t next = 0;
     const auto refill = [&](int lane) {

@@ -1,0 +1,126 @@
+/// Realizations that are followed several at once have the trajectories and outcomes that each has alone.
+
+#include "bench/scenes.hpp"
+#include "ensemble/engine/lanes.hpp"
+#include "studies/experiment/trajectory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace stylobate {
+namespace {
+
+/// Step by step in one lane: the position at every step, and between two steps on the straight line.
+std::vector<double> positions_alone(const Study& study, const Realization& r, Outcome& outcome)
+{
+    LaneSet lane(study, nullptr, kernels(Isa::scalar), r);
+    lane.load(0, r);
+    std::vector<double> x_m;
+    const double rate_hz = study.output.trajectory_rate_hz;
+    const std::size_t blocks = static_cast<std::size_t>(r.drums);
+    std::size_t samples = 0;
+    for (std::uint64_t n = 0; !lane.outcome(0); ++n) {
+        const Snapshot before = lane.snapshot(0);
+        const int k = static_cast<int>(n % chunk_steps);
+        lane.advance(k, k + 1);
+        const Snapshot after = lane.snapshot(0);
+        for (; static_cast<double>(samples) / rate_hz <= static_cast<double>(n + 1) * r.step_s; ++samples) {
+            const double share = static_cast<double>(samples) / rate_hz / r.step_s - static_cast<double>(n);
+            for (std::size_t i = 0; i < blocks; ++i)
+                x_m.push_back(before.x_m[i] + share * (after.x_m[i] - before.x_m[i]));
+        }
+    }
+    outcome = *lane.outcome(0);
+    return x_m;
+}
+
+void expect_as_alone(Study study, std::uint64_t realizations)
+{
+    study.realizations = realizations;
+    study.output.trajectory_rate_hz = 97; // at no whole number of steps
+    const Experiment experiment(study);
+    std::vector<std::vector<double>> x_m;
+    std::vector<Outcome> outcomes(realizations);
+    for (std::uint64_t i = 0; i < realizations; ++i)
+        x_m.push_back(positions_alone(study, experiment.sampler().realization(i), outcomes[i]));
+    const std::uint64_t recorded = realizations - 2;
+    for (const Isa isa : usable_isas())
+        for (const int threads : {1, 3}) {
+            FollowPlan plan;
+            plan.indices.resize(realizations);
+            std::iota(plan.indices.begin(), plan.indices.end(), 0);
+            plan.recorded = recorded;
+            std::uint64_t next = 0;
+            plan.sink = [&](const FollowedRealization& f) {
+                const std::uint64_t i = next++;
+                ASSERT_EQ(f.realization.index, i);
+                EXPECT_EQ(f.outcome.steps, outcomes[i].steps);
+                EXPECT_EQ(f.outcome.state, outcomes[i].state);
+                EXPECT_EQ(f.outcome.energy_residual, outcomes[i].energy_residual);
+                EXPECT_EQ(f.outcome.sliding_path_m, outcomes[i].sliding_path_m);
+                EXPECT_EQ(f.trajectory.x_m, i < recorded ? x_m[i] : std::vector<double>());
+            };
+            EXPECT_TRUE(follow_all(experiment, {isa, threads}, plan));
+            EXPECT_EQ(next, realizations) << to_string(isa) << ", " << threads << " threads";
+        }
+}
+
+/// Two cycles, after which some are still standing.
+Study shaken(Study study, double pga_m_s2)
+{
+    study.excitation.cycles = 2;
+    study.excitation.frequency_hz = 2;
+    study.excitation.pga_m_s2 = pga_m_s2;
+    return study;
+}
+
+TEST(FollowAll, ARealizationIsTheSameAmongOthers)
+{
+    expect_as_alone(shaken(rocking_column(4), 5), 19);
+}
+
+TEST(FollowAll, WithTwoRegistersAtATime)
+{
+    expect_as_alone(shaken(rocking_column(2), 8), 37);
+}
+
+TEST(FollowAll, WithWatchedPairs)
+{
+    expect_as_alone(shaken(watched_column(4), 9), 11);
+}
+
+TEST(FollowAll, InSinglePrecision)
+{
+    Study study = shaken(rocking_column(4), 5);
+    study.run.precision = Precision::single;
+    expect_as_alone(study, 11);
+}
+
+TEST(FollowAll, StopsAndDeliversWhatHasEnded)
+{
+    Study study = shaken(rocking_column(3), 5);
+    study.realizations = 40;
+    const Experiment experiment(study);
+    FollowPlan plan;
+    plan.indices.resize(study.realizations);
+    std::iota(plan.indices.begin(), plan.indices.end(), 0);
+    std::uint64_t ended = 0, last = 0;
+    plan.sink = [&](const FollowedRealization& f) {
+        EXPECT_TRUE(ended == 0 || f.realization.index > last);
+        last = f.realization.index;
+        ++ended;
+    };
+    plan.stop = [&](double occupancy) {
+        EXPECT_GE(occupancy, 0);
+        EXPECT_LE(occupancy, 1);
+        return ended >= 5;
+    };
+    EXPECT_FALSE(follow_all(experiment, {Isa::scalar, 1}, plan));
+    EXPECT_GE(ended, 5u);
+    EXPECT_LT(ended, 40u);
+}
+
+} // namespace
+} // namespace stylobate
