@@ -18,7 +18,7 @@ namespace stylobate::peers {
 namespace {
 
 constexpr int check_steps_of_engines = 16;
-constexpr int rigid_levels = 8, compliant_levels = 3; ///< to 1/7680 s; to a quarter of a study's step
+constexpr int rigid_levels = 7, compliant_levels = 3; ///< to 1/7680 s; to a quarter of a study's step
 
 /// The setting of each engine with which impacts converge at the least cost; of one that is not here the first.
 constexpr std::pair<const char*, const char*> chosen_settings[]{{"Box2D", "8 + 3 iterations, unit 5 mm"},
@@ -83,7 +83,7 @@ Draws run_own(const Study& study, std::uint64_t begin, std::uint64_t end)
 
 double halved_step(int level)
 {
-    return std::ldexp(1.0 / 60, -level);
+    return std::ldexp(1.0 / 120, -level);
 }
 
 DrawEnd run_draw(const Engine& engine, std::size_t setting, double step_s, const Study& study, const Realization& draw)

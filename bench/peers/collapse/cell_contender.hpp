@@ -32,7 +32,7 @@ std::vector<CellContender> cell_contenders(const Engine& engine, bool all_settin
 /// step is that of a study.
 std::vector<CellContender> own_cell_contenders();
 
-/// Steps [s] of rigid blocks: 1/60, halved.
+/// Steps [s] of rigid blocks: 1/120, halved; longer ones resolve no period of 6 Hz.
 double halved_step(int level);
 
 /// One draw in an engine: whether it collapses by the criterion of this project's own realizations (`LimitStates`).
