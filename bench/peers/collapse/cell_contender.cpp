@@ -18,7 +18,8 @@ namespace stylobate::peers {
 namespace {
 
 constexpr int check_steps_of_engines = 16;
-constexpr int rigid_levels = 7, compliant_levels = 3; ///< to 1/7680 s; to a quarter of a study's step
+constexpr int engine_levels = 6, rigid_levels = 7,
+              compliant_levels = 3; ///< to 1/3840 s; to 1/7680 s; to a quarter of a study's step
 
 /// The setting of each engine with which impacts converge at the least cost; of one that is not here the first.
 constexpr std::pair<const char*, const char*> chosen_settings[]{{"Box2D", "8 + 3 iterations, unit 5 mm"},
@@ -123,7 +124,7 @@ std::vector<CellContender> cell_contenders(const Engine& engine, bool all_settin
     for (std::size_t s = 0; s < engine.settings.size(); ++s) {
         if (!all_settings && !is_chosen(engine, s))
             continue;
-        all.push_back({engine.name, engine.version, engine.settings[s], false, false, rigid_levels,
+        all.push_back({engine.name, engine.version, engine.settings[s], false, false, engine_levels,
                        [](const Cell&, int level) { return halved_step(level); },
                        [engine, s](const Cell& cell, int level, std::uint64_t begin, std::uint64_t end) {
                            return run_engine(engine, s, cell, level, begin, end);

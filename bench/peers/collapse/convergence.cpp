@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace stylobate::peers {
 
@@ -127,33 +128,30 @@ std::vector<CollapseScan> scan_collapses(const std::vector<CellContender>& conte
                          cell.levels[level].draws.collapsed.size(), cell.levels[level].probability(),
                          cell.levels[level].draws.processor_s));
     };
-    for (bool any = true; any;) {
-        any = false;
-        for (Work& work : works) {
-            CellRun& cell = scans[work.contender].cells[work.cell];
-            if (work.over)
-                continue;
-            if (late() && !work.refining) {
-                work.over = true;
-                continue;
-            }
-            any = true;
-            if (work.refining) {
-                run(work, cell.levels.size());
-                work.refining = static_cast<int>(cell.levels.size()) < contenders[work.contender].levels && !late() &&
-                                2 * cell.levels.back().draws.processor_s < options.budget_s / 4;
-                continue;
-            }
-            const double batch_s =
-                cell.spent_s * static_cast<double>(options.batch) / static_cast<double>(cell.draws());
-            if (cell.draws() >= options.draws || cell.spent_s + batch_s > options.budget_s) {
-                work.over = true;
-                continue;
-            }
-            for (std::size_t level = 0; level < cell.levels.size(); ++level)
-                run(work, level);
+    const auto spent = [&](const Work& work) { return scans[work.contender].cells[work.cell].spent_s; };
+    while (!late()) {
+        Work* least = nullptr; // that has had the least time and is not over
+        for (Work& work : works)
+            if (!work.over && (least == nullptr || spent(work) < spent(*least)))
+                least = &work;
+        if (least == nullptr)
+            break;
+        CellRun& cell = scans[least->contender].cells[least->cell];
+        if (least->refining) {
+            run(*least, cell.levels.size());
+            least->refining = static_cast<int>(cell.levels.size()) < contenders[least->contender].levels &&
+                              2 * cell.levels.back().draws.processor_s < options.budget_s / 3;
+            continue;
         }
+        const double batch_s = cell.spent_s * static_cast<double>(options.batch) / static_cast<double>(cell.draws());
+        least->over = cell.draws() >= options.draws || cell.spent_s + batch_s > options.budget_s;
+        for (std::size_t level = 0; !least->over && level < cell.levels.size(); ++level)
+            run(*least, level);
     }
+    for (const CollapseScan& scan : scans) // what the clock has left without a step
+        for (const CellRun& cell : scan.cells)
+            if (cell.levels.empty())
+                throw std::runtime_error("the time was too short for a first step in every cell");
     return scans;
 }
 

@@ -60,9 +60,9 @@ struct Converged {
 std::optional<Converged> converged(const std::vector<CellRun>& cells, double target);
 
 struct CollapseOptions {
-    double budget_s = 60;      ///< of processor time for a contender in a cell, about
+    double budget_s = 30;      ///< of processor time for a contender in a cell, about
     std::uint64_t draws = 512; ///< at most
-    std::uint64_t batch = 64;  ///< draws that are run at a time, at all levels
+    std::uint64_t batch = 32;  ///< draws that are run at a time, at all levels
     int processes = 1;
     double minutes = 1e9; ///< no work begins after so long by the clock
 };
@@ -72,9 +72,11 @@ struct CollapseScan {
     std::vector<CellRun> cells; ///< (cells)
 };
 
-/// All contenders in turn, so that what else the machine does falls on all. The first batch is run at ever finer steps
-/// until the next one would take more than a quarter of the budget; further batches at these steps, as long as the
+/// The contender and cell that has had the least processor time is always next, so that what else the machine does
+/// falls on all alike, and all have had about as much when the clock ends it. The first batch is run at ever finer
+/// steps until the next one would take more than a third of the budget; further batches at these steps, as long as the
 /// budget lasts.
+/// @throws std::runtime_error if the clock leaves a contender without a step in a cell
 /// @param said takes a line for each piece of work that is done
 std::vector<CollapseScan> scan_collapses(const std::vector<CellContender>& contenders, const std::vector<Cell>& cells,
                                          const CollapseOptions& options,
