@@ -203,12 +203,15 @@ DrawEnd follow(std::function<Pose(Pose, double)> path)
 
 TEST(Cells, DrawsCollapseByTheCriterionOfStudies)
 {
-    EXPECT_FALSE(follow([](Pose at, double) { return at; }).collapsed);
-    EXPECT_NEAR(follow([](Pose at, double) { return at; }).time_s, 11, 0.05) << "10 s of shaking and one after it";
-    const auto dropped = follow([](Pose at, double t) { return Pose{at.x_m, t < 4 ? at.y_m : 0.59 * at.y_m, 0}; });
+    // the block's height above its base is 0.087 m, its slenderness 0.269
+    const auto down = [](Pose at, double part) { return Pose{at.x_m, at.y_m - (1 - part) * 0.087, 0}; };
+    const DrawEnd stood = follow([](Pose at, double) { return at; });
+    EXPECT_FALSE(stood.collapsed);
+    EXPECT_NEAR(stood.time_s, 11, 0.05) << "10 s of shaking and one after it";
+    const DrawEnd dropped = follow([&](Pose at, double t) { return down(at, t < 4 ? 1 : 0.58); });
     EXPECT_TRUE(dropped.collapsed);
     EXPECT_NEAR(dropped.time_s, 4, 0.05);
-    EXPECT_FALSE(follow([](Pose at, double) { return Pose{at.x_m, 0.61 * at.y_m, 0}; }).collapsed);
+    EXPECT_FALSE(follow([&](Pose at, double) { return down(at, 0.62); }).collapsed);
     // a lean beyond the slenderness from which it comes back, and one from which it does not
     EXPECT_FALSE(follow([](Pose at, double t) { return Pose{at.x_m, at.y_m, t > 4 && t < 4.05 ? 0.3 : 0}; }).collapsed);
     EXPECT_TRUE(follow([](Pose at, double t) { return Pose{at.x_m, at.y_m, t > 4 ? 0.3 : 0}; }).collapsed);
