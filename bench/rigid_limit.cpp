@@ -8,6 +8,7 @@
 ///   stylobate_rigid_limit --cost ...                                  realizations per second of processor time
 
 #include "bench/processor.hpp"
+#include "bench/rocking_cells.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "io/tables/markdown.hpp"
 
@@ -16,7 +17,6 @@
 
 #include <cmath>
 #include <ctime>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,80 +25,11 @@ using namespace stylobate;
 
 namespace {
 
-/// A structure on a fixed block, under 10 s of a harmonic.
-struct Cell {
-    std::string name;
-    int free_blocks = 6;
-    double height_m = 0.029; ///< of a block
-    double frequency_hz = 4, pga_m_s2 = 4;
-    bool alike = false; ///< the realizations differ by their friction and by drums offset by 1e-6 m alone
-};
-
-struct Law {
-    ContactForm form = ContactForm::rigid;
-    double stiffness_n_m2 = 0, damping_ratio = 0; ///< of two corners
-    double restitution = 0, step_s = 0;           ///< of rigid blocks
-};
-
-const std::vector<Cell> cells{{"monolith", 1, 0.174, 3, 3.4},    {"two_blocks", 2, 0.087, 4, 5},
-                              {"six_drums_a", 6, 0.029, 4, 4},   {"six_drums_b", 6, 0.029, 4, 5},
-                              {"six_drums_c", 6, 0.029, 3, 3.5}, {"six_drums_d", 6, 0.029, 6, 7}};
-const Cell alike{"six_drums_alike", 6, 0.029, 4, 5, true};
-const Cell standing{"six_drums_standing", 6, 0.029, 5, 2.15, true};
-
-/// Blocks 48 mm wide, of the specimen's stone; sizes, places, friction, level and phase as they vary in its studies.
-Study study_of(const Cell& cell, const Law& law, std::uint64_t draws)
-{
-    constexpr double width_m = 0.048, density = 0.1355 / (0.048 * 0.048 * 0.029);
-    Study s;
-    s.kind = StudyKind::single;
-    s.realizations = draws;
-    s.structure = equal_column(cell.free_blocks + 1, 1, width_m, cell.height_m, width_m,
-                               density * width_m * width_m * cell.height_m);
-    s.contact.form = law.form;
-    s.contact.friction = 0.68;
-    s.contact.restitution = law.restitution;
-    s.contact.normal_stiffness_n_m2 = law.stiffness_n_m2;
-    s.contact.tangential_stiffness_n_m = law.stiffness_n_m2 * width_m / 3;
-    s.contact.normal_damping_ratio = s.contact.tangential_damping_ratio = law.damping_ratio;
-    if (law.form == ContactForm::rigid)
-        s.run.step_s = law.step_s;
-    s.excitation.kind = ExcitationKind::harmonic;
-    s.excitation.frequency_hz = cell.frequency_hz;
-    s.excitation.pga_m_s2 = cell.pga_m_s2;
-    s.excitation.cycles = 10 * cell.frequency_hz;
-    s.excitation.tail_s = 1;
-    const auto perturb = [&s](Quantity quantity, Per per, double sd) {
-        Perturbation p;
-        p.quantity = quantity;
-        p.per = per;
-        p.sd = sd;
-        s.perturbations.push_back(p);
-    };
-    perturb(Quantity::friction, Per::joint, 0.068);
-    if (cell.alike) {
-        perturb(Quantity::drum_offset, Per::block, 1e-6);
-        return s;
-    }
-
-    perturb(Quantity::drum_width, Per::block, 0.0002);
-    perturb(Quantity::drum_height, Per::block, 0.0002);
-    perturb(Quantity::drum_offset, Per::block, 0.00024);
-    perturb(Quantity::tilt, Per::structure, 0.0017453);
-    Perturbation phase;
-    phase.quantity = Quantity::phase;
-    phase.per = Per::structure;
-    phase.distribution = DistributionKind::uniform;
-    phase.from = 0;
-    phase.to = 2 * std::numbers::pi;
-    s.perturbations.push_back(phase);
-    return s;
-}
-
 std::string text_of(const Law& law)
 {
     if (law.form == ContactForm::rigid)
-        return fmt::format("rigid, e = {:g} | 1/{:.0f}", law.restitution, 1 / law.step_s);
+        return fmt::format("rigid, e = {:g}{} | 1/{:.0f}", law.restitution,
+                           law.restitution_law == RestitutionLaw::poisson ? ", Poisson" : "", 1 / law.step_s);
     return fmt::format("two_corner, damping ratio {:g} | K_N {:.0e}", law.damping_ratio, law.stiffness_n_m2);
 }
 
@@ -128,6 +59,9 @@ std::vector<Law> laws(Table table)
     for (const double e : {0.0, 0.1, 0.3})
         for (const double rate : {480.0, 960.0, 1920.0, 3840.0})
             all.push_back({.restitution = e, .step_s = 1 / rate});
+    for (const double e : {0.1, 0.3})
+        for (const double rate : {960.0, 1920.0, 3840.0})
+            all.push_back({.restitution = e, .step_s = 1 / rate, .restitution_law = RestitutionLaw::poisson});
     for (const double K_n : {1e8, 1e9})
         for (const double xi : {0.05, 0.1, 0.3, 0.5, 1.0})
             all.push_back({ContactForm::two_corner, K_n, xi});
@@ -207,11 +141,11 @@ int main(int argc, char** argv)
     app.add_option("--damping-ratio", damping, "rows of one damping ratio alone");
     CLI11_PARSE(app, argc, argv);
     const Table table = cost ? Table::cost : steps ? Table::steps : stiff ? Table::stiff : Table::limit;
-    std::vector<Cell> all = cells;
+    std::vector<Cell> all = rocking_cells();
     if (steps)
-        all.push_back(alike);
+        all.push_back(alike_drums);
     if (cost)
-        all = {standing, alike};
+        all = {standing_drums, alike_drums};
     std::string head = "contacts | step [s], K_N [N/m2]";
     std::vector<Cell> chosen;
     for (const Cell& cell : all)
@@ -228,7 +162,7 @@ int main(int argc, char** argv)
         std::string row = text_of(law);
         answers.emplace_back();
         for (const Cell& cell : chosen) {
-            answers.back().push_back(run(study_of(cell, law, draws), threads));
+            answers.back().push_back(run(cell_study(cell, law, draws), threads));
             const Answer& a = answers.back().back();
             row += " | " + (cost ? fmt::format("{:.0f}", a.rate) : probability(a));
         }

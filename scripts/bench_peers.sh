@@ -1,12 +1,27 @@
 #!/usr/bin/env bash
-# Installs general engines of rigid bodies, builds the comparison with them, runs it, and writes
-# bench/results/peers-PROCESSOR.json and the same as a table beside it (.md). A quarter of an hour on one core.
+# Installs general engines of rigid bodies, builds the comparison with them and runs its tests. Each test writes its
+# results and the same as tables:
 #
-#   scripts/bench_peers.sh [--engine NAME] [--seconds 1]      a trial: with any option of bench/peers/peers the
-#                                                             results go to the terminal alone
+#   rocking       bench/results/peers-PROCESSOR.json, .md                 a quarter of an hour of one core
+#   restitution   bench/results/peers-PROCESSOR-restitution.json, .md     four minutes of one core
+#   collapse      bench/results/peers-PROCESSOR-collapse.json, .md        half an hour of processor time, on all cores
+#
+#   scripts/bench_peers.sh                                   all three
+#   scripts/bench_peers.sh --only TEST                       one of them
+#   scripts/bench_peers.sh --test collapse --budget 120 --draws 2048     a trial: with any option of bench/peers/peers
+#                                                            the results go to the terminal alone
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+tests=(rocking restitution collapse)
+if [[ ${1:-} == --only ]]; then
+    if [[ $# -ne 2 || " ${tests[*]} " != *" $2 "* ]]; then
+        echo "scripts/bench_peers.sh: --only takes one of: ${tests[*]}" >&2
+        exit 2
+    fi
+    tests=("$2")
+    shift 2
+fi
 scripts/install_packages.sh
 scripts/install_peers.sh
 cmake --preset release -DSTYLOBATE_PEERS=ON >/dev/null
@@ -15,11 +30,17 @@ peers=build/release/bench/peers/peers
 [[ $# -eq 0 ]] || exec "$peers" "$@"
 
 processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1 | tr -cs 'A-Za-z0-9.\n' '-' | sed 's/^-*//; s/-*$//')
-out=bench/results/peers-${processor:-unknown}
 mkdir -p bench/results
-new=$(mktemp -d "$out.XXXXXX")
-trap 'rm -rf "$new"' EXIT
-"$peers" --json "$new/json" --markdown "$new/md"
-mv "$new/json" "$out.json"
-mv "$new/md" "$out.md"
-echo "$out.json"
+for test in "${tests[@]}"; do
+    out=bench/results/peers-${processor:-unknown}
+    [[ $test == rocking ]] || out+=-$test
+    options=(--test "$test")
+    [[ $test != collapse ]] || options+=(--processes "$(nproc)")
+    new=$(mktemp -d "$out.XXXXXX")
+    trap 'rm -rf "$new"' EXIT
+    "$peers" "${options[@]}" --json "$new/json" --markdown "$new/md"
+    mv "$new/json" "$out.json"
+    mv "$new/md" "$out.md"
+    rm -r "$new"
+    echo "$out.json"
+done

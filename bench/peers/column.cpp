@@ -14,18 +14,33 @@ namespace {
 
 constexpr int least_columns = 3;
 
+} // namespace
+
 Scene scene_of(const Study& study, const Realization& realization)
 {
     Scene scene;
-    scene.friction = study.contact.friction;
-    scene.gravity_m_s2 = realization.gravity_m_s2;
+    scene.gravity_m_s2 = realization.gravity_m_s2 * std::cos(realization.base_tilt_rad);
     for (const Block& b : realization.blocks)
         scene.bodies.push_back(
             {b.half_width_m, b.half_height_m, study.structure.depth_m, b.mass_kg, {b.x_m, b.y_m, 0}, b.fixed});
+    for (const Joint& j : realization.joints)
+        if (j.lower + 1 == j.upper)
+            scene.bodies[static_cast<std::size_t>(j.upper)].friction = j.friction;
     return scene;
 }
 
-} // namespace
+double leaning_acceleration(const Realization& realization)
+{
+    return -realization.gravity_m_s2 * std::sin(realization.base_tilt_rad);
+}
+
+bool has_fallen(const World& world, const Scene& scene, const Study& study)
+{
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (!(world.pose(i).y_m >= study.outcome.collapse_height_fraction * scene.bodies[i].start.y_m))
+            return true;
+    return false;
+}
 
 double processor_seconds()
 {
@@ -64,24 +79,18 @@ Columns run_columns(const Engine& engine, std::size_t setting, double step_s, bo
         const BaseMotion base(study.excitation, r, nullptr);
         const Scene scene = scene_of(study, r);
         const auto world = engine.make(scene, setting, step_s);
-        const auto fallen = [&] {
-            for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-                if (!(world->pose(i).y_m >= study.outcome.collapse_height_fraction * scene.bodies[i].start.y_m))
-                    return true;
-            return false;
-        };
         bool collapsed = false;
         int n = 0;
         for (std::size_t second = 0; second < best.size() && !collapsed; ++second) {
             const double begin = processor_seconds();
             for (; n * step_s < static_cast<double>(second + 1) && !collapsed; ++n) {
                 world->step(shaken ? mean_acceleration(base, n, step_s) : 0);
-                collapsed = n % 16 == 15 && fallen();
+                collapsed = n % 16 == 15 && has_fallen(*world, scene, study);
             }
             if (!collapsed)
                 best[second] = std::min(best[second], processor_seconds() - begin);
         }
-        collapsed = collapsed || fallen();
+        collapsed = collapsed || has_fallen(*world, scene, study);
         columns.collapsed += collapsed;
         const Body& top = scene.bodies.back();
         columns.moved += collapsed || !(std::fabs(world->pose(scene.bodies.size() - 1).x_m - top.start.x_m) <

@@ -24,6 +24,17 @@ struct Columns {
     double realizations_per_second = 0;
 };
 
+/// The blocks of a realization as bodies, each with the friction of the bed under it. A base that is out of level is a
+/// change of gravity: the scene has the part across the base.
+Scene scene_of(const Study& study, const Realization& realization);
+
+/// The acceleration of a level ground that pulls as the part of gravity along this realization's base does [m/s2], to
+/// be added to that of its motion.
+double leaning_acceleration(const Realization& realization);
+
+/// Whether a drum is below the part of its height at which the study calls the column collapsed, or nowhere.
+bool has_fallen(const World& world, const Scene& scene, const Study& study);
+
 /// Time that this process has had of the processor [s]: neighbours on a shared machine do not count.
 double processor_seconds();
 

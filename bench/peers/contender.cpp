@@ -21,6 +21,9 @@ std::vector<Contender> contenders(const Engine& engine)
         for (int k = -8; k <= 28; ++k) // to 1/128 of the customary step
             c.dials.push_back(c.customary * std::pow(2, -0.25 * k));
         c.step_s = [](double step) { return step; };
+        c.block = [engine, s](double step, double lean_rad) {
+            return BlockRun{engine.make(monolith_scene(lean_rad), s, step), step, engine.ahead_steps};
+        };
         c.quarter_period_s = [engine, s](double step) { return quarter_period(engine, s, step); };
         c.overturning_eta = [engine, s](double step) { return overturning_eta(engine, s, step); };
         c.columns = [engine, s](double step, bool shaken, double seconds) {

@@ -7,6 +7,13 @@
 
 namespace stylobate::peers {
 
+/// The monolith in motion.
+struct BlockRun {
+    std::unique_ptr<World> world; ///< bodies: ground, monolith
+    double step_s = 0;
+    double ahead_steps = 0; ///< of its clock (`Engine::ahead_steps`)
+};
+
 struct Contender {
     std::string engine, version, planar, setting;
     bool own = false;          ///< Stylobate
@@ -15,6 +22,7 @@ struct Contender {
     std::vector<double> dials; ///< coarse to fine, each about 2^(-1/4) as fast as the one before
     double customary = 0;      ///< one of them
     std::function<double(double dial)> step_s;
+    std::function<BlockRun(double dial, double lean_rad)> block; ///< leaned and let go, on ground at rest
     std::function<double(double dial)> quarter_period_s;
     std::function<double(double dial)> overturning_eta;
     std::function<Columns(double dial, bool shaken, double seconds)> columns;

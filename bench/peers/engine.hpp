@@ -17,16 +17,20 @@ struct Pose {
 
 struct Body {
     double half_width_m = 0, half_height_m = 0, depth_m = 0;
-    double mass_kg = 0; ///< spread evenly; of a fixed one without meaning
-    Pose start;         ///< at rest
-    bool fixed = false; ///< to the ground
+    double mass_kg = 0;  ///< spread evenly; of a fixed one without meaning
+    Pose start;          ///< at rest
+    bool fixed = false;  ///< to the ground
+    double friction = 0; ///< mu between it and the body before it in the scene
 };
 
 struct Scene {
     std::vector<Body> bodies;
-    double friction = 0; ///< mu of every pair
     double gravity_m_s2 = 9.81;
 };
+
+/// One number for each body, for engines that multiply the numbers of a pair: the product for two neighbours in the
+/// scene is their friction. Pairs that are no neighbours, which meet after a fall, get some product near it.
+std::vector<double> friction_factors(const Scene& scene);
 
 /// One scene in motion, in the frame of the ground: shaking comes as a horizontal acceleration of all bodies, which is
 /// the same as moving the ground and keeps every engine's coordinates small.

@@ -30,6 +30,33 @@ Realization block(ContactForm form, double dial, double lean)
     return r;
 }
 
+/// One realization in the engine, on ground at rest.
+class OwnWorld final : public World {
+public:
+    explicit OwnWorld(Realization r)
+        : realization_(std::move(r)), study_(model::still(column_seconds)),
+          set_(study_, nullptr, kernels(Isa::scalar), realization_)
+    {
+        set_.load(0, realization_);
+    }
+    void step(double) override
+    {
+        set_.advance(done_ % chunk_steps, done_ % chunk_steps + 1);
+        ++done_;
+    }
+    Pose pose(std::size_t body) const override
+    {
+        const Snapshot now = set_.snapshot(0);
+        return {now.x_m[body], now.y_m[body], now.theta_rad[body]};
+    }
+
+private:
+    Realization realization_;
+    Study study_;
+    LaneSet set_;
+    int done_ = 0;
+};
+
 double eta_of(ContactForm form, double dial)
 {
     const Realization upright = block(form, dial, 0);
@@ -131,6 +158,11 @@ std::vector<Contender> own_contenders()
 
         const ContactForm f = form;
         c.step_s = [f](double K_n) { return Experiment(study_of(f, K_n, true)).sampler().realization(0).step_s; };
+        c.block = [f](double K_n, double lean_rad) {
+            Realization r = block(f, K_n, lean_rad / model::slenderness(model::mono_stone));
+            const double step_s = r.step_s;
+            return BlockRun{std::make_unique<OwnWorld>(std::move(r)), step_s, 0};
+        };
         c.quarter_period_s = [f](double K_n) { return upright_s(f, K_n); };
         c.overturning_eta = [f](double K_n) { return eta_of(f, K_n); };
         c.columns = [f](double K_n, bool shaken, double seconds) { return run_own(f, K_n, shaken, seconds); };

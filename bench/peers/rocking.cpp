@@ -21,9 +21,9 @@ verification::RigidBlock rigid()
 Scene monolith_scene(double lean_rad)
 {
     const double b = Block::width_m / 2, h = Block::height_m / 2, c = std::cos(lean_rad), s = std::sin(lean_rad);
-    return {{{10 * b, h, 1, 1, {0, -h, 0}, true},
-             {b, h, Block::depth_m, Block::mass_kg, {-b + b * c - h * s, b * s + h * c, lean_rad}, false}},
-            Block::friction};
+    const Pose leaned{-b + b * c - h * s, b * s + h * c, lean_rad};
+    return {
+        {{10 * b, h, 1, 1, {0, -h, 0}, true}, {b, h, Block::depth_m, Block::mass_kg, leaned, false, Block::friction}}};
 }
 
 double quarter_period(const Engine& engine, std::size_t setting, double step_s)

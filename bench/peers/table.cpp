@@ -23,26 +23,13 @@ std::string dial_text(const Contender& c, const Timed& t)
                        : fmt::format("{:.3g} s (1/{:.0f})", t.step_s, 1 / t.step_s);
 }
 
-/// Three digits, without an exponent.
-std::string rate_text(double rate)
-{
-    if (rate == 0) // none lasted for a second
-        return "-";
-    return rate >= 100 ? fmt::format("{:.0f}", rate) : fmt::format("{:.3g}", rate);
-}
-
 std::string line(const Contender& c, const std::string& at, const Timed& t)
 {
-    return markdown_row("{}{} | {} | {} | {} | {} | {} | {} | {} of {} | {}", c.engine, c.own ? "" : " " + c.version,
-                        c.setting, at, dial_text(c, t), percent(t.errors.quarter_period), percent(t.errors.overturning),
+    return markdown_row("{} | {} | {} | {} | {} | {} | {} | {} of {} | {}", engine_text(c), c.setting, at,
+                        dial_text(c, t), percent(t.errors.quarter_period), percent(t.errors.overturning),
                         rate_text(t.shaken.realizations_per_second), t.shaken.collapsed, t.shaken.count,
                         t.resting.moved == 0 ? "yes"
                                              : fmt::format("{} of {} do not", t.resting.moved, t.resting.count));
-}
-
-std::string target_text(std::size_t target)
-{
-    return fmt::format("{:g} %", 100 * targets[target]);
 }
 
 /// The results of one engine, from `first` on to those of the next.
@@ -55,19 +42,10 @@ std::vector<Result> of_engine(const std::vector<Result>& results, std::size_t fi
     return of;
 }
 
-Json json_of(const Columns& c)
-{
-    return Json::object()
-        .member("columns", c.count)
-        .member("collapsed", c.collapsed)
-        .member("collapsed_or_off_their_place", c.moved)
-        .member("realizations_per_second", c.realizations_per_second);
-}
-
 Json json_of(const Contender& contender, const Errors& e)
 {
     return Json::object()
-        .member(contender.compliant ? "normal_stiffness_n_m2" : "step_s", e.dial)
+        .member(dial_key(contender), e.dial)
         .member("quarter_period_error", e.quarter_period)
         .member("overturning_error", e.overturning);
 }
@@ -82,6 +60,37 @@ Json json_of(const Contender& contender, const Timed& t)
 }
 
 } // namespace
+
+std::string rate_text(double rate)
+{
+    if (rate == 0) // none lasted for a second
+        return "-";
+    return rate >= 100 ? fmt::format("{:.0f}", rate) : fmt::format("{:.3g}", rate);
+}
+
+std::string target_text(std::size_t target)
+{
+    return fmt::format("{:g} %", 100 * targets[target]);
+}
+
+std::string engine_text(const Contender& contender)
+{
+    return contender.engine + (contender.own ? "" : " " + contender.version);
+}
+
+std::string dial_key(const Contender& contender)
+{
+    return contender.compliant ? "normal_stiffness_n_m2" : "step_s";
+}
+
+Json json_of(const Columns& c)
+{
+    return Json::object()
+        .member("columns", c.count)
+        .member("collapsed", c.collapsed)
+        .member("collapsed_or_off_their_place", c.moved)
+        .member("realizations_per_second", c.realizations_per_second);
+}
 
 std::string markdown(const std::vector<Result>& results, const std::string& processor)
 {

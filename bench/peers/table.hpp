@@ -2,6 +2,7 @@
 /// What was found, as a table for people (Markdown) and as JSON.
 
 #include "bench/peers/scan.hpp"
+#include "studies/report/json.hpp"
 
 #include <string>
 
@@ -13,5 +14,17 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
 
 /// All settings with all that was measured.
 std::string json(const std::vector<Result>& results, const std::string& processor);
+
+// ---- parts of such tables ----
+
+/// Three digits, without an exponent; a dash for 0.
+std::string rate_text(double rate);
+/// Of `targets`, as "0.2 %".
+std::string target_text(std::size_t target);
+/// The engine, of others with its version.
+std::string engine_text(const Contender& contender);
+/// Member of the JSON for its dial, with the unit.
+std::string dial_key(const Contender& contender);
+Json json_of(const Columns& columns);
 
 } // namespace stylobate::peers

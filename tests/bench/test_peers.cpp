@@ -96,12 +96,12 @@ TEST_P(EachEngine, FlatBlockSlidesWithTheFrictionOfItsScene)
     Scene scene = monolith_scene(0);
     std::swap(scene.bodies[1].half_width_m, scene.bodies[1].half_height_m);
     scene.bodies[1].start.y_m = scene.bodies[1].half_height_m;
-    scene.friction = 0.3;
+    scene.bodies[1].friction = 0.3;
     const double step = GetParam().step_s, time = 0.3, acceleration = 5;
     const auto world = engine_.make(scene, GetParam().setting, step);
     for (int n = 0; n * step < time; ++n)
         world->step(acceleration);
-    const double slipped = (acceleration - scene.friction * scene.gravity_m_s2) * time * time / 2;
+    const double slipped = (acceleration - scene.bodies[1].friction * scene.gravity_m_s2) * time * time / 2;
     EXPECT_NEAR(world->pose(1).x_m, -slipped, 0.02 * slipped);
 }
 

@@ -22,7 +22,8 @@ struct Setting {
 };
 constexpr std::array settings{Setting{"8 + 3 iterations", 100, 8, 3}, Setting{"6 + 2 iterations", 100, 6, 2},
                               Setting{"20 + 8 iterations", 100, 20, 8},
-                              Setting{"8 + 3 iterations, unit 5 mm", 200, 8, 3}};
+                              Setting{"8 + 3 iterations, unit 5 mm", 200, 8, 3},
+                              Setting{"8 + 3 iterations, unit 1 mm", 1000, 8, 3}};
 
 class Box2dWorld final : public World {
 public:
@@ -32,6 +33,7 @@ public:
         // faces at rest: two skins less the slop that position correction leaves
         const float gap = 2 * b2_polygonRadius - b2_linearSlop;
         world_.SetAllowSleeping(false);
+        const std::vector<double> factors = friction_factors(scene);
         for (const Body& body : scene.bodies) {
             b2BodyDef definition;
             definition.type = body.fixed ? b2_staticBody : b2_dynamicBody;
@@ -43,7 +45,8 @@ public:
             b2FixtureDef fixture;
             fixture.shape = &shape;
             fixture.density = 1;
-            fixture.friction = static_cast<float>(scene.friction);
+            const double factor = factors[bodies_.size()];
+            fixture.friction = static_cast<float>(factor * factor); // the friction of a pair is the geometric mean
             made->CreateFixture(&fixture);
             if (!body.fixed) {
                 const float mass = static_cast<float>(body.mass_kg), b = units(body.half_width_m),

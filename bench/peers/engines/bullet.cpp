@@ -36,6 +36,7 @@ public:
         world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, solver_.get(), &configuration_);
         if (setting.iterations > 0)
             world_->getSolverInfo().m_numIterations = setting.iterations;
+        const std::vector<double> factors = friction_factors(scene);
         for (const Body& body : scene.bodies) {
             const btVector3 half(units_per_metre * body.half_width_m, units_per_metre * body.half_height_m,
                                  units_per_metre * body.depth_m / 2);
@@ -48,7 +49,7 @@ public:
             info.m_startWorldTransform =
                 btTransform(btQuaternion(btVector3(0, 0, 1), body.start.theta_rad),
                             btVector3(units_per_metre * body.start.x_m, units_per_metre * body.start.y_m, 0));
-            info.m_friction = std::sqrt(scene.friction); // the friction of a pair is the product
+            info.m_friction = factors[bodies_.size()]; // the friction of a pair is the product
             auto made = std::make_unique<btRigidBody>(info);
             made->setActivationState(DISABLE_DEACTIVATION);
             made->setLinearFactor({1, 1, 0});

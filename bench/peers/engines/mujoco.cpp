@@ -28,11 +28,12 @@ constexpr std::array settings{Setting{"contacts as by default", 0.02, "0.9 0.95 
 std::string model_text(const Scene& scene, const Setting& setting, double step_s)
 {
     std::string bodies;
+    int priority = 0; // of a pair the geom with the higher one decides: the upper block has the friction of its bed
     for (const Body& body : scene.bodies) {
         const std::string box = fmt::format(
-            "<geom type='box' size='{} {} {}' mass='{}' friction='{} 0 0' solref='{} 1' solimp='{}'", body.half_width_m,
-            body.depth_m / 2, body.half_height_m, body.fixed ? 1 : body.mass_kg, scene.friction,
-            setting.time_constant_s > 0 ? setting.time_constant_s : 2 * step_s, setting.impedance);
+            "<geom type='box' size='{} {} {}' mass='{}' friction='{} 0 0' priority='{}' solref='{} 1' solimp='{}'",
+            body.half_width_m, body.depth_m / 2, body.half_height_m, body.fixed ? 1 : body.mass_kg, body.friction,
+            priority++, setting.time_constant_s > 0 ? setting.time_constant_s : 2 * step_s, setting.impedance);
         if (body.fixed)
             bodies += fmt::format("{} pos='{} 0 {}'/>", box, body.start.x_m, body.start.y_m);
         else

@@ -30,6 +30,7 @@ public:
     {
         cpSpaceSetIterations(space_, setting.iterations);
         cpSpaceSetCollisionSlop(space_, setting.slop);
+        const std::vector<double> factors = friction_factors(scene);
         for (const Body& body : scene.bodies) {
             const double b = units_per_metre * body.half_width_m, h = units_per_metre * body.half_height_m;
             cpBody* made = body.fixed ? cpBodyNewStatic() : cpBodyNew(body.mass_kg, body.mass_kg * (b * b + h * h) / 3);
@@ -37,8 +38,7 @@ public:
             cpBodySetAngle(made, body.start.theta_rad);
             cpSpaceAddBody(space_, made);
             cpShape* shape = cpBoxShapeNew(made, 2 * b, 2 * h, 0);
-            // the friction of a pair is the product
-            cpShapeSetFriction(shape, std::sqrt(scene.friction));
+            cpShapeSetFriction(shape, factors[shapes_.size()]); // the friction of a pair is the product
             cpShapeSetElasticity(shape, 0);
             cpSpaceAddShape(space_, shape);
             bodies_.push_back(made);

@@ -5,9 +5,11 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdarg>
+#include <cstdint>
 #include <stdexcept>
 
 namespace stylobate::peers {
@@ -24,7 +26,7 @@ constexpr std::array settings{Setting{"QuickStep, 20 iterations", 20}, Setting{"
 class OdeWorld final : public World {
 public:
     OdeWorld(const Scene& scene, const Setting& setting, double step_s)
-        : setting_(setting), gravity_(scene.gravity_m_s2), step_(step_s), friction_(scene.friction)
+        : setting_(setting), gravity_(scene.gravity_m_s2), step_(step_s)
     {
         static const bool ready = dInitODE2(0) != 0; // for the life of the process
         if (!ready)
@@ -56,7 +58,9 @@ public:
             }
             dGeomSetPosition(geom, body.start.x_m, body.start.y_m, 0);
             dGeomSetQuaternion(geom, turn);
+            dGeomSetData(geom, reinterpret_cast<void*>(geoms_.size()));
             geoms_.push_back(geom);
+            friction_.push_back(body.friction);
         }
     }
 
@@ -108,20 +112,24 @@ private:
         constexpr int most = 8;
         dContact contacts[most] = {};
         const int count = dCollide(a, b, most, &contacts[0].geom, sizeof(dContact));
+        // of neighbours in the scene the later one has the friction of their bed
+        const auto later = std::max(reinterpret_cast<std::uintptr_t>(dGeomGetData(a)),
+                                    reinterpret_cast<std::uintptr_t>(dGeomGetData(b)));
         for (int i = 0; i < count; ++i) {
             contacts[i].surface.mode = dContactApprox1;
-            contacts[i].surface.mu = world.friction_;
+            contacts[i].surface.mu = world.friction_[later];
             dJointAttach(dJointCreateContact(world.world_, world.group_, &contacts[i]), first, second);
         }
     }
 
     Setting setting_;
-    double gravity_, step_, friction_;
+    double gravity_, step_;
     dWorldID world_;
     dSpaceID space_;
     dJointGroupID group_;
     std::vector<dBodyID> bodies_; ///< null: fixed
     std::vector<dGeomID> geoms_;
+    std::vector<double> friction_; ///< of each body against the one before
 };
 
 } // namespace

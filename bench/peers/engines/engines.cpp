@@ -1,6 +1,16 @@
 #include "bench/peers/engine.hpp"
 
+#include <cmath>
+
 namespace stylobate::peers {
+
+std::vector<double> friction_factors(const Scene& scene)
+{
+    std::vector<double> factors;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        factors.push_back(i == 0 ? std::sqrt(scene.bodies.at(1).friction) : scene.bodies[i].friction / factors.back());
+    return factors;
+}
 
 std::vector<Engine> engines()
 {
