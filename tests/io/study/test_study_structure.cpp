@@ -93,12 +93,14 @@ drums = [
     ASSERT_EQ(drums.size(), 5U);
     EXPECT_EQ(drums[0], (DrumSpec{.width_m = 1.5, .height_m = 0.5, .mass_kg = 3000}));
     EXPECT_EQ(drums[1], drums[0]);
-    EXPECT_EQ(drums[2],
-              (DrumSpec{.width_m = 1.25,
-                        .height_m = 0.5,
-                        .mass_kg = 2500,
-                        .offset_m = -0.02,
-                        .bed = {.friction = 0.3, .normal_stiffness_n_m2 = 1e9, .tangential_stiffness_n_m = 2e9}}));
+    EXPECT_EQ(drums[2], (DrumSpec{.width_m = 1.25,
+                                  .height_m = 0.5,
+                                  .mass_kg = 2500,
+                                  .offset_m = -0.02,
+                                  .bed = {.friction = 0.3,
+                                          .normal_stiffness_n_m2 = 1e9,
+                                          .tangential_stiffness_n_m = 2e9,
+                                          .restitution = {}}}));
     EXPECT_EQ(drums[3], (DrumSpec{.width_m = 1.5, .height_m = 0.25, .mass_kg = 1400}));
     EXPECT_EQ(drums[4], (DrumSpec{.width_m = 1.5, .height_m = 0.5, .mass_kg = 1500}));
     EXPECT_EQ(study.contact.tangential_stiffness_n_m, 3e9 * 1.5); // the widest drum's
