@@ -177,15 +177,13 @@ struct OfRigidBlock {
 /// The same of a joint, in the frame of its lower block: its ends are those of the faces' common part, left and right.
 struct OfRigidJoint {
     enum Field : int {
-        left,         ///< 1 where the left end carries, else 0; step
-        right,        ///< the same of the right end; step
-        slips,        ///< 1 or -1: friction at its limit, on the upper block this way along the face; 0: it holds. step
-        restitution,  ///< of an end's closing velocity (Newton)
-        expansion,    ///< of the impulse of the compression (Poisson)
-        left_back,    ///< force of the expansion at the left end, in the step after an impact [N]; step
-        right_back,   ///< at the right end [N]; step
-        left_before,  ///< force at the left end in the last step [N]; step
-        right_before, ///< at the right end [N]; step
+        left,        ///< 1 where the left end carries, else 0; step
+        right,       ///< the same of the right end; step
+        slips,       ///< 1 or -1: friction at its limit, on the upper block this way along the face; 0: it holds. step
+        restitution, ///< of an end's closing velocity (Newton)
+        expansion,   ///< of the impulse of the compression (Poisson)
+        left_back,   ///< force of the expansion at the left end, in the step after an impact [N]; step
+        right_back,  ///< at the right end [N]; step
         // of this step alone
         left_x,       ///< of the left end from the lower block's centre [m]
         right_x,      ///< of the right end [m]
@@ -209,14 +207,16 @@ struct OfRigidJoint {
         right_goal,   ///< [m]
         sliding_goal, ///< [m]
 
-        next_left,           ///< what the next increments add to the gap [m]
-        next_right,          ///< [m]
-        next_sliding,        ///< [m]
-        own,                 ///< response of the three rows to their own forces (6: 00 01 02 11 12 22) [m/N]
-        inverse = own + 6,   ///< of the pivot (9)
-        pivot = inverse + 9, ///< while it is made (9)
-        force = pivot + 9,   ///< at the left and right end and, on the upper block, along the face (3) [N]
-        closing = force + 3, ///< the same of what closes the gaps (3) [N]
+        next_left,             ///< what the next increments add to the gap [m]
+        next_right,            ///< [m]
+        next_sliding,          ///< [m]
+        own,                   ///< response of the three rows to their own forces (6: 00 01 02 11 12 22) [m/N]
+        inverse = own + 6,     ///< of the pivot (9)
+        pivot = inverse + 9,   ///< while it is made (9)
+        force = pivot + 9,     ///< at the left and right end and, on the upper block, along the face (3) [N]
+        before = force + 3,    ///< the same of the last step (3) [N]; step
+        relaxed = before + 3,  ///< of the relaxation: forces, and left, right and slips (6)
+        closing = relaxed + 6, ///< the forces of what closes the gaps (3) [N]
         count = closing + 3
     };
 };

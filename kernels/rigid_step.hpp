@@ -35,8 +35,12 @@ namespace detail {
 inline constexpr int passes_of_all = 8, passes_of_one = 40;
 /// Rounds of solutions, each of which is followed by a relaxation of what has not been found, and its sweeps.
 inline constexpr int rounds = 3, relaxation_sweeps = 10;
-/// Of the last relaxation in frames, whose contacts are harder to find.
-inline constexpr int last_sweeps = 500;
+/// Most sweeps in frames, and the change of a rate at which they end, as a part of what gravity adds in a step.
+inline constexpr int frame_sweeps = 200;
+template <class Number>
+inline constexpr Number settled_rate = 1e-6;
+template <>
+inline constexpr float settled_rate<float> = 1e-4F;
 /// Faces that are turned more than this against each other are no bed: cosine.
 inline constexpr double least_bed_cosine = 0.2;
 /// Rates below this part of what gravity adds in a step are rounding.
@@ -99,6 +103,7 @@ private:
     using Equations::put_response;
     using Equations::rates;
     using Equations::solve_equations;
+    using Equations::store_three;
     using Equations::topology_;
     using B = OfRigidBlock;
     using typename Equations::Bed;
@@ -246,13 +251,69 @@ private:
     STYLOBATE_INLINE void solve() const
     {
         const Real half(0.5);
+        for (int j = 0; j < topology_.beds(); ++j)
+            store_three(J::before, j, load_three(J::force, j));
+        if (!topology_.stack) {
+            solve_frame();
+            return;
+        }
         for (int round = 0; round < detail::rounds; ++round) {
             const Real open = find_contacts(round + 1 == detail::rounds);
             if (!any(open > half))
                 return;
-            const bool last = round + 1 == detail::rounds && !topology_.stack;
-            relax(open > half, last ? detail::last_sweeps : detail::relaxation_sweeps);
+            relax(open > half, detail::relaxation_sweeps);
         }
+    }
+
+    /// Of frames: friction in their loops admits solutions with large forces that no motion has caused. So the
+    /// relaxation comes first, which goes on from the forces of the last step; where it has not ended, the equations
+    /// are solved for the ends that it has found, and the solution is taken if nothing moves faster with it.
+    STYLOBATE_INLINE void solve_frame() const
+    {
+        const Real half(0.5), zero(0.0);
+        const auto busy = relax(half > zero, detail::frame_sweeps);
+        auto taken = half < zero;
+        if (any(busy)) {
+            for (int j = 0; j < topology_.beds(); ++j)
+                for (int k = 0; k < 6; ++k)
+                    put(J::relaxed, j, k < 3 ? get(J::force, j, k) : get(flag(k - 3), j), k);
+            const Real most = kinetic() + slow();
+            const Real open = find_contacts(false);
+            taken = busy & (open < half) & (kinetic() < most);
+            for (int j = 0; j < topology_.beds(); ++j)
+                for (int k = 0; k < 6; ++k) {
+                    const Real relaxed = get(J::relaxed, j, k);
+                    if (k < 3)
+                        put(J::force, j, select(taken, get(J::force, j, k), relaxed), k);
+                    else
+                        put(flag(k - 3), j, select(taken, get(flag(k - 3), j), relaxed));
+                }
+        }
+        for (int j = 0; j < topology_.beds(); ++j)
+            for (int k = 0; k < 3; ++k)
+                put(J::closing, j, select(taken, get(J::closing, j, k), zero), k);
+        apply_forces();
+    }
+    STYLOBATE_INLINE static J::Field flag(int k) { return k == 0 ? J::left : k == 1 ? J::right : J::slips; }
+    /// Of the increments with the forces found, twice.
+    STYLOBATE_INLINE Real kinetic() const
+    {
+        Real sum(0.0);
+        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
+            const Planar<Real> d = next(i);
+            sum = fma(get(OfBlock::mass, i), fma(d.x, d.x, d.y * d.y),
+                      fma(get(OfBlock::inertia, i), d.theta * d.theta, sum));
+        }
+        return sum;
+    }
+    /// The same of blocks that move by 1e-4 of what gravity adds in a step.
+    STYLOBATE_INLINE Real slow() const
+    {
+        const Real rate = get(OfRealization::gravity_dy) * Real(NumberOf<Real>(1e-4));
+        Real sum(0.0);
+        for (int i = topology_.fixed; i < topology_.blocks; ++i)
+            sum = fma(get(OfBlock::mass, i), rate * rate, sum);
+        return sum;
     }
 
     /// Slower ones are rounding: negative.
@@ -347,60 +408,76 @@ private:
         return changes;
     }
 
-    /// For the realizations whose contacts have not been found: forces clipped to what they may be, and relaxation bed
-    /// by bed. Rare, so it is not inlined.
+    /// Projected Gauss and Seidel, bed by bed, up and down in turn, from the forces of the last step: of frames, and of
+    /// the stacks whose contacts have not been found. A realization ends when no rate changes any more. Not inlined, as
+    /// it is rare in stacks.
+    /// @return where it has not ended
     template <class Mask>
-    STYLOBATE_APART void relax(Mask which, int sweeps) const
+    STYLOBATE_APART Mask relax(Mask which, int sweeps) const
     {
-        const Real zero(0.0), half(0.5), one(1.0);
-        for (int sweep = 0; sweep <= sweeps; ++sweep)
-            for (int j = 0; j < topology_.beds(); ++j) {
-                const Bed b = bed(j);
-                const bool clip = sweep == 0;
-                V force = load_three(J::force, j);
-                const V before = force;
-                const auto more = [&](int row, Real goal) {
-                    const V rate = rates(b, next(b.lower), next(b.upper));
-                    const V from = rates(b, free(b.lower), free(b.upper));
-                    const Real own = get(J::own, j, row == 0 ? 0 : row == 1 ? 3 : 5);
-                    return clip ? zero : (goal - (rate.v[row] - from.v[row])) / select(own > zero, own, one);
-                };
-                const auto take = [&](const V& now) {
-                    const V change = now - force;
-                    const Pull p = pull(b, change);
-                    if (is_free(b.lower))
-                        put_chosen(which, b.lower, moved_by(b.lower, next(b.lower), p.lower));
-                    put_chosen(which, b.upper, moved_by(b.upper, next(b.upper), p.upper));
-                    force = now;
-                };
-                const auto near = [&](J::Field gap) {
-                    return (get(J::usable, j) > half) &
-                           (get(gap, j) < abs_of(get(OfRealization::gravity_dy)) + abs_of(get(J::left_rate, j)) +
-                                              abs_of(get(J::right_rate, j)));
-                };
-                V now = force;
-                now.v[0] = select(near(J::left_gap), max_of(force.v[0] + more(0, get(J::left_goal, j)), zero), zero);
-                take(now);
-                now.v[1] = select(near(J::right_gap), max_of(force.v[1] + more(1, get(J::right_goal, j)), zero), zero);
-                take(now);
-                const Real limit =
-                    get(OfJoint::mu, j) * (now.v[0] + now.v[1] + get(J::left_back, j) + get(J::right_back, j));
-                now.v[2] = clamp(force.v[2] + more(2, get(J::sliding_goal, j)), zero - limit, limit);
-                take(now);
-                put(J::force, j, select(which, force.v[0], before.v[0]), 0);
-                put(J::force, j, select(which, force.v[1], before.v[1]), 1);
-                put(J::force, j, select(which, force.v[2], before.v[2]), 2);
-                put(J::left, j, select(which, select(force.v[0] > zero, one, zero), get(J::left, j)));
-                put(J::right, j, select(which, select(force.v[1] > zero, one, zero), get(J::right, j)));
-                const Real way = select(force.v[2] > zero, one, zero - one);
-                const auto slips = (abs_of(force.v[2]) >= limit) & (limit > zero);
-                put(J::slips, j, select(which, select(slips, way, zero), get(J::slips, j)));
-            }
+        const Real zero(0.0);
+        for (int j = 0; j < topology_.beds(); ++j)
+            for (int k = 0; k < 3; ++k)
+                put(J::force, j, select(which, get(J::before, j, k), get(J::force, j, k)), k);
+        apply_forces();
+        const Real settled = abs_of(get(OfRealization::gravity_dy)) * Real(detail::settled_rate<NumberOf<Real>>);
+        Mask busy = which;
+        for (int sweep = 0; sweep < sweeps && any(busy); ++sweep) {
+            Real most(0.0);
+            for (int i = 0; i < topology_.beds(); ++i)
+                most = max_of(most, relax_bed(sweep % 2 == 0 ? i : topology_.beds() - 1 - i, busy));
+            busy = busy & (most > settled);
+        }
         for (int j = 0; j < topology_.beds(); ++j) {
             put_next_rates(j);
             for (int k = 0; k < 2; ++k)
                 put(J::closing, j, select(which, zero, get(J::closing, j, k)), k);
         }
+        return busy;
+    }
+    /// @return largest change of a rate
+    template <class Mask>
+    STYLOBATE_INLINE Real relax_bed(int j, Mask which) const
+    {
+        const Real zero(0.0), half(0.5), one(1.0);
+        const Bed b = bed(j);
+        const V before = load_three(J::force, j);
+        const V from = rates(b, free(b.lower), free(b.upper));
+        V force = before;
+        Real most(0.0);
+        const auto own = [&](int row) { return get(J::own, j, row == 0 ? 0 : row == 1 ? 3 : 5); };
+        const auto wanted = [&](int row, Real goal) {
+            const V rate = rates(b, next(b.lower), next(b.upper));
+            return force.v[row] + (goal - (rate.v[row] - from.v[row])) / select(own(row) > zero, own(row), one);
+        };
+        const auto take = [&](int row, Real now) {
+            V change{{zero, zero, zero}};
+            change.v[row] = now - force.v[row];
+            most = max_of(most, abs_of(change.v[row]) * own(row));
+            const Pull p = pull(b, change);
+            if (is_free(b.lower))
+                put_chosen(which, b.lower, moved_by(b.lower, next(b.lower), p.lower));
+            put_chosen(which, b.upper, moved_by(b.upper, next(b.upper), p.upper));
+            force.v[row] = now;
+        };
+        const auto near = [&](J::Field gap) {
+            return (get(J::usable, j) > half) &
+                   (get(gap, j) < abs_of(get(OfRealization::gravity_dy)) + abs_of(get(J::left_rate, j)) +
+                                      abs_of(get(J::right_rate, j)));
+        };
+        take(0, select(near(J::left_gap), max_of(wanted(0, get(J::left_goal, j)), zero), zero));
+        take(1, select(near(J::right_gap), max_of(wanted(1, get(J::right_goal, j)), zero), zero));
+        const Real normal = force.v[0] + force.v[1] + get(J::left_back, j) + get(J::right_back, j);
+        const Real limit = get(OfJoint::mu, j) * normal;
+        take(2, clamp(wanted(2, get(J::sliding_goal, j)), zero - limit, limit));
+        for (int k = 0; k < 3; ++k)
+            put(J::force, j, select(which, force.v[k], before.v[k]), k);
+        put(J::left, j, select(which, select(force.v[0] > zero, one, zero), get(J::left, j)));
+        put(J::right, j, select(which, select(force.v[1] > zero, one, zero), get(J::right, j)));
+        const Real way = select(force.v[2] > zero, one, zero - one);
+        const auto slips = (abs_of(force.v[2]) >= limit) & (limit > zero);
+        put(J::slips, j, select(which, select(slips, way, zero), get(J::slips, j)));
+        return most;
     }
     template <class Mask>
     STYLOBATE_INLINE void put_chosen(Mask which, int i, const Planar<Real>& d) const
@@ -472,13 +549,12 @@ private:
         const auto struck = get(OfRigid::struck) > Real(0.5);
         for (int j = 0; j < topology_.beds(); ++j) {
             const Real part = get(J::expansion, j);
-            const auto each = [&](J::Field back, J::Field before, int end) {
-                const Real force = get(J::force, j, end);
-                put(back, j, select(struck, part * max_of(force - get(before, j), zero), zero));
-                put(before, j, force);
+            const auto each = [&](J::Field back, int end) {
+                const Real more = get(J::force, j, end) - get(J::before, j, end);
+                put(back, j, select(struck, part * max_of(more, zero), zero));
             };
-            each(J::left_back, J::left_before, 0);
-            each(J::right_back, J::right_before, 1);
+            each(J::left_back, 0);
+            each(J::right_back, 1);
         }
     }
 
