@@ -2,6 +2,7 @@
 /// The pictures that the results of every kind have: one realization over time, and the order of falls.
 
 #include "kernels/isa.hpp"
+#include "studies/report/figure.hpp"
 #include "studies/results/results.hpp"
 
 #include <cstdint>
@@ -15,6 +16,11 @@ namespace stylobate {
 /// @throws InputError if there is no such realization, and as `plot_strip` does
 void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
                    const std::filesystem::path& file);
+
+/// The same as curves of a page: displacement of the base, and of blocks against the base and their place in the
+/// reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as have colours.
+/// @throws InputError as `strip_picture` does, but for the drawing
+Figure history_figure(const Results& results, Isa isa, std::uint64_t index);
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations
