@@ -213,10 +213,8 @@ private:
         if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_) {
             page_.data("cells",
                        cells_json(*table, rows_, header_.block_names, fs::path(results_.file()).filename().string()));
-            page_.note(
-                "Pointer or arrow keys: what is known of a cell. Click or Enter: its outcomes, and realizations in "
-                "motion. " +
-                animations_.words);
+            if (!animations_.words.empty())
+                page_.note(animations_.words);
         }
         if (!animations_.list.empty())
             page_.data("animations", animations_json(animations_, study_));
@@ -238,7 +236,8 @@ private:
         page_.section("Motion");
         if (!animations_.list.empty())
             page_.player();
-        page_.note(animations_.words);
+        if (!animations_.words.empty())
+            page_.note(animations_.words);
         constexpr std::size_t most = 3;
         const std::size_t shown = std::min(most, rows_.size());
         for (std::size_t i = 0; i < shown; ++i) {

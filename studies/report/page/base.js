@@ -20,7 +20,7 @@ function filled(element, attributes, children) {
   return element;
 }
 
-/** The JSON of `<script type="application/json" id=...>`; null where the page has none. */
+/** The JSON that stands in the page under a name; null where there is none. */
 function dataOf(id) {
   const script = document.getElementById(id);
   return script ? JSON.parse(script.textContent) : null;
