@@ -14,7 +14,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace stylobate {
 
@@ -32,6 +34,10 @@ void check_ending(const std::string& output)
 
 AnimationOptions animation_options(const CommonOptions& options, const ReportOptions& wanted)
 {
+    for (const auto& [option, value] :
+         {std::pair("--animate-mb", wanted.animate_mb), std::pair("--animate-seconds", wanted.animate_seconds)})
+        if (value && std::isnan(*value)) // the command line's range lets it pass
+            throw InputError(fmt::format("{} nan: a number is needed", option));
     AnimationOptions animations;
     animations.each = wanted.animate.value_or(animations.each);
     animations.budget_mb = wanted.animate_mb.value_or(animations.budget_mb);
@@ -77,7 +83,7 @@ int report_command(const CommonOptions& options, const std::string& file, const 
     } else {
         const Results results(file, options.set);
         check_complete(results.reader(), file);
-        const AtomicFile writable(output); // refuses before the pictures are drawn
+        AtomicFile::check(output); // refuses before realizations are run and pictures drawn
         const KeptAnimations animations =
             keep_animations(results, options.isa(), animation_options(options, wanted), console);
         if (!animations.warning.empty())

@@ -8,6 +8,7 @@
 #include "studies/report/words.hpp"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -151,6 +152,8 @@ private:
         std::vector<Trajectory> followed(indices.size());
         if (!std::ranges::all_of(indices, [&](std::uint64_t index) { return is_stored(index); })) {
             const Experiment& experiment = results_.experiment();
+            const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(options_.threads));
             tbb::task_arena(options_.threads).execute([&] {
                 tbb::parallel_for(std::size_t{0}, indices.size(), [&](std::size_t i) {
                     if (!is_stored(indices[i]))

@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import tempfile
 
-TIMEOUT_S = 300  # ends what hangs; a machine that is ten times as slow passes
+TIMEOUT_S = 120  # ends what hangs; a machine that is ten times as slow passes
 
 
 class BrowserError(Exception):

@@ -146,7 +146,8 @@ TEST_F(Animate, RefusesWhatCannotBeHad)
     expect_refused({"report", "surface.h5", "--animate", "1.5"}, {"--animate", "1.5"});
     expect_refused({"report", "surface.h5", "--animate-mb", "-3"}, {"--animate-mb", "-3"});
     expect_refused({"report", "surface.h5", "--animate-mb", "0"}, {"--animate-mb", "0"});
-    expect_refused({"report", "surface.h5", "--animate-mb", "nan"}, {"--animate-mb"});
+    expect_refused({"report", "surface.h5", "--animate-mb", "nan"}, {"--animate-mb", "a number"});
+    expect_refused({"report", "surface.h5", "--animate-seconds", "nan"}, {"--animate-seconds", "a number"});
     expect_refused({"report", "surface.h5", "--animate-seconds", "-1"}, {"--animate-seconds", "-1"});
     expect_refused({"report", "surface.h5", "--animate-mb", "0.0005"},
                    {"surface.h5", "budget of 0.0005 MB", "--animate-mb", "or --animate 0"});
@@ -177,8 +178,9 @@ TEST_F(Animate, WithoutItsRecordAPageHasNoAnimations)
 {
     write_bytes(folder / "record.at2", Burst{}.at2());
     const Words settings =
-        with(two_under_a_record, {"study.realizations=8", "excitation.file=" + (folder / "record.at2").string(),
-                                  "surface.pga_m_s2={from=3.0,to=12.0,count=4}"});
+        with(two_under_a_record,
+             {"study.realizations=8", "excitation.file=" + (folder / "record.at2").string(),
+              "surface.frequency_hz={from=1.0,to=1.0,count=1}", "surface.pga_m_s2={from=5.0,to=14.0,count=10}"});
     const Ended ran = run(run_words(record_study, settings, {"-o", "shaken.h5", "--quiet"}));
     ASSERT_EQ(ran.status, 0) << testing::PrintToString(ran);
     ASSERT_FALSE(kept(page_of("shaken.h5", {})).empty()) << "the study has no mixed cell";

@@ -55,6 +55,9 @@ class LiveFigure {
         key.setAttribute("aria-pressed", String(!off));
         this.redraw();
       };
+      const box = key.getBBox(); // gaps between the letters belong to it too
+      key.prepend(svg("rect", {x: box.x, y: box.y - 2, width: box.width, height: box.height + 4,
+                               fill: "transparent"}));
       filled(key, {role: "button", tabindex: 0, "aria-pressed": "true", "aria-label": `show ${group}`, click: flip,
                    keydown: flip}, []);
     }
