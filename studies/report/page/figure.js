@@ -163,9 +163,9 @@ class LiveFigure {
     const places = [...new Set(this.series.filter((series) => this.shown(series) && series.kind !== "spans")
                                    .flatMap((series) => series.x))].filter((x) => x !== null).sort((a, b) => a - b);
     if (!places.length) return;
-    const before = places.findIndex((x) => x >= (this.current ?? -Infinity));
-    const next = this.current === undefined ? (steps[event.key] > 0 ? 0 : places.length - 1)
-                                            : clamp(before + steps[event.key], 0, places.length - 1);
+    let before = places.findIndex((x) => x >= this.current);
+    if (before < 0) before = steps[event.key] > 0 ? -1 : places.length; // nothing was read yet
+    const next = clamp(before + steps[event.key], 0, places.length - 1);
     say(this.read(this.x.px(places[next]), this.y.last, Infinity));
   }
 }
