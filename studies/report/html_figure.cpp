@@ -260,7 +260,9 @@ public:
                          .member("name", s.name)
                          .member("group", group_of(s))
                          .member("layer", s.layer)
-                         .member("kind", s.kind == SeriesKind::spans ? "spans" : "values")
+                         .member("kind", s.kind == SeriesKind::spans  ? "spans"
+                                         : s.kind == SeriesKind::bars ? "bars"
+                                                                      : "values")
                          .member("colour", colour_number(i))
                          .member_as_is("x", values(s.x))
                          .member_as_is("y", values(s.kind == SeriesKind::band ? std::vector<double>{} : s.y))

@@ -202,11 +202,11 @@ private:
                                       "did not (at most {} of each in a cell)",
                                       kept, cells.size(), choice.cells, options_.each);
         else
-            kept_.words = fmt::format("Animations: {} of {} realizations", kept, all);
+            kept_.words = fmt::format("Animations: {} of {} chosen realization{}", kept, all, all == 1 ? "" : "s");
         if (all == 0)
             return;
         kept_.words +=
-            fmt::format("; {:.3g} Hz, {:.2f} MB of a budget of {:g} MB.", kept_.rate_hz, mb_, options_.budget_mb);
+            fmt::format("; {:.3g} Hz, {:.2g} MB of a budget of {:g} MB.", kept_.rate_hz, mb_, options_.budget_mb);
         if (full)
             kept_.words += " The budget is used up: --animate-mb sets another one.";
         if (late)

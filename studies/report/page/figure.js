@@ -138,7 +138,7 @@ class LiveFigure {
       const name = [series.name || series.group, series.layer].filter(Boolean).join(", ");
       rows.push([name || this.y.label, text, `var(--s${series.colour})`]);
       parts.push(`${name || this.y.label}: ${text}`);
-      if (value !== null)
+      if (value !== null && series.kind !== "bars") // bars stand beside their place
         this.marks.append(svg("circle", {class: "mark", cx: this.x.px(series.x[i]), cy: this.y.px(value), r: 5}));
     }
     const title = `${this.x.label ? this.x.label + ": " : ""}${this.x.text(at)}`;

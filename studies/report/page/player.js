@@ -117,6 +117,7 @@ class Player {
     this.title.textContent = `Realization ${one.index}${shaking}: ${stateWords[one.state] ?? one.state} (` +
         `${place + 1} of ${this.list.length})`;
     this.stage.setAttribute("aria-label", this.title.textContent);
+    this.before.hidden = this.after.hidden = this.list.length === 1;
     this.before.disabled = place === 0;
     this.after.disabled = place === this.list.length - 1;
     this.slider.max = one.samples - 1;
@@ -127,13 +128,14 @@ class Player {
   /** Displacement of the base over the whole time, with the falls. */
   drawStrip() {
     const base = this.now.channels.at(-1), {width} = this.store;
-    let most = 1;
+    let most = 0;
     for (const value of base) most = Math.max(most, Math.abs(value));
     const x = (i) => (i / Math.max(1, base.length - 1) * (width - 2) + 1).toFixed(1);
     let line = "";
-    base.forEach((value, i) => { line += `${i ? "L" : "M"}${x(i)} ${(40 - 24 * value / most).toFixed(1)}`; });
+    base.forEach((value, i) => { line += `${i ? "L" : "M"}${x(i)} ${(40 - 24 * value / Math.max(most, 1)).toFixed(1)}`; });
     this.path.setAttribute("d", line);
-    this.label.textContent = `displacement of the base, ± ${numberText(most * this.store.quantum_px / this.store.px_m, 3)} m`;
+    this.label.textContent = most === 0 ? "the base is at rest"
+        : `displacement of the base, ± ${numberText(most * this.store.quantum_px / this.store.px_m, 3)} m`;
     this.falls.replaceChildren(...this.one.falls.filter(([, time]) => time <= this.end).map(([, time]) => {
       const at = x(time * this.store.rate_hz);
       return svg("line", {class: "fall", x1: at, x2: at, y1: 50, y2: 68});
