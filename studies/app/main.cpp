@@ -246,9 +246,10 @@ private:
         exporting->add_option("RESULTS", file_, "results file (HDF5)")->required();
         exporting
             ->add_option("--to", export_.format,
-                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json (default: by "
-                         "the file extension of -o)")
-            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json"}));
+                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; one "
+                         "realization in motion: html, or by ffmpeg gif, mp4 or webm (default: by the file extension "
+                         "of -o)")
+            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json", "html", "gif", "mp4", "webm"}));
         exporting
             ->add_option("--picture", export_.picture,
                          fmt::format("{} (default: by the kind of the study)", fmt::join(pictures, ", ")))
@@ -257,7 +258,8 @@ private:
             "--limit", export_.limit,
             "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
             "state of the study (default: peaks and collapse)");
-        exporting->add_option("--realization", export_.realization, "strip: index of the realization (default: 0)")
+        exporting
+            ->add_option("--realization", export_.realization, "strip, motion: index of the realization (default: 0)")
             ->check(CLI::Range(0LL, 999999999999LL));
         exporting->add_option("--cell", export_.cell, "order: one cell of a surface (default: all cells)")
             ->check(CLI::Range(0LL, 999999999999LL));

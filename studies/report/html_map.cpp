@@ -1,10 +1,12 @@
 #include "studies/report/html_map.hpp"
 
+#include "io/plots/gnuplot.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string>
 
 namespace stylobate {
 namespace {
@@ -14,27 +16,20 @@ constexpr double scale_left = 785, scale_width = 18;
 constexpr double picture_width = 860, picture_height = 500;
 constexpr double seam = 0.5; ///< by which cells overlap, so that no light comes between them
 
-/// Viridis (Smith and van der Walt 2015): its lightness ascends evenly, so that it can be read in grey too.
-std::string viridis(double value)
+/// Its lightness ascends evenly, so that it can be read in grey too.
+std::string viridis_colour(double value)
 {
-    struct Colour {
-        double r, g, b;
-    };
-    static constexpr std::array<Colour, 9> stops{{{68, 1, 84},
-                                                  {71, 44, 122},
-                                                  {59, 81, 139},
-                                                  {44, 113, 142},
-                                                  {33, 144, 141},
-                                                  {39, 173, 129},
-                                                  {92, 200, 99},
-                                                  {170, 220, 50},
-                                                  {253, 231, 37}}};
-    const double at = std::clamp(value, 0.0, 1.0) * (stops.size() - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+    const double at = std::clamp(value, 0.0, 1.0) * (viridis.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
     const double share = at - static_cast<double>(i);
-    const auto mixed = [&](double a, double b) { return static_cast<int>(std::lround(a + share * (b - a))); };
-    return fmt::format("#{:02x}{:02x}{:02x}", mixed(stops[i].r, stops[i + 1].r), mixed(stops[i].g, stops[i + 1].g),
-                       mixed(stops[i].b, stops[i + 1].b));
+    const auto part = [](const char* colour, std::size_t k) { // of "#rrggbb"
+        return static_cast<double>(std::stoi(std::string(colour).substr(1 + 2 * k, 2), nullptr, 16));
+    };
+    std::string mixed = "#";
+    for (std::size_t k = 0; k < 3; ++k)
+        mixed +=
+            fmt::format("{:02x}", std::lround((1 - share) * part(viridis[i], k) + share * part(viridis[i + 1], k)));
+    return mixed;
 }
 
 double px_x(double unit)
@@ -64,7 +59,7 @@ std::string map_cells(const CellMap& map)
                 i * ny + j, px_x(map.x_edges[i]), px_y(map.y_edges[j + 1]),
                 (map.x_edges[i + 1] - map.x_edges[i]) * frame_width + seam,
                 (map.y_edges[j + 1] - map.y_edges[j]) * frame_height + seam,
-                std::isfinite(v) ? "fill=\"" + viridis(v) + "\"" : "class=\"empty-cell\"");
+                std::isfinite(v) ? "fill=\"" + viridis_colour(v) + "\"" : "class=\"empty-cell\"");
         }
     return out + "</g>\n";
 }
@@ -127,9 +122,9 @@ std::string colour_scale(const CellMap& map)
     std::string out;
     constexpr int steps = 48;
     for (int k = 0; k < steps; ++k)
-        out +=
-            fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"{}\"/>\n", scale_left,
-                        px_y((k + 1.0) / steps), scale_width, frame_height / steps + 0.5, viridis((k + 0.5) / steps));
+        out += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"{}\"/>\n", scale_left,
+                           px_y((k + 1.0) / steps), scale_width, frame_height / steps + 0.5,
+                           viridis_colour((k + 0.5) / steps));
     for (int k = 0; k <= 5; ++k)
         out += map_text(scale_left + scale_width + 6, px_y(0.2 * k) + 4.5, "start", fmt::format("{:.1f}", 0.2 * k));
     return out + map_text(picture_width - 8, px_y(0.5), "middle", map.value_label,

@@ -17,26 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Followed {
-    Trajectory trajectory;
-    std::vector<double> fall_time_s; ///< (blocks)
-};
-
-/// The trajectory that the file holds, or else the realization run again.
-Followed trajectory_of(const Results& results, Isa isa, std::uint64_t index)
-{
-    const ResultReader& reader = results.reader();
-    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
-    if (std::find(stored.begin(), stored.end(), index) != stored.end())
-        return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
-    const Experiment& experiment = results.experiment();
-    if (index < results.header().first || index >= results.end())
-        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
-                                     results.header().first, results.end() - 1));
-    FollowedRealization f = follow(experiment, index, isa);
-    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
-}
-
 std::string strip_title(const Results& results, std::uint64_t index)
 {
     std::string title = fmt::format("{}, realization {}", results.title(), index);
@@ -71,9 +51,26 @@ std::vector<std::size_t> told_blocks(const std::vector<PlacedBlock>& blocks)
 
 } // namespace
 
+FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index)
+{
+    const ResultReader& reader = results.reader();
+    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
+    if (std::find(stored.begin(), stored.end(), index) != stored.end()) {
+        const ResultRow row = reader.row(index);
+        return {reader.trajectory(index), row.outcome.fall_time_s, row.outcome.state, row.frequency_hz, row.pga_m_s2};
+    }
+    const Experiment& experiment = results.experiment();
+    if (index < results.header().first || index >= results.end())
+        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
+                                     results.header().first, results.end() - 1));
+    FollowedRealization f = follow(experiment, index, isa);
+    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s), f.outcome.state, f.realization.frequency_hz,
+            f.realization.pga_m_s2};
+}
+
 Figure history_figure(const Results& results, Isa isa, std::uint64_t index)
 {
-    const Trajectory t = trajectory_of(results, isa, index).trajectory;
+    const Trajectory t = followed_motion(results, isa, index).trajectory;
     Figure figure;
     figure.title = fmt::format("Displacements of realization {} over time", index);
     figure.x_label = "time [s]";
@@ -90,7 +87,7 @@ Figure history_figure(const Results& results, Isa isa, std::uint64_t index)
 
 void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title, const fs::path& file)
 {
-    const Followed f = trajectory_of(results, isa, index);
+    const FollowedMotion f = followed_motion(results, isa, index);
     plot_strip(f.trajectory, f.fall_time_s, title.empty() ? strip_title(results, index) : title, file);
 }
 

@@ -8,8 +8,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace stylobate {
+
+/// A realization over time.
+struct FollowedMotion {
+    Trajectory trajectory;
+    std::vector<double> fall_time_s; ///< (blocks)
+    State state = State::stood;
+    double frequency_hz = 0, pga_m_s2 = 0;
+};
+/// The trajectory that the file holds, or else the realization run again.
+/// @throws InputError if there is no such realization, or if none can be run again
+FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index);
 
 /// One realization over time: from the file's trajectory, or else run again.
 /// @param title empty: by the results, the realization and what became of it

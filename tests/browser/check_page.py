@@ -418,6 +418,15 @@ class Single(Page):
         self.assertNotEqual(self.browser.js(place), before)
 
 
+    def test_a_page_of_one_realization_alone(self):
+        stylobate("export", self.at("one.h5"), "--to", "html", "-o", self.at("alone.html"))
+        self.open("alone.html")
+        with h5py.File(self.at("one.h5")) as file:
+            theta = file["trajectories/0/theta_rad"][0][0]
+        turn = self.browser.js('document.querySelector(".player .block").getAttribute("transform")')
+        self.assertAlmostEqual(-float(re.findall(r"-?[\d.]+", turn)[2]), math.degrees(theta), delta=0.05)
+
+
 class Fragility(Page):
     @classmethod
     def make(cls):

@@ -54,7 +54,8 @@ ReadBack read_back(const Animation& animation, std::size_t blocks)
         }
     };
     const auto signed_of = [](std::uint64_t code) {
-        return code % 2 == 0 ? static_cast<double>(code / 2) : -static_cast<double>((code + 1) / 2);
+        const double half = static_cast<double>(code) / 2;
+        return code % 2 == 0 ? half : -(half + 0.5);
     };
     const auto series = [&] {
         std::vector<double> values{signed_of(number())};
