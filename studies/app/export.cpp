@@ -43,8 +43,9 @@ std::string format_of(const ExportOptions& wanted)
     if (wanted.format.empty() && !is_picture_format(ending))
         throw InputError(
             wanted.output.empty()
-                ? "no output format is given: give --to png, svg, pdf, csv, nrml or json.\n  Or name a picture by -o: "
-                  "its file extension selects the format."
+                ? "no output format is given: give --to png, svg, pdf, csv, nrml or json; html, gif, mp4 or webm.\n  "
+                  "Or name "
+                  "a picture by -o: its file extension selects the format."
                 : fmt::format(
                       "-o {}: its file extension is not a known format.\n  {} Tables need --to csv, nrml or json.",
                       wanted.output, of_picture));
