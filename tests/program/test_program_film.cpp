@@ -13,9 +13,8 @@ protected:
     void SetUp() override
     {
         Program::SetUp();
-        EXPECT_EQ(
-            run({"run", STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", "-o", "one.h5", "--quiet"}).status,
-            0);
+        const std::string study = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
+        EXPECT_EQ(run({"run", study, "-o", "one.h5", "--quiet"}).status, 0);
     }
     void TearDown() override
     {
