@@ -89,6 +89,7 @@ class LiveFigure {
   listen() {
     filled(this.drawing, {
       tabindex: 0,
+      role: "group", // of a picture the switches inside would not be read
       "aria-roledescription": "figure; left and right arrow keys read its values",
       pointermove: (event) => this.at(event),
       pointerdown: (event) => this.at(event),

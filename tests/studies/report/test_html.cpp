@@ -14,6 +14,7 @@
 #include "tests/studies/calibration/calibration_sample.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
