@@ -65,7 +65,9 @@ AnimationStage animation_stage(const std::vector<PlacedBlock>& blocks)
     }
     constexpr double most_height = 290, most_width = 330, above = 40, below = 30;
     AnimationStage stage;
-    stage.px_m = std::min(most_height / top, most_width / (right - left));
+    // what topples to a side lies about its height away
+    const double reach = (right - left) / 2 + 1.05 * top;
+    stage.px_m = std::min({most_height / top, most_width / (right - left), stage.width_px / 2 / reach});
     stage.middle_m = (left + right) / 2;
     stage.ground_px = std::ceil(above + std::max(top * stage.px_m, 120.0));
     stage.height_px = stage.ground_px + below;

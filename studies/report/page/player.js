@@ -107,6 +107,7 @@ class Player {
     this.numbers ??= new Map();
     if (!this.numbers.has(one)) this.numbers.set(one, decoded(one, this.store.blocks.length));
     this.now = this.numbers.get(one);
+    one.falls.sort((a, b) => a[1] - b[1]);
     this.fallTime = new Map(one.falls);
     this.end = (one.samples - 1) / this.store.rate_hz;
     const quantum = this.store.quantum_px;

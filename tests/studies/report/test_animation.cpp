@@ -197,6 +197,7 @@ TEST(Animation, StageHoldsTheStructure)
         EXPECT_LT(height * stage.px_m, stage.ground_px);
         EXPECT_GT(std::max(width * stage.px_m / stage.width_px, height * stage.px_m / stage.ground_px), 0.5);
         EXPECT_LT(stage.ground_px, stage.height_px);
+        EXPECT_LT((width / 2 + height) * stage.px_m, stage.width_px / 2); // toppled to a side it is still seen
     }
 }
 
