@@ -1,6 +1,8 @@
 /// The realizations in motion of `stylobate report`: which are kept, within which limits, and what is refused.
 
+#include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/program/program.hpp"
+#include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -170,8 +172,11 @@ TEST_F(Animate, RefusesWhatCannotBeHad)
 
 TEST_F(Animate, ADiagnosisHasNone)
 {
-    write_bytes(folder / "motion.txt", Burst{}.columns());
-    expect_refused({"report", "motion.txt", "--animate", "1"}, {"motion.txt"});
+    write_diagnosis(filled_diagnosis(), folder / "diagnosis.h5");
+    expect_refused({"report", "diagnosis.h5", "--animate", "1"}, {"diagnosis.h5", "--animate", "no realizations"});
+    expect_refused({"report", "diagnosis.h5", "--animate-mb", "1"},
+                   {"diagnosis.h5", "--animate-mb", "no realizations"});
+    expect_refused({"report", "diagnosis.h5", "--animate-seconds", "1"}, {"--animate-seconds", "no realizations"});
 }
 
 TEST_F(Animate, WithoutItsRecordAPageHasNoAnimations)
