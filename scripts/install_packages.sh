@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that Stylobate is built from, run and tested with: the one list of them.
+# (Chromium and h5py, for the tests of pages in a browser, are installed by scripts/test.sh: nothing else needs them.)
 # Does nothing if all are installed; needs the rights of apt only.
 #
 #   scripts/install_packages.sh [PACKAGE...]     instead of that list

@@ -28,6 +28,8 @@ done
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 scripts/install_packages.sh
+scripts/install_packages.sh chromium python3-h5py || # the pages of reports in a real browser
+    echo "test.sh: without Chromium and h5py the tests labelled browser are skipped" >&2
 cmake --preset "$preset" >/dev/null
 cmake --build "build/$preset" --parallel "$(nproc)"
 export TSAN_OPTIONS="suppressions=$PWD/tests/tsan_suppressions.txt ${TSAN_OPTIONS:-}"

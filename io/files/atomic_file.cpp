@@ -13,15 +13,33 @@
 
 namespace stylobate {
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
+namespace {
+
+bool is_folder(const std::filesystem::path& file)
 {
     std::error_code ignored;
-    if (file_.filename().empty() || std::filesystem::is_directory(file_, ignored))
-        fail(EISDIR);
+    return file.filename().empty() || std::filesystem::is_directory(file, ignored);
+}
+
+} // namespace
+
+void AtomicFile::check(const std::filesystem::path& file)
+{
+    if (is_folder(file))
+        fail(file, EISDIR);
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        fail(file, errno);
+}
+
+AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
+{
+    if (is_folder(file_))
+        fail(file_, EISDIR);
     temporary_ = (file_.parent_path() / fmt::format(".{}.XXXXXX", file_.filename().string())).string();
     descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
     if (descriptor_ < 0)
-        fail(errno);
+        fail(file_, errno);
 }
 
 AtomicFile::~AtomicFile()
@@ -39,7 +57,7 @@ void AtomicFile::write(std::string_view content)
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            fail(errno);
+            fail(file_, errno);
         content.remove_prefix(static_cast<std::size_t>(written));
     }
 }
@@ -51,17 +69,17 @@ void AtomicFile::commit()
     ::umask(mask);
     if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0 ||
         ::rename(temporary_.c_str(), file_.c_str()) != 0)
-        fail(errno);
+        fail(file_, errno);
     ::close(descriptor_);
     descriptor_ = -1;
 }
 
-void AtomicFile::fail(int error) const
+void AtomicFile::fail(const std::filesystem::path& file, int error)
 {
     throw InputError(
         fmt::format("cannot write '{}': {}.\n  Name a file in a folder that exists, can be written and has "
                     "room; nothing was written.",
-                    file_.string(), std::generic_category().message(error)));
+                    file.string(), std::generic_category().message(error)));
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view content)

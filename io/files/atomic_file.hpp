@@ -17,6 +17,10 @@ public:
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
+    /// Whether a file of that name could be made now, without making anything: for what takes long before it writes.
+    /// @throws InputError as the constructor does
+    static void check(const std::filesystem::path& file);
+
     /// Where it lies until then: for libraries that want to write the content themselves.
     const std::string& temporary() const { return temporary_; }
     /// @throws InputError if the content cannot be written (full disk)
@@ -26,7 +30,7 @@ public:
     void commit();
 
 private:
-    [[noreturn]] void fail(int error) const;
+    [[noreturn]] static void fail(const std::filesystem::path& file, int error);
 
     std::filesystem::path file_;
     std::string temporary_;

@@ -4,24 +4,15 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/files/utf8.hpp"
+#include "io/plots/program.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <iterator>
 #include <optional>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <system_error>
-#include <unistd.h>
-#include <vector>
-
-extern char** environ;
 
 namespace stylobate {
 namespace {
@@ -29,63 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double points_per_inch = 72;
-
-bool is_program(const fs::path& file)
-{
-    std::error_code ignored;
-    return fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
-}
-
-std::optional<fs::path> find_program(const char* name)
-{
-    const char* folders = std::getenv("PATH");
-    std::string_view rest = folders ? folders : "";
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find(':'), rest.size());
-        const fs::path candidate = fs::path(rest.substr(0, end)) / name;
-        if (end > 0 && is_program(candidate))
-            return fs::absolute(candidate);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return std::nullopt;
-}
-
-std::string content_of(const fs::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Runs a program in `folder`, without a shell, its output and its errors in `log`. The status is the program's exit
-/// status, or 128 + the signal that ended it.
-/// @throws InputError if it cannot be started
-int run_program(const fs::path& program, std::vector<std::string> arguments, const fs::path& folder,
-                const fs::path& log)
-{
-    std::string name = program.string();
-    std::vector<char*> argv{name.data()};
-    for (std::string& argument : arguments)
-        argv.push_back(argument.data());
-    argv.push_back(nullptr);
-
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    pid_t pid = 0;
-    const int error = ::posix_spawn(&pid, name.c_str(), &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0)
-        throw InputError(fmt::format("cannot start '{}': {}.\n  Install it again: apt install gnuplot-nox.", name,
-                                     std::generic_category().message(error)));
-    int status = 0;
-    while (::waitpid(pid, &status, 0) < 0)
-        if (errno != EINTR)
-            throw std::system_error(errno, std::generic_category(), "waitpid");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
 
 /// Without any font gnuplot draws a picture without text and reports nothing, so fontconfig is asked before.
 void check_fonts(const TemporaryFolder& folder)
@@ -129,19 +63,7 @@ Terminal terminal_of(const fs::path& picture, PictureSize size)
 
 fs::path find_gnuplot()
 {
-    const char* named = std::getenv("STYLOBATE_GNUPLOT");
-    if (named != nullptr && *named != '\0') {
-        if (is_program(named))
-            return fs::absolute(named);
-        throw InputError(fmt::format("STYLOBATE_GNUPLOT = '{}' is not an executable program.\n  Unset it, or set it to "
-                                     "the path of gnuplot.",
-                                     named));
-    }
-    if (const std::optional<fs::path> found = find_program("gnuplot"))
-        return *found;
-    throw InputError(
-        "no picture can be drawn: gnuplot was not found in PATH.\n  Install it: apt install gnuplot-nox. Or "
-        "set STYLOBATE_GNUPLOT to its path.");
+    return find_tool("gnuplot", "STYLOBATE_GNUPLOT", "no picture can be drawn", "gnuplot-nox");
 }
 
 std::string gnuplot_text(std::string_view text)

@@ -11,28 +11,6 @@
 namespace stylobate {
 namespace {
 
-/// The thresholds and the probabilities to exceed them, of one repeat.
-struct Chain {
-    std::vector<double> threshold_m, probability;
-};
-
-Chain chain_of(const RareTable& table, std::size_t repeat)
-{
-    Chain chain;
-    double p = 1;
-    for (std::size_t l = 0; l < table.levels; ++l) {
-        const std::size_t i = repeat * table.levels + l;
-        if (l > 0 && std::isfinite(table.threshold_m[i]) && p > 0) {
-            chain.threshold_m.push_back(table.threshold_m[i]);
-            chain.probability.push_back(p);
-        }
-        if (!std::isfinite(table.share[i]))
-            break;
-        p *= table.share[i];
-    }
-    return chain;
-}
-
 /// The whole decade below.
 double decade_below(double p)
 {
@@ -57,7 +35,7 @@ constexpr const char* chain_colour = "#56b4e9";
 constexpr const char* mean_colour = "#d55e00";
 
 /// The thresholds of all repeats, over the displacement.
-std::string chains_panel(const std::vector<Chain>& chains, double per_metre, double most_m)
+std::string chains_panel(const std::vector<RareChain>& chains, double per_metre, double most_m)
 {
     std::string script, plot;
     for (std::size_t r = 0; r < chains.size(); ++r) {
@@ -103,18 +81,35 @@ std::string collapse_panel(const RareTable& table, double foot)
 
 } // namespace
 
+RareChain rare_chain(const RareTable& table, std::size_t repeat)
+{
+    RareChain chain;
+    double p = 1;
+    for (std::size_t l = 0; l < table.levels; ++l) {
+        const std::size_t i = repeat * table.levels + l;
+        if (l > 0 && std::isfinite(table.threshold_m[i]) && p > 0) {
+            chain.threshold_m.push_back(table.threshold_m[i]);
+            chain.probability.push_back(p);
+        }
+        if (!std::isfinite(table.share[i]))
+            break;
+        p *= table.share[i];
+    }
+    return chain;
+}
+
 void plot_rare(const RareTable& table, const std::string& title, const std::filesystem::path& png)
 {
     if (table.empty())
         throw InputError("there is no rare event to draw");
-    std::vector<Chain> chains;
+    std::vector<RareChain> chains;
     double least = 0.1, most_m = 0;
     const auto take = [&](double p) {
         if (p > 0) // of NaN too nothing
             least = std::min(least, p);
     };
     for (std::size_t r = 0; r < table.repeats.size(); ++r) {
-        chains.push_back(chain_of(table, r));
+        chains.push_back(rare_chain(table, r));
         for (const double p : chains.back().probability)
             take(p);
         for (const double x : chains.back().threshold_m)

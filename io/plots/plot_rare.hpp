@@ -3,10 +3,18 @@
 
 #include "io/tables/rare_table.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace stylobate {
+
+/// The thresholds of one repeat's levels, and the probabilities to exceed them.
+struct RareChain {
+    std::vector<double> threshold_m, probability;
+};
+RareChain rare_chain(const RareTable& table, std::size_t repeat);
 
 /// Draws (1800 x 1350 pixels), on one logarithmic axis of the probability: on the left a line for each repeat over the
 /// thresholds of its levels, each with the product of the shares that have gone on to it; on the right the probability

@@ -91,6 +91,23 @@ ContourPoint label_place(const std::vector<ContourLine>& own, const std::vector<
     return best;
 }
 
+std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a)
+{
+    std::vector<SurfaceContour> all;
+    for (const double level : contour_levels)
+        all.push_back({level, contours(surface, f, a, level), {}});
+    for (SurfaceContour& contour : all) {
+        if (contour.lines.empty())
+            continue;
+        std::vector<ContourLine> others;
+        for (const SurfaceContour& other : all)
+            if (&other != &contour)
+                others.insert(others.end(), other.lines.begin(), other.lines.end());
+        contour.label = label_place(contour.lines, others);
+    }
+    return all;
+}
+
 struct ContourCommands {
     std::string data;
     std::string labels;
@@ -98,28 +115,20 @@ struct ContourCommands {
 
 ContourCommands contour_commands(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a)
 {
-    std::array<std::vector<ContourLine>, contour_levels.size()> lines;
-    for (std::size_t k = 0; k < contour_levels.size(); ++k)
-        lines[k] = contours(surface, f, a, contour_levels[k]);
     ContourCommands commands;
-    for (std::size_t k = 0; k < contour_levels.size(); ++k) {
+    const std::vector<SurfaceContour> all = contours_on(surface, f, a);
+    for (std::size_t k = 0; k < all.size(); ++k) {
         commands.data += fmt::format("$contour{} << EOD\n", k);
-        for (const ContourLine& line : lines[k]) {
+        for (const ContourLine& line : all[k].lines) {
             for (const ContourPoint& p : line)
                 commands.data += fmt::format("{} {}\n", f.out(p.x), a.out(p.y));
             commands.data += '\n';
         }
         commands.data += "EOD\n";
-        if (lines[k].empty())
-            continue;
-        std::vector<ContourLine> others;
-        for (std::size_t other = 0; other < contour_levels.size(); ++other)
-            if (other != k)
-                others.insert(others.end(), lines[other].begin(), lines[other].end());
-        const ContourPoint p = label_place(lines[k], others);
-        commands.labels +=
-            fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n",
-                        contour_levels[k], f.out(p.x), a.out(p.y));
+        if (!all[k].lines.empty())
+            commands.labels +=
+                fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n",
+                            all[k].level, f.out(all[k].label.x), a.out(all[k].label.y));
     }
     return commands;
 }
@@ -135,6 +144,13 @@ std::string subtitle(const SurfaceTable& surface)
 }
 
 } // namespace
+
+std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface)
+{
+    const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
+    const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
+    return contours_on(surface, {frequency}, {pga});
+}
 
 std::string describe_interval(const std::string& interval)
 {

@@ -1,10 +1,12 @@
 #pragma once
 /// The picture of a surface of the probability of a limit state.
 
+#include "io/plots/contour.hpp"
 #include "io/store/result_store.hpp"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace stylobate {
 
@@ -18,6 +20,17 @@ namespace stylobate {
 ///         the picture cannot be written
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
                   const std::filesystem::path& png);
+
+/// The contour lines of one probability, and where its name is best written, in the unit square of the picture's frame
+/// (an axis logarithmic where its values are spaced so).
+struct SurfaceContour {
+    double level = 0;
+    std::vector<ContourLine> lines; ///< none: the surface does not reach it
+    ContourPoint label;             ///< where there is a line
+};
+/// At 0.05, 0.5 and 0.95.
+/// @throws InputError as `plot_surface` does, of the axes
+std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface);
 
 /// "wilson 0.95" -> "95 % Wilson interval"; other texts are left as they are.
 std::string describe_interval(const std::string& interval);

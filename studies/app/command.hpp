@@ -5,6 +5,8 @@
 #include "kernels/isa.hpp"
 #include "studies/app/choose_realization.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,15 @@ struct ExportOptions {
     std::string title;               ///< of the picture, instead of the study's or the file's name
 };
 
+/// What `report` is asked for.
+struct ReportOptions {
+    std::string output;                    ///< the page; empty: beside the file, with .html
+    std::string title;                     ///< of the page, instead of the study's or the file's name
+    std::optional<std::uint64_t> animate;  ///< so many that fell and that did not, of each cell
+    std::optional<double> animate_mb;      ///< of all animations together [1e6 bytes]
+    std::optional<double> animate_seconds; ///< for running them again
+};
+
 /// What `calibrate` is asked for.
 struct CalibrateOptions {
     std::string study;              ///< to begin from; empty: by the specimen (`default_study`)
@@ -76,9 +87,7 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
 /// The pictures of results of every kind.
 std::vector<std::string> picture_names();
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
-/// @param output the page; empty: beside the file, with .html
-/// @param title of the page, instead of the study's or the file's name; empty: not given
-int report_command(const CommonOptions& options, const std::string& file, std::string output, const std::string& title);
+int report_command(const CommonOptions& options, const std::string& file, const ReportOptions& wanted);
 /// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with
 /// _diagnosis.h5
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,

@@ -9,6 +9,7 @@
 #include "studies/app/output_path.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/kinds.hpp"
+#include "studies/results/motion_film.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/results.hpp"
 
@@ -42,8 +43,9 @@ std::string format_of(const ExportOptions& wanted)
     if (wanted.format.empty() && !is_picture_format(ending))
         throw InputError(
             wanted.output.empty()
-                ? "no output format is given: give --to png, svg, pdf, csv, nrml or json.\n  Or name a picture by -o: "
-                  "its file extension selects the format."
+                ? "no output format is given: give --to png, svg, pdf, csv, nrml or json; html, gif, mp4 or webm.\n  "
+                  "Or name "
+                  "a picture by -o: its file extension selects the format."
                 : fmt::format(
                       "-o {}: its file extension is not a known format.\n  {} Tables need --to csv, nrml or json.",
                       wanted.output, of_picture));
@@ -198,6 +200,43 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
     return folder;
 }
 
+/// The format of a realization in motion, by --to or by the ending of the output; empty: something else is asked for.
+/// @throws InputError if the two contradict each other
+std::string motion_format_of(const ExportOptions& wanted)
+{
+    std::string ending = fs::path(wanted.output).extension().string();
+    ending.erase(0, ending.empty() ? 0 : 1);
+    if (wanted.format.empty())
+        return is_motion_format(ending) ? ending : "";
+    if (!is_motion_format(wanted.format))
+        return "";
+    if (!wanted.output.empty() && ending != wanted.format)
+        throw InputError(
+            fmt::format("--to {0} and -o {1}: the file extension is not .{0}", wanted.format, wanted.output));
+    return wanted.format;
+}
+
+fs::path export_motion(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
+                       const std::string& format)
+{
+    const std::string of_picture = !wanted.limit.empty()         ? "--limit " + wanted.limit
+                                   : !wanted.picture.empty()     ? "--picture " + wanted.picture
+                                   : wanted.cell >= 0            ? fmt::format("--cell {}", wanted.cell)
+                                   : !wanted.frequencies.empty() ? "--frequency"
+                                                                 : "";
+    if (!of_picture.empty())
+        throw InputError(of_picture + ": does not apply to --to html, gif, mp4 or webm, which show one realization; "
+                                      "--realization selects it");
+    const Results results(file, options.set);
+    const std::uint64_t realization =
+        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+    const fs::path to = wanted.output.empty() ? beside(file, fmt::format("_realization_{}.{}", realization, format))
+                                              : fs::path(wanted.output);
+    check_output(file, to, options.force);
+    write_motion(results, options.isa(), realization, wanted.title, format, to);
+    return to;
+}
+
 } // namespace
 
 std::vector<std::string> picture_names()
@@ -213,9 +252,11 @@ int export_command(const CommonOptions& options, const std::string& results, con
 {
     check_kind(results, "export");
     check_not_input(results, wanted.output);
-    const std::string format = format_of(wanted);
-    const fs::path written = is_picture_format(format) ? export_picture(options, results, wanted, format)
-                                                       : export_tables(options, results, wanted, format);
+    const std::string motion = motion_format_of(wanted);
+    const std::string format = motion.empty() ? format_of(wanted) : motion;
+    const fs::path written = !motion.empty()             ? export_motion(options, results, wanted, motion)
+                             : is_picture_format(format) ? export_picture(options, results, wanted, format)
+                                                         : export_tables(options, results, wanted, format);
     if (options.json)
         fmt::print("{}\n", Json::object().member("written", written.string()).text());
     else if (!options.quiet)

@@ -5,6 +5,7 @@
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/experiment/limit_state.hpp"
+#include "studies/results/kept_animations.hpp"
 #include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -245,9 +246,10 @@ private:
         exporting->add_option("RESULTS", file_, "results file (HDF5)")->required();
         exporting
             ->add_option("--to", export_.format,
-                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json (default: by "
-                         "the file extension of -o)")
-            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json"}));
+                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; one "
+                         "realization in motion: html, or by ffmpeg gif, mp4 or webm (default: by the file extension "
+                         "of -o)")
+            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json", "html", "gif", "mp4", "webm"}));
         exporting
             ->add_option("--picture", export_.picture,
                          fmt::format("{} (default: by the kind of the study)", fmt::join(pictures, ", ")))
@@ -256,7 +258,8 @@ private:
             "--limit", export_.limit,
             "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
             "state of the study (default: peaks and collapse)");
-        exporting->add_option("--realization", export_.realization, "strip: index of the realization (default: 0)")
+        exporting
+            ->add_option("--realization", export_.realization, "strip, motion: index of the realization (default: 0)")
             ->check(CLI::Range(0LL, 999999999999LL));
         exporting->add_option("--cell", export_.cell, "order: one cell of a surface (default: all cells)")
             ->check(CLI::Range(0LL, 999999999999LL));
@@ -281,12 +284,29 @@ private:
         auto* report =
             app_.add_subcommand("report", "one self-contained page of a result, a diagnosis or a calibration");
         report->add_option("FILE", file_, "results file, diagnosis or calibration (HDF5)")->required();
-        report->add_option("-o,--output", output_, "the page, .html (default: the file's name with that extension)");
-        report->add_option("--title", title_, "title of the page (default: study.title, or the file's name)");
+        report->add_option("-o,--output", report_.output,
+                           "the page, .html (default: the file's name with that extension)");
+        report->add_option("--title", report_.title, "title of the page (default: study.title, or the file's name)");
+        report
+            ->add_option(
+                "--animate", report_.animate,
+                "realizations in motion: so many that fell and so many that did not, of each cell of a surface "
+                "that has both (default: 1; 0: none)")
+            ->check(CLI::Range(0LL, 1000LL));
+        report
+            ->add_option(
+                "--animate-mb", report_.animate_mb,
+                fmt::format("megabytes of the page for all animations together (default: {:g})", usual_animation_mb))
+            ->check(CLI::Range(1e-6, 1000.0));
+        report
+            ->add_option(
+                "--animate-seconds", report_.animate_seconds,
+                fmt::format("seconds to spend on running realizations again (default: {:g})", usual_animation_seconds))
+            ->check(CLI::Range(0.0, 1e6));
         add_force(*report, options_);
         add_set(*report, options_);
         add_common(*report, options_);
-        report->callback([this] { status_ = report_command(options_, file_, output_, title_); });
+        report->callback([this] { status_ = report_command(options_, file_, report_); });
     }
 
     template <class List>
@@ -354,7 +374,7 @@ private:
     ExportOptions export_;
     NewStudyOptions new_;
     bool markdown_ = false;
-    std::string title_;
+    ReportOptions report_;
 };
 
 } // namespace

@@ -14,7 +14,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace stylobate {
 
@@ -30,36 +32,72 @@ void check_ending(const std::string& output)
             output));
 }
 
+AnimationOptions animation_options(const CommonOptions& options, const ReportOptions& wanted)
+{
+    for (const auto& [option, value] :
+         {std::pair("--animate-mb", wanted.animate_mb), std::pair("--animate-seconds", wanted.animate_seconds)})
+        if (value && std::isnan(*value)) // the command line's range lets it pass
+            throw InputError(fmt::format("{} nan: a number is needed", option));
+    AnimationOptions animations;
+    animations.each = wanted.animate.value_or(animations.each);
+    animations.budget_mb = wanted.animate_mb.value_or(animations.budget_mb);
+    animations.seconds = wanted.animate_seconds.value_or(animations.seconds);
+    animations.wanted = (wanted.animate && *wanted.animate > 0) || wanted.animate_mb || wanted.animate_seconds;
+    animations.threads = options.thread_count();
+    return animations;
+}
+
+/// Diagnoses and calibrations have no realizations, and no study whose keys could be set.
+void check_no_realizations(const CommonOptions& options, const ReportOptions& wanted, const std::string& file,
+                           const char* kind)
+{
+    if (!options.set.empty())
+        throw InputError(fmt::format("--set {}: {} is a {} and contains no study whose keys could be set",
+                                     options.set.front(), file, kind));
+    if (wanted.animate || wanted.animate_mb || wanted.animate_seconds)
+        throw InputError(fmt::format("--animate{}: {} is a {} and contains no realizations to show in motion",
+                                     wanted.animate      ? ""
+                                     : wanted.animate_mb ? "-mb"
+                                                         : "-seconds",
+                                     file, kind));
+}
+
 } // namespace
 
-int report_command(const CommonOptions& options, const std::string& file, std::string output, const std::string& title)
+int report_command(const CommonOptions& options, const std::string& file, const ReportOptions& wanted)
 {
     check_kind(file, "report");
-    if (output.empty())
-        output = beside(file, ".html").string();
+    const std::string output = wanted.output.empty() ? beside(file, ".html").string() : wanted.output;
     check_output(file, output, options.force);
     check_ending(output);
+    Console console(options.quiet); // from here on an interrupt ends the making and leaves no file
     std::string page;
     std::vector<std::string> warnings;
     const FileKind kind = recognise(file).kind;
-    if ((kind == FileKind::diagnosis || kind == FileKind::calibration) && !options.set.empty())
-        throw InputError(fmt::format("--set {}: {} is a {} and contains no study whose keys could be set",
-                                     options.set.front(), file,
-                                     kind == FileKind::diagnosis ? "diagnosis" : "calibration"));
     if (kind == FileKind::diagnosis) {
-        page = diagnosis_page(read_diagnosis(file), file, title).text();
+        check_no_realizations(options, wanted, file, "diagnosis");
+        page = diagnosis_page(read_diagnosis(file), file, wanted.title).text();
     } else if (kind == FileKind::calibration) {
-        page = calibration_page(read_calibration(file), file, title).text();
+        check_no_realizations(options, wanted, file, "calibration");
+        page = calibration_page(read_calibration(file), file, wanted.title).text();
     } else {
         const Results results(file, options.set);
         check_complete(results.reader(), file);
-        const AtomicFile writable(output); // refuses before the pictures are drawn
-        page = result_page(results, options.isa(), title, warnings).text();
+        AtomicFile::check(output); // refuses before realizations are run and pictures drawn
+        const KeptAnimations animations =
+            keep_animations(results, options.isa(), animation_options(options, wanted), console);
+        if (!animations.warning.empty())
+            warnings.push_back(animations.warning);
+        if (!console.stop_requested())
+            page = result_page(results, options.isa(), wanted.title, animations, warnings).text();
+    }
+    if (console.stop_requested()) {
+        console.warn("interrupted: no page was written");
+        return exit_interrupted;
     }
     AtomicFile target(output);
     target.write(page);
     target.commit();
-    Console console(options.quiet);
     for (const std::string& warning : warnings)
         console.warn(warning);
     if (options.json)

@@ -22,6 +22,9 @@ struct FigureSeries {
     std::vector<double> y;    ///< as many as x; of a band: empty
     std::vector<double> low;  ///< as many as x, or empty
     std::vector<double> high; ///< as many as x, or empty
+    // Of a diagnosis these two are empty: its file does not keep them.
+    std::string group = {}; ///< series of one group have one colour and one entry of the legend; empty: its name
+    std::string layer = {}; ///< what of its group it is ("fitted curve"): layers can be switched off; empty: none
 };
 
 /// A figure as data; who shows it draws it.

@@ -1,5 +1,6 @@
 #pragma once
-/// Self-contained pages of HTML: nothing is loaded from elsewhere, and they can be printed.
+/// Self-contained pages of HTML: nothing is loaded from elsewhere, they can be printed, and what needs their script is
+/// not needed to read them.
 
 #include <filesystem>
 #include <string>
@@ -58,6 +59,10 @@ public:
     /// Text as it is, its lines kept.
     void block(std::string_view text);
     void figure(const Html& picture, const Html& caption);
+    /// Data for the script (`data_script`).
+    void data(std::string_view id, std::string_view json);
+    /// Where the script puts the player of the animations.
+    void player();
 
     std::string text() const;
 
@@ -69,6 +74,10 @@ private:
 /// A picture inside the page.
 /// @throws InputError if the file cannot be read
 Html png_image(const std::filesystem::path& png, std::string_view alternative);
+
+/// JSON for the script of a page, in an element that is not shown. Its text cannot end the element.
+/// @param attributes of the element: "id=\"cells\""
+Html data_script(std::string_view attributes, std::string_view json);
 
 /// RFC 4648.
 std::string base64(std::string_view bytes);

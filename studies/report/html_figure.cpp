@@ -1,11 +1,11 @@
 #include "studies/report/html_figure.hpp"
 
 #include "io/files/utf8.hpp"
+#include "studies/report/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,12 +15,11 @@ namespace {
 constexpr double width = 900;
 constexpr double left = 74;
 constexpr double right = 884;
-constexpr double letter = 7.1; ///< a letter's mean width at the font's size [px]
-constexpr std::size_t most_samples = 1600;
+constexpr double letter = 7.1;             ///< a letter's mean width at the font's size [px]
+constexpr std::size_t most_samples = 1600; ///< of a line
+constexpr std::size_t many_series = 3;     ///< of a figure with more of them lines have half as many samples
 
-/// Okabe and Ito (2008), the darker ones first: told apart by the colour-blind too.
-constexpr std::array<const char*, 7> palette{"#1f5673", "#d55e00", "#009e73", "#7b4b94",
-                                             "#b8860b", "#56b4e9", "#4d4d4d"};
+constexpr std::size_t colours = 7; ///< of series: --s0 to --s6 of the page's style
 
 double letters(std::string_view text)
 {
@@ -139,10 +138,10 @@ bool bars_meet(const Figure& figure)
 }
 
 /// Least and greatest of so many neighbours, in their order.
-std::vector<std::size_t> thinned(const std::vector<double>& y)
+std::vector<std::size_t> thinned(const std::vector<double>& y, std::size_t most)
 {
     std::vector<std::size_t> kept;
-    const std::size_t bucket = std::max<std::size_t>(1, (y.size() + most_samples / 2 - 1) / (most_samples / 2));
+    const std::size_t bucket = std::max<std::size_t>(1, (y.size() + most / 2 - 1) / (most / 2));
     for (std::size_t begin = 0; begin < y.size(); begin += bucket) {
         const std::size_t end = std::min(begin + bucket, y.size());
         std::size_t low = begin, high = begin;
@@ -235,19 +234,97 @@ public:
              {SeriesKind::spans, SeriesKind::band, SeriesKind::bars, SeriesKind::line, SeriesKind::points})
             for (std::size_t i = 0; i < figure_.series.size(); ++i)
                 if (figure_.series[i].kind == kind)
-                    marks += series(figure_.series[i], colour(i));
+                    marks += fmt::format("<g data-series=\"{}\">\n{}</g>\n", i, series(figure_.series[i], colour(i)));
         if (empty_)
             marks = svg_text((left + right) / 2, (top + bottom) / 2, "middle", "no data");
         return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" "
-                           "role=\"img\" aria-label=\"{}\" font-family=\"inherit\" font-size=\"13\" "
-                           "fill=\"#1f2933\">\n{}{}{}</svg>",
+                           "role=\"img\" aria-label=\"{}\" font-family=\"inherit\" font-size=\"13\">\n{}{}{}</svg>",
                            width, bottom + below_, width, html_escaped(figure_.title), legend_text, axes_text, marks);
     }
 
+    /// What the script reads (figure.js). @pre svg() was called
+    std::string json() const
+    {
+        Json all = Json::list();
+        for (std::size_t i = 0; i < figure_.series.size(); ++i) {
+            const FigureSeries& s = figure_.series[i];
+            const std::vector<std::size_t> kept = kept_of(s);
+            const auto values = [&](const std::vector<double>& v) {
+                std::string text = "[";
+                for (std::size_t k = 0; k < kept.size() && v.size() == s.x.size(); ++k)
+                    text +=
+                        (k > 0 ? "," : "") + (std::isfinite(v[kept[k]]) ? fmt::format("{:.6g}", v[kept[k]]) : "null");
+                return text + "]";
+            };
+            all.item(Json::object()
+                         .member("name", s.name)
+                         .member("group", group_of(s))
+                         .member("layer", s.layer)
+                         .member("kind", s.kind == SeriesKind::spans  ? "spans"
+                                         : s.kind == SeriesKind::bars ? "bars"
+                                                                      : "values")
+                         .member("colour", colour_number(i))
+                         .member_as_is("x", values(s.x))
+                         .member_as_is("y", values(s.kind == SeriesKind::band ? std::vector<double>{} : s.y))
+                         .member_as_is("low", values(s.low))
+                         .member_as_is("high", values(s.high)));
+        }
+        return Json::object()
+            .member("x", axis_json(x_, figure_.x_label, figure_.x_ticks))
+            .member("y", axis_json(y_, figure_.y_label, {}))
+            .member("series", all)
+            .text();
+    }
+
 private:
+    std::size_t samples() const { return figure_.series.size() > many_series ? most_samples / 2 : most_samples; }
+    static const std::string& group_of(const FigureSeries& s) { return s.group.empty() ? s.name : s.group; }
+
+    /// Series of one group share that of the first of them.
+    std::size_t colour_number(std::size_t i) const
+    {
+        std::size_t number = i;
+        if (!figure_.series[i].group.empty()) { // the groups are counted instead
+            std::vector<std::string> seen;
+            for (std::size_t k = 0; k <= i; ++k)
+                if (std::find(seen.begin(), seen.end(), group_of(figure_.series[k])) == seen.end())
+                    seen.push_back(group_of(figure_.series[k]));
+            number = static_cast<std::size_t>(std::find(seen.begin(), seen.end(), group_of(figure_.series[i])) -
+                                              seen.begin());
+        }
+        return number % colours;
+    }
     std::string colour(std::size_t i) const
     {
-        return figure_.series[i].kind == SeriesKind::spans ? "#5a6672" : palette[i % palette.size()];
+        return figure_.series[i].kind == SeriesKind::spans ? "var(--axis)"
+                                                           : fmt::format("var(--s{})", colour_number(i));
+    }
+
+    static Json axis_json(const Axis& axis, const std::string& label, const std::vector<std::string>& ticks)
+    {
+        Json names = Json::list();
+        for (const std::string& tick : ticks)
+            names.item(tick);
+        return Json::object()
+            .member("from", axis.from)
+            .member("to", axis.to)
+            .member("log", axis.log)
+            .member("first", axis.first_px)
+            .member("last", axis.last_px)
+            .member("label", label)
+            .member("ticks", names);
+    }
+
+    /// The samples that are drawn.
+    std::vector<std::size_t> kept_of(const FigureSeries& s) const
+    {
+        if (s.kind == SeriesKind::line && s.y.size() == s.x.size())
+            return thinned(s.y, samples());
+        const std::size_t stride = s.kind == SeriesKind::band ? std::max<std::size_t>(1, s.x.size() / most_samples) : 1;
+        std::vector<std::size_t> kept;
+        for (std::size_t i = 0; i < s.x.size(); i += stride)
+            kept.push_back(i);
+        return kept;
     }
 
     std::string legend()
@@ -256,22 +333,26 @@ private:
         double x = left, y = 14;
         for (std::size_t i = 0; i < figure_.series.size(); ++i) {
             const FigureSeries& s = figure_.series[i];
-            if (s.name.empty())
+            const bool later =
+                std::any_of(figure_.series.begin(), figure_.series.begin() + static_cast<std::ptrdiff_t>(i),
+                            [&](const FigureSeries& one) { return !one.name.empty() && group_of(one) == group_of(s); });
+            if (s.name.empty() || later)
                 continue;
             const double length = 34 + letter * letters(s.name) + 14;
             if (x > left && x + length > right) {
                 x = left;
                 y += 19;
             }
+            out += fmt::format("<g class=\"key\" data-group=\"{}\">", html_escaped(group_of(s)));
             if (s.kind == SeriesKind::points)
-                out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", x + 13, y - 4.5,
-                                   colour(i));
+                out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" style=\"fill:{}\"/>\n", x + 13,
+                                   y - 4.5, colour(i));
             else
                 out += fmt::format(
-                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"26\" height=\"{}\" fill=\"{}\"{}/>\n", x,
+                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"26\" height=\"{}\" style=\"fill:{}\"{}/>\n", x,
                     y - (s.kind == SeriesKind::line ? 5.5 : 10), s.kind == SeriesKind::line ? 2 : 10, colour(i),
                     s.kind == SeriesKind::band || s.kind == SeriesKind::spans ? " fill-opacity=\"0.22\"" : "");
-            out += svg_text(x + 34, y, "start", s.name);
+            out += svg_text(x + 34, y, "start", s.name) + "</g>\n";
             x += length;
         }
         legend_height_ = out.empty() ? 0 : y + 4;
@@ -281,18 +362,18 @@ private:
     std::string axes(double top, double bottom)
     {
         std::string out;
-        const auto rule = [&](double x1, double y1, double x2, double y2, const char* stroke) {
-            out += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1,
-                               y1, x2, y2, stroke);
+        const auto rule = [&](double x1, double y1, double x2, double y2, const char* kind) {
+            out += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1,
+                               x2, y2, kind);
         };
         for (const double tic : y_.tics()) {
-            rule(left, y_.px(tic), right, y_.px(tic), "#e3e7eb");
+            rule(left, y_.px(tic), right, y_.px(tic), "grid");
             out += svg_text(left - 8, y_.px(tic) + 4.5, "end", fmt::format("{:.6g}", tic));
         }
         below_ = 30;
         if (figure_.x_ticks.empty()) {
             for (const double tic : x_.tics()) {
-                rule(x_.px(tic), bottom, x_.px(tic), bottom + 5, "#5a6672");
+                rule(x_.px(tic), bottom, x_.px(tic), bottom + 5, "axis");
                 out += svg_text(x_.px(tic), bottom + 20, "middle", fmt::format("{:.6g}", tic));
             }
         } else {
@@ -312,8 +393,8 @@ private:
             if (slanted)
                 below_ = 26 + 0.58 * longest;
         }
-        rule(left, bottom, right, bottom, "#5a6672");
-        rule(left, top, left, bottom, "#5a6672");
+        rule(left, bottom, right, bottom, "axis");
+        rule(left, top, left, bottom, "axis");
         if (!figure_.x_label.empty()) {
             below_ += 20;
             out += svg_text((left + right) / 2, bottom + below_ - 8, "middle", figure_.x_label);
@@ -336,7 +417,7 @@ private:
                 if (shown(s.x[i], s.low[i]) && shown(s.x[i], s.high[i]))
                     data += fmt::format("M{0:.1f} {1:.1f}L{0:.1f} {2:.1f}", x_.px(s.x[i]) + shift_px, y_.px(s.low[i]),
                                         y_.px(s.high[i]));
-        return path(data, "stroke=\"" + tone + "\" stroke-width=\"1.5\" fill=\"none\"");
+        return path(data, "style=\"stroke:" + tone + "\" stroke-width=\"1.5\" fill=\"none\"");
     }
 
     std::string series(const FigureSeries& s, const std::string& tone) const
@@ -356,18 +437,19 @@ private:
             if (!shown(s.x[i], s.y[i]))
                 continue;
             if (s.kind == SeriesKind::points) {
-                out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x_.px(s.x[i]),
+                out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" style=\"fill:{}\"/>\n", x_.px(s.x[i]),
                                    y_.px(s.y[i]), s.x.size() > 300 ? 1.5 : 3.5, tone);
             } else {
                 const double base = y_.px(y_.log ? y_.from : std::clamp(0.0, y_.from, y_.to));
                 const double end = y_.px(s.y[i]);
                 const double x = x_.px(s.x[i]) + shift_px;
-                out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
-                                   "fill-opacity=\"0.8\"/>\n",
-                                   x - half, std::min(base, end), 2 * half, std::abs(base - end), tone);
+                out +=
+                    fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"fill:{}\" "
+                                "fill-opacity=\"0.8\"/>\n",
+                                x - half, std::min(base, end), 2 * half, std::abs(base - end), tone);
             }
         }
-        return out + error_bars(s, s.kind == SeriesKind::bars ? "#1f2933" : tone, shift_px);
+        return out + error_bars(s, s.kind == SeriesKind::bars ? "var(--ink)" : tone, shift_px);
     }
 
     /// Series of bars stand side by side.
@@ -399,10 +481,10 @@ private:
         std::string out;
         for (std::size_t i = 0; i < s.x.size(); ++i)
             if (x_.holds(s.x[i]) && x_.holds(s.y[i]))
-                out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
-                                   "fill-opacity=\"0.16\"/>\n",
-                                   x_.px(s.x[i]), y_.last_px, x_.px(s.y[i]) - x_.px(s.x[i]), y_.first_px - y_.last_px,
-                                   tone);
+                out += fmt::format(
+                    "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"fill:{}\" "
+                    "fill-opacity=\"0.16\"/>\n",
+                    x_.px(s.x[i]), y_.last_px, x_.px(s.y[i]) - x_.px(s.x[i]), y_.first_px - y_.last_px, tone);
         return out;
     }
 
@@ -410,7 +492,7 @@ private:
     {
         std::string data;
         bool open = false;
-        for (const std::size_t i : thinned(s.y)) {
+        for (const std::size_t i : thinned(s.y, samples())) {
             if (!shown(s.x[i], s.y[i])) {
                 open = false;
                 continue;
@@ -418,7 +500,7 @@ private:
             data += (open ? "L" : "M") + point(s.x[i], s.y[i]);
             open = true;
         }
-        return path(data, "stroke=\"" + tone + "\" stroke-width=\"1.6\" stroke-linejoin=\"round\" fill=\"none\"");
+        return path(data, "style=\"stroke:" + tone + "\" stroke-width=\"1.6\" stroke-linejoin=\"round\" fill=\"none\"");
     }
 
     std::string band(const FigureSeries& s, const std::string& tone) const
@@ -444,7 +526,7 @@ private:
                 close();
         }
         close();
-        return path(data, "fill=\"" + tone + "\" fill-opacity=\"0.22\" stroke=\"none\"");
+        return path(data, "style=\"fill:" + tone + "\" fill-opacity=\"0.22\" stroke=\"none\"");
     }
 
     const Figure& figure_;
@@ -461,7 +543,10 @@ private:
 
 Html figure_svg(const Figure& figure, double height)
 {
-    return Html::ready(Drawing(figure, height).svg());
+    Drawing drawing(figure, height);
+    Html html = Html::ready(drawing.svg());
+    html += data_script("class=\"figure-data\"", drawing.json());
+    return html;
 }
 
 Html bar_svg(double value, std::optional<double> mark, double most)
@@ -470,10 +555,10 @@ Html bar_svg(double value, std::optional<double> mark, double most)
     const auto px = [&](double v) { return std::clamp(v / most, 0.0, 1.0) * length; };
     std::string svg =
         fmt::format("<svg width=\"{0:.0f}\" height=\"12\" viewBox=\"0 0 {0:.0f} 12\" aria-hidden=\"true\">"
-                    "<rect y=\"2\" width=\"{1:.1f}\" height=\"8\" fill=\"{2}\"/>",
-                    length + 2, px(value), mark && value > *mark ? "#1f5673" : "#b5bfc9");
+                    "<rect y=\"2\" width=\"{1:.1f}\" height=\"8\" style=\"fill:{2}\"/>",
+                    length + 2, px(value), mark && value > *mark ? "var(--s0)" : "var(--ground)");
     if (mark)
-        svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"0\" y2=\"12\" stroke=\"#b23a3a\" "
+        svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"0\" y2=\"12\" style=\"stroke:var(--bad)\" "
                            "stroke-width=\"1.6\"/>",
                            px(*mark) + 0.8);
     return Html::ready(svg + "</svg>");

@@ -32,6 +32,7 @@ public:
     Json& member_as_is(std::string_view key, std::string_view json) { return raw(key, json); }
     Json& item(const Json& value) { return add(value.text()); }
     Json& item(std::string_view value) { return add(quote(value)); }
+    Json& item_as_is(std::string_view json) { return add(json); }
 
     std::string text() const { return open_ + body_ + close_; }
 

@@ -5,6 +5,8 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
 #include "io/plots/plot_surface.hpp"
+#include "studies/report/html_figure.hpp"
+#include "studies/results/cell_outcomes.hpp"
 #include "studies/results/fall_order.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/study_facts.hpp"
@@ -74,10 +76,11 @@ HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector
 
 class ResultPage {
 public:
-    ResultPage(const Results& results, Isa isa, const std::string& title, std::vector<std::string>& warnings)
-        : results_(results), isa_(isa), reader_(results.reader()), header_(results.header()), warnings_(warnings),
-          study_(results.study()), kind_(results.concluded()), rows_(results.trials()), counts_(kind_.counts()),
-          page_(title.empty() ? "Results: " + results.title() : title, subtitle(header_)),
+    ResultPage(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
+               std::vector<std::string>& warnings)
+        : results_(results), isa_(isa), animations_(animations), reader_(results.reader()), header_(results.header()),
+          warnings_(warnings), study_(results.study()), kind_(results.concluded()), rows_(results.trials()),
+          counts_(kind_.counts()), page_(title.empty() ? "Results: " + results.title() : title, subtitle(header_)),
           writer_{page_, [this](const std::string& caption, const auto& draw) { picture(caption, draw); }},
           surface_(!header_.frequency_hz.empty())
     {
@@ -105,6 +108,7 @@ public:
         if (kind_.draws_plainly()) {
             outcomes();
             kind_.sections(writer_);
+            answers();
             pictures();
             order();
             motions();
@@ -203,17 +207,44 @@ private:
         page_.note("Rocking or sliding without collapse: classified by the larger of the two motions.");
     }
 
+    /// What the script of the page needs beside the figures: the cells of a surface, and realizations in motion.
+    void answers()
+    {
+        if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_) {
+            page_.data("cells",
+                       cells_json(*table, rows_, header_.block_names, fs::path(results_.file()).filename().string()));
+            if (!animations_.words.empty())
+                page_.note(animations_.words);
+        }
+        if (!animations_.list.empty())
+            page_.data("animations", animations_json(animations_, study_));
+    }
+
     /// One realization over time.
     void pictures()
     {
-        if (!kind_.shows_motion())
+        if (surface_)
             return;
+        if (!kind_.shows_motion()) { // its realizations are drawn together above
+            if (!animations_.list.empty()) {
+                page_.section("Realizations in motion");
+                page_.player();
+                page_.note(animations_.words);
+            }
+            return;
+        }
         page_.section("Motion");
+        if (!animations_.list.empty())
+            page_.player();
+        if (!animations_.words.empty())
+            page_.note(animations_.words);
         constexpr std::size_t most = 3;
         const std::size_t shown = std::min(most, rows_.size());
-        for (std::size_t i = 0; i < shown; ++i)
+        for (std::size_t i = 0; i < shown; ++i) {
             picture(fmt::format("Realization {}: {}.", rows_[i].index, to_string(rows_[i].outcome.state)),
                     [&](const fs::path& png) { strip_picture(results_, isa_, rows_[i].index, "", png); });
+            history(rows_[i].index);
+        }
         if (shown < rows_.size())
             page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
                                    "strip --realization I.",
@@ -348,6 +379,16 @@ private:
         page_.block(header_.study_toml);
     }
 
+    void history(std::uint64_t index)
+    {
+        try {
+            page_.figure(
+                figure_svg(history_figure(results_, isa_, index), 220),
+                fmt::format("Realization {}: displacement of the base, and of blocks against the base.", index));
+        } catch (const InputError&) { // the picture above has said why
+        }
+    }
+
     void picture(const std::string& caption, const std::function<void(const fs::path&)>& draw)
     {
         const fs::path png = folder_ / "picture.png";
@@ -362,6 +403,7 @@ private:
 
     const Results& results_;
     const Isa isa_;
+    const KeptAnimations& animations_;
     const ResultReader& reader_;
     const ResultHeader& header_;
     std::vector<std::string>& warnings_;
@@ -380,9 +422,10 @@ private:
 
 } // namespace
 
-HtmlPage result_page(const Results& results, Isa isa, const std::string& title, std::vector<std::string>& warnings)
+HtmlPage result_page(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
+                     std::vector<std::string>& warnings)
 {
-    return ResultPage(results, isa, title, warnings).page();
+    return ResultPage(results, isa, title, animations, warnings).page();
 }
 
 } // namespace stylobate

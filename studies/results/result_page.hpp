@@ -3,6 +3,7 @@
 
 #include "kernels/isa.hpp"
 #include "studies/report/html.hpp"
+#include "studies/results/kept_animations.hpp"
 #include "studies/results/results.hpp"
 
 #include <string>
@@ -11,11 +12,14 @@
 namespace stylobate {
 
 /// What was run and what became of it: summary, probabilities, pictures, order of falls, motions, energy, and how to do
-/// it again. Where the pictures cannot be drawn the page contains a message.
+/// it again; and the data by which its script shows values under the pointer and realizations in motion. Where the
+/// pictures cannot be drawn the page contains a message.
 /// @param isa for realizations whose trajectories the file does not hold
 /// @param title of the page; empty: by the study or the file
+/// @param animations of `keep_animations`
 /// @param warnings receives a line for each picture that could not be drawn
 /// @throws InputError if the run is not complete
-HtmlPage result_page(const Results& results, Isa isa, const std::string& title, std::vector<std::string>& warnings);
+HtmlPage result_page(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
+                     std::vector<std::string>& warnings);
 
 } // namespace stylobate

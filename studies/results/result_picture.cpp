@@ -17,26 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Followed {
-    Trajectory trajectory;
-    std::vector<double> fall_time_s; ///< (blocks)
-};
-
-/// The trajectory that the file holds, or else the realization run again.
-Followed trajectory_of(const Results& results, Isa isa, std::uint64_t index)
-{
-    const ResultReader& reader = results.reader();
-    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
-    if (std::find(stored.begin(), stored.end(), index) != stored.end())
-        return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
-    const Experiment& experiment = results.experiment();
-    if (index < results.header().first || index >= results.end())
-        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
-                                     results.header().first, results.end() - 1));
-    FollowedRealization f = follow(experiment, index, isa);
-    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
-}
-
 std::string strip_title(const Results& results, std::uint64_t index)
 {
     std::string title = fmt::format("{}, realization {}", results.title(), index);
@@ -49,11 +29,65 @@ std::string strip_title(const Results& results, std::uint64_t index)
     return title;
 }
 
+/// The blocks whose histories are drawn: all that can move, or the tops where these are too many.
+std::vector<std::size_t> told_blocks(const std::vector<PlacedBlock>& blocks)
+{
+    constexpr std::size_t most = 6; // and the base: as many as there are colours
+    std::vector<std::size_t> all, tops;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (blocks[i].fixed)
+            continue;
+        all.push_back(i);
+        const bool top = std::none_of(blocks.begin(), blocks.end(), [&](const PlacedBlock& other) {
+            return other.column >= 0 && other.column == blocks[i].column && other.y_m > blocks[i].y_m;
+        });
+        if (top)
+            tops.push_back(i);
+    }
+    std::vector<std::size_t> told = all.size() <= most ? all : tops;
+    told.resize(std::min(told.size(), most));
+    return told;
+}
+
 } // namespace
+
+FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index)
+{
+    const ResultReader& reader = results.reader();
+    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
+    if (std::find(stored.begin(), stored.end(), index) != stored.end()) {
+        const ResultRow row = reader.row(index);
+        return {reader.trajectory(index), row.outcome.fall_time_s, row.outcome.state, row.frequency_hz, row.pga_m_s2};
+    }
+    const Experiment& experiment = results.experiment();
+    if (index < results.header().first || index >= results.end())
+        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
+                                     results.header().first, results.end() - 1));
+    FollowedRealization f = follow(experiment, index, isa);
+    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s), f.outcome.state, f.realization.frequency_hz,
+            f.realization.pga_m_s2};
+}
+
+Figure history_figure(const Results& results, Isa isa, std::uint64_t index)
+{
+    const Trajectory t = followed_motion(results, isa, index).trajectory;
+    Figure figure;
+    figure.title = fmt::format("Displacements of realization {} over time", index);
+    figure.x_label = "time [s]";
+    figure.y_label = "displacement [m]";
+    figure.series.push_back({"base", SeriesKind::line, t.time_s, t.base_x_m, {}, {}});
+    for (const std::size_t block : told_blocks(lay_out(results.study().structure).blocks)) {
+        FigureSeries series{t.name[block], SeriesKind::line, t.time_s, {}, {}, {}};
+        for (std::size_t k = 0; k < t.time_s.size(); ++k)
+            series.y.push_back(t.x_m[k * t.blocks() + block] - t.rest_x_m[block]);
+        figure.series.push_back(std::move(series));
+    }
+    return figure;
+}
 
 void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title, const fs::path& file)
 {
-    const Followed f = trajectory_of(results, isa, index);
+    const FollowedMotion f = followed_motion(results, isa, index);
     plot_strip(f.trajectory, f.fall_time_s, title.empty() ? strip_title(results, index) : title, file);
 }
 

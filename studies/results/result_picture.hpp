@@ -2,19 +2,37 @@
 /// The pictures that the results of every kind have: one realization over time, and the order of falls.
 
 #include "kernels/isa.hpp"
+#include "studies/report/figure.hpp"
 #include "studies/results/results.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace stylobate {
+
+/// A realization over time.
+struct FollowedMotion {
+    Trajectory trajectory;
+    std::vector<double> fall_time_s; ///< (blocks)
+    State state = State::stood;
+    double frequency_hz = 0, pga_m_s2 = 0;
+};
+/// The trajectory that the file holds, or else the realization run again.
+/// @throws InputError if there is no such realization, or if none can be run again
+FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index);
 
 /// One realization over time: from the file's trajectory, or else run again.
 /// @param title empty: by the results, the realization and what became of it
 /// @throws InputError if there is no such realization, and as `plot_strip` does
 void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
                    const std::filesystem::path& file);
+
+/// The same as curves of a page: displacement of the base, and of blocks against the base and their place in the
+/// reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as have colours.
+/// @throws InputError as `strip_picture` does, but for the drawing
+Figure history_figure(const Results& results, Isa isa, std::uint64_t index);
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations

@@ -51,7 +51,7 @@ TEST_F(Exports, TheEndingDecidesOrIsRefused)
     expect_refused({"export", "a.h5", "--to", "png", "-o", "x.svg"}, {"x.svg", "--to png", "extension"});
     expect_refused({"export", "a.h5", "--to", "png", "-o", "x.jpg"}, {"x.jpg", ".png, .svg or .pdf"});
     expect_refused({"export", "a.h5", "--to", "png", "-o", "x"}, {"-o x", ".png, .svg or .pdf"});
-    expect_refused({"export", "a.h5", "-o", "x.gif"}, {"x.gif", ".png, .svg or .pdf"});
+    expect_refused({"export", "a.h5", "-o", "x.tiff"}, {"x.tiff", ".png, .svg or .pdf"});
     expect_refused({"export", "a.h5", "--to", "csv", "-o", "x.csv"}, {"x.csv", "folder"});
     expect_refused({"export", "a.h5"}, {"--to"});
     expect_refused({"report", "a.h5", "-o", "x.pdf"}, {"x.pdf", ".html"});

@@ -179,7 +179,10 @@ TEST_F(Kinds, ARareEventHasAPicture)
     done({"export", "rare.h5", "--to", "png", "-o", "rare.png"});
     EXPECT_TRUE(read_bytes(folder / "rare.png").starts_with("\x89PNG"));
     done({"report", "rare.h5", "-o", "rare.html", "--quiet"});
-    EXPECT_NE(read_bytes(folder / "rare.html").find("<img"), std::string::npos);
+    const std::string page = read_bytes(folder / "rare.html");
+    EXPECT_EQ(count_of(page, "class=\"figure-data\""), 2U); // the levels, and what each repeat found
+    EXPECT_NE(page.find("\"name\": \"repeat 4\""), std::string::npos);
+    EXPECT_NE(page.find("\"name\": \"mean\""), std::string::npos);
     expect_refused(Words{"export", "results.h5", "--to", "png", "--picture", "rare"}, {"'single'", "rare"});
     const JsonValue json = json_of(run(Words{"info", "rare.h5", "--json"}));
     for (const JsonValue& verb : json["verbs"].items)

@@ -115,11 +115,7 @@ std::vector<std::pair<std::string, std::string>> FragilityKind::files(const std:
 
 void FragilityKind::sections(PageWriter& writer) const
 {
-    fragility_section(fragility_, writer.page, [&] {
-        if (!fragility_.states.empty())
-            writer.picture("Curves with their 95 % bands; bars: shares of the stripes with their intervals.",
-                           [&](const std::filesystem::path& png) { plot_fragility(fragility_, {}, "Fragility", png); });
-    });
+    fragility_section(fragility_, writer.page);
 }
 
 } // namespace stylobate

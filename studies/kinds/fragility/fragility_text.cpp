@@ -1,5 +1,7 @@
 #include "studies/kinds/fragility/fragility_text.hpp"
 
+#include "studies/report/html_figure.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +19,6 @@ std::string number(double value)
 std::string interval(const Limits& limits)
 {
     return fmt::format("{} to {}", number(limits.lower), number(limits.upper));
-}
-
-bool has_curve(const StateFragility& s)
-{
-    return s.curve.maximum == Maximum::inside && s.curve.median.value > 0 && std::isfinite(s.curve.median.value);
 }
 
 std::string percent(double share)
@@ -198,7 +195,7 @@ Json fragility_json(const Fragility& f)
         .member("says", says);
 }
 
-void fragility_section(const Fragility& f, HtmlPage& page, const std::function<void()>& picture)
+void fragility_section(const Fragility& f, HtmlPage& page)
 {
     page.section("Fragility");
     page.paragraph(fmt::format("{} motions, {} structures under each. Intensity: {}. Each curve is a lognormal fit by "
@@ -207,7 +204,11 @@ void fragility_section(const Fragility& f, HtmlPage& page, const std::function<v
                                f.motions, f.structures, describe_measure(f.measure)));
     for (const std::string& line : f.says)
         page.box("warn", "Note", line);
-    picture();
+    if (!f.states.empty())
+        page.figure(figure_svg(fragility_figure(f)),
+                    "Lines with bands: lognormal curves with their 95 % bands. Points with bars: shares of the stripes "
+                    "with their intervals. Where the lognormal curve does not fit (p below 0.05), and where there is "
+                    "none, a line through the points is the best curve that does not decrease.");
     HtmlTable table{"lrrrrr", {"limit state", "reached", "median", "95 %", "dispersion", "95 %"}, {}, ""};
     for (const StateFragility& s : f.states) {
         std::vector<Html> row = {s.state.describe, fmt::format("{} of {}", s.curve.reached, s.curve.trials)};

@@ -2,11 +2,11 @@
 /// A fragility study in words, as JSON, as a section of a page, and as a picture.
 
 #include "studies/kinds/fragility/fragility.hpp"
+#include "studies/report/figure.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +16,16 @@ namespace stylobate {
 std::string fragility_text(const Fragility& fragility);
 Json fragility_json(const Fragility& fragility);
 
-/// The section of a result's page. @param picture puts that of the curves into the page
-void fragility_section(const Fragility& fragility, HtmlPage& page, const std::function<void()>& picture);
+/// Whether a lognormal curve could be fitted.
+bool has_curve(const StateFragility& state);
+
+/// Of the peak's limit states and the collapse: the fitted curves with their bands, with the p-value of their lack of
+/// fit in the legend; the shares of the stripes with their intervals; and the monotone curve through these where the
+/// lognormal one does not fit or where there is none.
+Figure fragility_figure(const Fragility& fragility);
+
+/// The section of a result's page.
+void fragility_section(const Fragility& fragility, HtmlPage& page);
 
 /// Curves of all limit states of one kind each, with their bands, and the shares of the stripes with their bars.
 /// @param states names of limit states; empty: the peak's, and the collapse

@@ -11,6 +11,7 @@
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/sensitivity_table.hpp"
+#include "studies/report/figure.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
@@ -56,7 +57,9 @@ private:
 /// For the end of a run.
 std::string sensitivity_text(const SensitivityTable& table);
 Json sensitivity_json(const SensitivityTable& table);
-/// A table for each outcome, with its remarks.
+/// Bars of all indices of one outcome, factor by factor, with their intervals; Sobol's cut at -0.5 and 1.6.
+Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome);
+/// A figure and a table for each outcome, with its remarks.
 void add_sensitivity(HtmlPage& page, const SensitivityTable& table);
 
 /// What must be known of a table: factors without effect, outcomes that do not vary, rows left out.

@@ -39,9 +39,6 @@ std::vector<std::pair<std::string, std::string>> SensitivityKind::files(const st
 void SensitivityKind::sections(PageWriter& writer) const
 {
     writer.page.section("Sensitivity to the factors");
-    writer.picture("Shares of the factors, with their intervals.", [&](const std::filesystem::path& png) {
-        plot_sensitivity(table_, "Sensitivity to the factors", png);
-    });
     add_sensitivity(writer.page, table_);
 }
 

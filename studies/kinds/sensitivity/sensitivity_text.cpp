@@ -3,6 +3,7 @@
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 
 #include "io/plots/plot_surface.hpp"
+#include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
 
@@ -214,10 +215,40 @@ Json sensitivity_json(const SensitivityTable& table)
         .member("remarks", remarks);
 }
 
+Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome)
+{
+    // an interval may be far wider than what the indices can be: it is cut there, its readings too
+    constexpr double least = -0.5, most = 1.6;
+    const bool sobol = table.method == "sobol";
+    Figure figure;
+    figure.title = "Sensitivity of " + spoken(table.outcomes[outcome]);
+    figure.y_label = sobol || table.units[outcome].empty() ? "index" : "index [" + table.units[outcome] + "]";
+    for (const std::string& factor : table.factors)
+        figure.x_ticks.push_back(spoken(factor));
+    const std::size_t n = table.factors.size();
+    for (const SensitivityTable::Index& index : table.indices) {
+        FigureSeries bars{heading(index.name), SeriesKind::bars, {}, {}, {}, {}};
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t i = outcome * n + k;
+            const auto within = [&](double v) { return sobol && std::isfinite(v) ? std::clamp(v, least, most) : v; };
+            bars.x.push_back(static_cast<double>(k));
+            bars.y.push_back(within(index.of.value[i]));
+            bars.low.push_back(within(index.of.lower[i]));
+            bars.high.push_back(within(index.of.upper[i]));
+        }
+        figure.series.push_back(std::move(bars));
+    }
+    return figure;
+}
+
 void add_sensitivity(HtmlPage& page, const SensitivityTable& table)
 {
     page.paragraph(explanation(table));
     const std::size_t n = table.factors.size();
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o)
+        page.figure(figure_svg(sensitivity_figure(table, o), 220),
+                    fmt::format("Indices of {}, with their intervals{}.", spoken(table.outcomes[o]),
+                                table.method == "sobol" ? " (cut at -0.5 and 1.6)" : ""));
     for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
         HtmlTable of{"l" + std::string(table.indices.size(), 'r'), {"factor"}, {}, ""};
         of.caption = fmt::format("{} ({}): {}", spoken(table.outcomes[o]), table.meanings[o], mean_text(table, o));

@@ -2,9 +2,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/run_order.hpp"
+#include "io/plots/plot_axis.hpp"
 #include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_surface.hpp"
 #include "studies/kinds/nearest_on_axis.hpp"
+#include "studies/report/html_figure.hpp"
+#include "studies/report/html_map.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +58,63 @@ HtmlTable cell_table(const SurfaceTable& surface)
         table.rows.push_back(std::move(row));
     }
     return table;
+}
+
+/// The edges of an axis' cells in the unit interval.
+std::vector<double> unit_edges(const PlotAxis& axis)
+{
+    const double from = axis.scaled(axis.edges.front()), to = axis.scaled(axis.edges.back());
+    std::vector<double> edges;
+    for (const double edge : axis.edges)
+        edges.push_back((axis.scaled(edge) - from) / (to - from));
+    return edges;
+}
+
+CellMap surface_map(const SurfaceTable& table)
+{
+    CellMap map;
+    map.title = fmt::format("Map of the probability of collapse, {} frequencies by {} values of PGA",
+                            table.frequency_hz.size(), table.pga_m_s2.size());
+    map.x_label = "frequency [Hz]";
+    map.y_label = "PGA [m/s²]";
+    map.value_label = "probability of collapse";
+    map.x = table.frequency_hz;
+    map.y = table.pga_m_s2;
+    map.x_edges = unit_edges(make_plot_axis(map.x, "frequency_hz"));
+    map.y_edges = unit_edges(make_plot_axis(map.y, "pga_m_s2"));
+    map.value = table.probability;
+    for (const SurfaceContour& contour : surface_contours(table)) {
+        MapLines lines{{}, fmt::format("{}", contour.level), {contour.label.x, contour.label.y}};
+        for (const ContourLine& line : contour.lines) {
+            lines.lines.emplace_back();
+            for (const ContourPoint& point : line)
+                lines.lines.back().push_back({point.x, point.y});
+        }
+        map.lines.push_back(std::move(lines));
+    }
+    return map;
+}
+
+/// The probability over PGA at some frequencies, with its intervals.
+Figure slice_figure(const SurfaceTable& table)
+{
+    Figure figure;
+    figure.title = "Probability of collapse over PGA at some frequencies";
+    figure.x_label = "PGA [m/s²]";
+    figure.y_label = "probability of collapse";
+    figure.x_log = make_plot_axis(table.pga_m_s2, "pga_m_s2").log;
+    const std::size_t np = table.pga_m_s2.size();
+    for (const std::size_t row : slice_rows(table, {})) {
+        FigureSeries series{
+            fmt::format("{:.3g} Hz", table.frequency_hz[row]), SeriesKind::line, table.pga_m_s2, {}, {}, {}};
+        for (std::size_t p = 0; p < np; ++p) {
+            series.y.push_back(table.probability[row * np + p]);
+            series.low.push_back(table.lower[row * np + p]);
+            series.high.push_back(table.upper[row * np + p]);
+        }
+        figure.series.push_back(std::move(series));
+    }
+    return figure;
 }
 
 } // namespace
@@ -128,15 +188,12 @@ Picture SurfaceKind::picture(const ResultReader& reader, const std::string& resu
 void SurfaceKind::sections(PageWriter& writer) const
 {
     const SurfaceTable table = *surface();
-    const std::string what = describe(LimitState::collapse);
     writer.page.section("Probability of collapse");
-    writer.picture(
-        "The probability of collapse over frequency and PGA, with its contours.",
-        [&](const std::filesystem::path& png) { plot_surface(table, what, "Probability of collapse", png); });
+    writer.page.figure(map_svg(surface_map(table)),
+                       "The probability of collapse over frequency and PGA. Lines: 0.05, 0.5 and 0.95.");
     if (table.pga_m_s2.size() > 1)
-        writer.picture(
-            "The probability at some frequencies, with the intervals.",
-            [&](const std::filesystem::path& png) { plot_slice(table, {}, what, "Probability of collapse", png); });
+        writer.page.figure(figure_svg(slice_figure(table)),
+                           "The probability at some frequencies; bands: the intervals of the cells.");
     writer.page.table(cell_table(table));
     if (const std::string more = remark(table); !more.empty())
         writer.page.note(more);

@@ -8,13 +8,18 @@
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/html_map.hpp"
 #include "studies/results/study_facts.hpp"
+#include "tests/program/json.hpp"
 #include "tests/studies/calibration/calibration_sample.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -29,9 +34,23 @@ std::size_t count_of(std::string_view text, std::string_view part)
     return n;
 }
 
-/// Every element that is opened is closed, in order: HTML's void elements and what ends itself aside.
-void expect_balanced(const std::string& page)
+/// The markup alone, without what is between the tags of scripts.
+std::string without_scripts(const std::string& page)
 {
+    std::string rest;
+    std::size_t at = 0;
+    for (std::size_t open = page.find("<script"); open != std::string::npos; open = page.find("<script", at)) {
+        const std::size_t inside = page.find('>', open) + 1;
+        rest += page.substr(at, inside - at);
+        at = page.find("</script>", inside);
+    }
+    return rest + page.substr(at);
+}
+
+/// Every element that is opened is closed, in order: HTML's void elements and what ends itself aside.
+void expect_balanced(const std::string& whole)
+{
+    const std::string page = without_scripts(whole);
     std::vector<std::string> open;
     for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at + 1)) {
         const std::size_t end = page.find('>', at);
@@ -53,10 +72,15 @@ void expect_balanced(const std::string& page)
     EXPECT_TRUE(open.empty());
 }
 
-/// Nothing is loaded from elsewhere, and nothing runs.
+/// Nothing is loaded from elsewhere, and nothing runs but the one script of the page.
 void expect_self_contained(const std::string& page)
 {
-    EXPECT_EQ(page.find("<script"), std::string::npos);
+    EXPECT_EQ(count_of(page, "<script>"), 1U);
+    EXPECT_EQ(count_of(page, "<script"), 1 + count_of(page, "<script type=\"application/json\""));
+    EXPECT_EQ(count_of(page, "<script"), count_of(page, "</script>"));
+    for (const char* loads : {"fetch(", "XMLHttpRequest", "WebSocket", "import(", "blob:", "createObjectURL", "eval("})
+        EXPECT_EQ(page.find(loads), std::string::npos) << loads;
+    EXPECT_NE(page.find("Content-Security-Policy\" content=\"default-src 'none'; img-src data:;"), std::string::npos);
     EXPECT_EQ(page.find("<link"), std::string::npos);
     EXPECT_EQ(page.find("url("), std::string::npos);
     EXPECT_EQ(page.find("@import"), std::string::npos);
@@ -82,6 +106,82 @@ TEST(Html, Base64AsInRfc4648)
     EXPECT_EQ(base64("foo"), "Zm9v");
     EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
     EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(Html, DataCannotEndTheirElement)
+{
+    HtmlPage page("t", "s");
+    page.data("names", R"({"name": "</script><script>alert(1)</script><!--"})");
+    const std::string text = page.text();
+    EXPECT_NE(text.find(R"(<script type="application/json" id="names">{"name": "\u003c/script>\u003cscript>alert(1))"),
+              std::string::npos);
+    EXPECT_EQ(text.find("<!--"), std::string::npos);
+    expect_self_contained(text);
+    expect_balanced(text);
+}
+
+TEST(HtmlFigure, GivesItsValuesToTheScript)
+{
+    Figure figure;
+    figure.x_label = "time [s]";
+    figure.y_log = true;
+    figure.series = {{"a </script>", SeriesKind::line, {0, 1, 2}, {10, std::nan(""), 1000}, {}, {}},
+                     {"b", SeriesKind::points, {1}, {20}, {15}, {30}, "a </script>", "points"}};
+    const std::string html = figure_svg(figure).markup;
+    const std::size_t begin = html.find("figure-data\">") + 13;
+    const JsonValue data = JsonParser::parse(html.substr(begin, html.find("</script>") - begin));
+    EXPECT_EQ(data["x"]["label"].text, "time [s]");
+    EXPECT_FALSE(data["x"]["log"].boolean);
+    EXPECT_TRUE(data["y"]["log"].boolean);
+    const JsonValue& line = data["series"].items.at(0);
+    EXPECT_EQ(line["name"].text, "a </script>");
+    EXPECT_EQ(line["y"].items.at(0).number, 10);
+    EXPECT_EQ(line["y"].items.at(1).kind, JsonValue::Kind::null);
+    EXPECT_EQ(line["y"].items.at(2).number, 1000);
+    EXPECT_TRUE(line["low"].items.empty());
+    const JsonValue& points = data["series"].items.at(1);
+    EXPECT_EQ(points["high"].items.at(0).number, 30);
+    EXPECT_EQ(points["layer"].text, "points");
+    // one group has one colour and one entry of the legend
+    EXPECT_EQ(line["colour"].number, points["colour"].number);
+    EXPECT_EQ(count_of(html, "class=\"key\""), 1U);
+    EXPECT_EQ(count_of(html, "data-series="), 2U);
+    // where the script takes the ends of the axis for, the drawing has them: the line begins and ends there
+    const std::size_t at = html.find("<path d=\"M");
+    double x = 0, y = 0;
+    ASSERT_EQ(std::sscanf(html.c_str() + at, "<path d=\"M%lf %lf", &x, &y), 2);
+    const JsonValue& axis = data["x"];
+    const double share = (0 - axis["from"].number) / (axis["to"].number - axis["from"].number);
+    EXPECT_NEAR(x, axis["first"].number + share * (axis["last"].number - axis["first"].number), 0.06);
+}
+
+TEST(HtmlMap, PutsCellsWhereTheyLie)
+{
+    CellMap map;
+    map.x = {1, 2};
+    map.y = {10, 20, 30};
+    map.x_edges = {0, 0.25, 1};
+    map.y_edges = {0, 0.5, 0.75, 1};
+    map.value = {0, 0.5, 1, std::nan(""), 0.5, 1};
+    map.lines = {{{{{0, 0}, {1, 1}}}, "0.5", {0.5, 0.5}}};
+    const std::string svg = map_svg(map).markup;
+    EXPECT_EQ(count_of(svg, "data-cell="), 6U);
+    EXPECT_EQ(count_of(svg, "class=\"empty-cell\""), 1U); // of which nothing is known
+    const auto rect = [&](int cell) {
+        std::array<double, 4> r{};
+        const std::size_t at = svg.find(fmt::format("<rect data-cell=\"{}\"", cell));
+        const std::size_t x = svg.find("x=", at);
+        EXPECT_EQ(std::sscanf(svg.c_str() + x, "x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &r[0], &r[1], &r[2],
+                              &r[3]),
+                  4);
+        return r;
+    };
+    const auto first = rect(0), above = rect(1), top = rect(2), right = rect(3);
+    EXPECT_NEAR(right[2], 3 * first[2], 1.1);
+    EXPECT_NEAR(right[0] - first[0], first[2], 0.6);
+    EXPECT_NEAR(first[3], 2 * above[3], 0.6);
+    EXPECT_NEAR(above[1] - top[1], top[3], 0.6); // the larger value of y is above
+    EXPECT_LT(top[1], first[1]);
 }
 
 TEST(HtmlFigure, PutsPointsWhereTheAxesSay)

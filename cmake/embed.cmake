@@ -1,0 +1,28 @@
+# Writes OUTPUT: the style and the script of the pages (the files STYLE and SCRIPTS, in this order) as C++ strings.
+function(literal_of out)
+  set(parts "")
+  foreach(file ${ARGN})
+    file(READ ${file} text)
+    if(text MATCHES "<!--|</?(script|style)")
+      message(FATAL_ERROR "${file} contains ${CMAKE_MATCH_0}, which would end the element that it stands in")
+    endif()
+    string(APPEND parts "R\"embedded(${text})embedded\"\n") # one literal a file: compilers limit their length
+  endforeach()
+  set(${out} "${parts}" PARENT_SCOPE)
+endfunction()
+
+string(REPLACE "|" ";" scripts "${SCRIPTS}")
+literal_of(style ${STYLE})
+literal_of(script ${scripts})
+file(WRITE ${OUTPUT} "#include \"studies/report/page_assets.hpp\"
+
+std::string_view stylobate::page_style()
+{
+    return ${style};
+}
+
+std::string_view stylobate::page_script()
+{
+    return ${script};
+}
+")

@@ -1,0 +1,76 @@
+#include "studies/kinds/fragility/fragility_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// Below it the sentence of the test says that the lognormal form does not hold (`lack_of_fit`).
+constexpr double does_not_fit = 0.05;
+
+std::string legend_of(const StateFragility& s)
+{
+    if (!has_curve(s))
+        return s.state.describe + " (no curve)";
+    return fmt::format("{} (lack of fit: p = {:.2g}{})", s.state.describe, s.fit.p_value,
+                       s.fit.p_value < does_not_fit ? ", does not fit" : "");
+}
+
+void add_state(const StateFragility& s, Figure& figure)
+{
+    const std::string name = legend_of(s);
+    if (has_curve(s)) {
+        FigureSeries curve{name, SeriesKind::line, {}, {}, {}, {}, name, "fitted curve"};
+        for (const CurvePoint& at : s.curve.at) {
+            curve.x.push_back(at.intensity[0]);
+            curve.y.push_back(at.probability.value);
+            curve.low.push_back(std::max(at.probability.records.lower, 0.0));
+            curve.high.push_back(std::min(at.probability.records.upper, 1.0));
+        }
+        figure.series.push_back(std::move(curve));
+    }
+    if (!s.stripes)
+        return;
+    FigureSeries shares{name, SeriesKind::points, {}, {}, {}, {}, name, "shares of the stripes"};
+    FigureSeries monotone{name, SeriesKind::line, {}, {}, {}, {}, name, "monotone curve"};
+    for (const StripeShare& stripe : s.stripes->stripes) {
+        shares.x.push_back(stripe.intensity);
+        shares.y.push_back(stripe.share);
+        shares.low.push_back(std::max(stripe.limits.lower, 0.0));
+        shares.high.push_back(std::min(stripe.limits.upper, 1.0));
+        monotone.x.push_back(stripe.intensity);
+        monotone.y.push_back(stripe.monotone);
+    }
+    figure.series.push_back(std::move(shares));
+    if (!has_curve(s) || s.fit.p_value < does_not_fit)
+        figure.series.push_back(std::move(monotone));
+}
+
+} // namespace
+
+bool has_curve(const StateFragility& s)
+{
+    return s.curve.maximum == Maximum::inside && s.curve.median.value > 0 && std::isfinite(s.curve.median.value);
+}
+
+Figure fragility_figure(const Fragility& f)
+{
+    Figure figure;
+    figure.title = "Fragility curves";
+    figure.x_label = describe_measure(f.measure);
+    figure.y_label = "probability of reaching the limit state";
+    figure.x_log = true;
+    constexpr std::size_t most_states = 7; // as many colours as the page has
+    std::size_t states = 0;
+    for (const StateFragility& s : f.states)
+        if ((s.state.kind == DamageState::Kind::peak || s.state.kind == DamageState::Kind::collapse) &&
+            states++ < most_states)
+            add_state(s, figure);
+    return figure;
+}
+
+} // namespace stylobate

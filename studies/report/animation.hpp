@@ -1,0 +1,49 @@
+#pragma once
+/// A realization in motion for the page: its trajectory in tenths of a pixel of a drawing, as text.
+
+#include "ensemble/model/outcome.hpp"
+#include "io/store/result_store.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct PlacedBlock;
+
+/// The drawing that trajectories are quantised for: the structure in the frame of its base, with room at both sides.
+struct AnimationStage {
+    double px_m = 1;       ///< pixels per metre
+    double middle_m = 0;   ///< of the structure at rest: x = 0 of the drawing is its middle
+    double width_px = 640; ///< of the drawing
+    double height_px = 0;
+    double ground_px = 0; ///< y of the ground, from above
+
+    /// The length that coordinates are whole multiples of [m].
+    double quantum_m() const { return quantum_px / px_m; }
+    static constexpr double quantum_px = 0.1;
+};
+
+/// @param blocks of the structure at rest, at least one
+AnimationStage animation_stage(const std::vector<PlacedBlock>& blocks);
+
+struct Animation {
+    std::uint64_t index = 0, cell = 0;
+    State state = State::stood;
+    double frequency_hz = 0, pga_m_s2 = 0;
+    std::uint64_t samples = 0;
+    std::vector<double> fall_time_s; ///< (blocks) -1: never
+    std::string data;                ///< base64
+};
+
+/// The samples of a trajectory at a lower rate, as text. The bytes are those that `decoded` in page/player.js
+/// describes: whole numbers of variable length; sizes of the blocks, then each coordinate with its differences, runs of
+/// zeros together. Rounding does not add up: the differences are of rounded values. What is not finite repeats the
+/// value before it.
+/// @param stride every so many samples of the trajectory one is taken, from the first one on; >= 1
+/// @pre the trajectory has a sample
+/// @returns the animation without what its row says
+Animation animation_of(const Trajectory& trajectory, const AnimationStage& stage, std::size_t stride);
+
+} // namespace stylobate

@@ -1,0 +1,146 @@
+#include "studies/report/html_map.hpp"
+
+#include "io/plots/gnuplot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace stylobate {
+namespace {
+
+constexpr double frame_left = 70, frame_top = 12, frame_width = 690, frame_height = 430;
+constexpr double scale_left = 785, scale_width = 18;
+constexpr double picture_width = 860, picture_height = 500;
+constexpr double seam = 0.5; ///< by which cells overlap, so that no light comes between them
+
+/// Its lightness ascends evenly, so that it can be read in grey too.
+std::string viridis_colour(double value)
+{
+    const double at = std::clamp(value, 0.0, 1.0) * (viridis.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
+    const double share = at - static_cast<double>(i);
+    const auto part = [](const char* colour, std::size_t k) { // of "#rrggbb"
+        return static_cast<double>(std::stoi(std::string(colour).substr(1 + 2 * k, 2), nullptr, 16));
+    };
+    std::string mixed = "#";
+    for (std::size_t k = 0; k < 3; ++k)
+        mixed +=
+            fmt::format("{:02x}", std::lround((1 - share) * part(viridis[i], k) + share * part(viridis[i + 1], k)));
+    return mixed;
+}
+
+double px_x(double unit)
+{
+    return frame_left + unit * frame_width;
+}
+double px_y(double unit)
+{
+    return frame_top + (1 - unit) * frame_height;
+}
+
+std::string map_text(double x, double y, const char* anchor, const std::string& text, const std::string& more = "")
+{
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                       html_escaped(text));
+}
+
+std::string map_cells(const CellMap& map)
+{
+    std::string out = "<g shape-rendering=\"crispEdges\">\n";
+    const std::size_t ny = map.y.size();
+    for (std::size_t i = 0; i < map.x.size(); ++i)
+        for (std::size_t j = 0; j < ny; ++j) {
+            const double v = map.value[i * ny + j];
+            out += fmt::format(
+                "<rect data-cell=\"{}\" x=\"{:.5g}\" y=\"{:.5g}\" width=\"{:.5g}\" height=\"{:.5g}\" {}/>\n",
+                i * ny + j, px_x(map.x_edges[i]), px_y(map.y_edges[j + 1]),
+                (map.x_edges[i + 1] - map.x_edges[i]) * frame_width + seam,
+                (map.y_edges[j + 1] - map.y_edges[j]) * frame_height + seam,
+                std::isfinite(v) ? "fill=\"" + viridis_colour(v) + "\"" : "class=\"empty-cell\"");
+        }
+    return out + "</g>\n";
+}
+
+/// A dark line under a white one is seen on every colour.
+std::string map_lines(const CellMap& map)
+{
+    std::string out, labels;
+    for (const MapLines& one : map.lines) {
+        std::string data;
+        for (const std::vector<MapPoint>& line : one.lines)
+            for (std::size_t k = 0; k < line.size(); ++k)
+                data += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", px_x(line[k].x), px_y(line[k].y));
+        if (data.empty())
+            continue;
+        for (const char* look : {"#202020\" stroke-width=\"3", "#ffffff\" stroke-width=\"1.6"})
+            out += fmt::format("<path d=\"{}\" fill=\"none\" pointer-events=\"none\" stroke=\"{}\"/>\n", data, look);
+        const double x = px_x(one.label_at.x), y = px_y(one.label_at.y);
+        labels += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"38\" height=\"17\" rx=\"3\" fill=\"#fff\" "
+                              "pointer-events=\"none\"/>\n",
+                              x - 19, y - 9);
+        labels +=
+            map_text(x, y + 4, "middle", one.label, " class=\"on-colour\" pointer-events=\"none\" font-size=\"12\"");
+    }
+    return out + labels;
+}
+
+/// At the centres of the cells, as many as have room.
+std::string map_axes(const CellMap& map)
+{
+    std::string out;
+    double last = -1e9;
+    for (std::size_t i = 0; i < map.x.size(); ++i) {
+        const double x = px_x((map.x_edges[i] + map.x_edges[i + 1]) / 2);
+        if (x - last < 46)
+            continue;
+        last = x;
+        out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\" class=\"axis\"/>\n", x,
+                           px_y(0), px_y(0) + 5);
+        out += map_text(x, px_y(0) + 20, "middle", fmt::format("{:.3g}", map.x[i]));
+    }
+    last = 1e9;
+    for (std::size_t j = 0; j < map.y.size(); ++j) {
+        const double y = px_y((map.y_edges[j] + map.y_edges[j + 1]) / 2);
+        if (last - y < 22)
+            continue;
+        last = y;
+        out += fmt::format("<line x1=\"{1:.1f}\" x2=\"{2:.1f}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" class=\"axis\"/>\n", y,
+                           frame_left - 5, frame_left);
+        out += map_text(frame_left - 9, y + 4.5, "end", fmt::format("{:.3g}", map.y[j]));
+    }
+    out += map_text(px_x(0.5), px_y(0) + 44, "middle", map.x_label);
+    out +=
+        map_text(18, px_y(0.5), "middle", map.y_label, fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", px_y(0.5)));
+    return out;
+}
+
+std::string colour_scale(const CellMap& map)
+{
+    std::string out;
+    constexpr int steps = 48;
+    for (int k = 0; k < steps; ++k)
+        out += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"{}\"/>\n", scale_left,
+                           px_y((k + 1.0) / steps), scale_width, frame_height / steps + 0.5,
+                           viridis_colour((k + 0.5) / steps));
+    for (int k = 0; k <= 5; ++k)
+        out += map_text(scale_left + scale_width + 6, px_y(0.2 * k) + 4.5, "start", fmt::format("{:.1f}", 0.2 * k));
+    return out + map_text(picture_width - 8, px_y(0.5), "middle", map.value_label,
+                          fmt::format(" transform=\"rotate(-90 {} {:.1f})\"", picture_width - 8, px_y(0.5)));
+}
+
+} // namespace
+
+Html map_svg(const CellMap& map)
+{
+    return Html::ready(
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cells\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+                    "width=\"{0:.0f}\" role=\"img\" aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n"
+                    "{3}{4}{5}{6}</svg>",
+                    picture_width, picture_height, html_escaped(map.title), map_cells(map), map_lines(map),
+                    map_axes(map), colour_scale(map)));
+}
+
+} // namespace stylobate

@@ -1,0 +1,36 @@
+#pragma once
+/// A map of cells over two axes, drawn as SVG.
+
+#include "studies/report/html.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// In the unit square of the map.
+struct MapPoint {
+    double x = 0, y = 0;
+};
+/// Lines of a map that have one name, for example a contour.
+struct MapLines {
+    std::vector<std::vector<MapPoint>> lines;
+    std::string label; ///< empty: none
+    MapPoint label_at;
+};
+
+/// Cells x by y, the y within each x: value[i * y.size() + j].
+struct CellMap {
+    std::string title; ///< for readers who do not see it
+    std::string x_label, y_label, value_label;
+    std::vector<double> x, y;             ///< (nx), (ny) values of the cells
+    std::vector<double> x_edges, y_edges; ///< (nx + 1), (ny + 1) of the cells, in [0, 1]
+    std::vector<double> value;            ///< (nx x ny) in [0, 1]; NaN: nothing is known, the cell is grey
+    std::vector<MapLines> lines;
+};
+
+/// Each cell has its number in `data-cell`, for the script of the page (cells.js).
+/// @pre all sizes fit
+Html map_svg(const CellMap& map);
+
+} // namespace stylobate

@@ -1,0 +1,236 @@
+// Realizations in motion: a drawing of the blocks in the frame of the base, the displacement of the base below it, and
+// controls. The animations stand in the page as
+//
+//   {rate_hz, px_m, quantum_px, width, height, ground, blocks: [name], look: [class], list: [{index, cell, state,
+//    frequency_hz, pga_m_s2, samples, falls: [[block, time_s], ...], data}]}
+//
+// px_m: pixels per metre; data: see `decoded`.
+
+/**
+ * The numbers of an animation. The bytes (base64) are whole numbers of variable length, seven bits a byte, the lowest
+ * first, the eighth bit set where another byte follows. First half width and half height of each block; then for each
+ * block x, y and rotation, and at the end the base: the first sample, and the differences from sample to sample. A
+ * difference d is written as 2 d or, below 0, -2 d - 1; a run of n zeros as 0 and n. Lengths are in quanta of a tenth of
+ * a pixel. The rotation is in quanta of a radian over the half diagonal of the block in quanta: a corner moves by one.
+ */
+function decoded(animation, blocks) {
+  const bytes = Uint8Array.from(atob(animation.data), (letter) => letter.charCodeAt(0));
+  let at = 0;
+  const number = () => {
+    let value = 0, factor = 1;
+    for (;;) {
+      const byte = bytes[at++];
+      value += (byte & 127) * factor;
+      if (byte < 128) return value;
+      factor *= 128;
+    }
+  };
+  const signed = (code) => code % 2 ? -(code + 1) / 2 : code / 2;
+  const sizes = Array.from({length: blocks}, () => [number(), number()]);
+  const channels = Array.from({length: 3 * blocks + 1}, () => {
+    const values = new Float64Array(animation.samples);
+    values[0] = signed(number());
+    for (let i = 1; i < values.length;) {
+      const code = number();
+      const run = code === 0 ? number() : 1;
+      for (let k = 0; k < run && i < values.length; ++k, ++i) values[i] = values[i - 1] + (code === 0 ? 0 : signed(code));
+    }
+    return values;
+  });
+  return {sizes, channels};
+}
+
+const stateWords = {stood: "stood", rocked: "rocked, did not fall", slid: "slid, did not fall", collapsed: "collapsed"};
+
+class Player {
+  /** @param store the animations of the page   @param list those of them that it shows, at least one */
+  constructor(store, list) {
+    this.store = store;
+    this.list = list;
+    this.speed = 1;
+    this.running = false;
+    this.build();
+    this.choose(0);
+  }
+
+  // ---- what it is made of ----
+
+  build() {
+    const {width, height, ground} = this.store;
+    this.blocks = this.store.blocks.map(() => svg("rect", {}));
+    this.ticks = svg("path", {class: "scale"});
+    this.stage = svg("svg", {class: "stage", viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0},
+                     svg("rect", {class: "ground", x: 0, y: ground, width, height: height - ground}), this.ticks,
+                     ...this.blocks);
+    this.path = svg("path", {class: "history"});
+    this.falls = svg("g", {});
+    this.cursor = svg("line", {class: "cursor", y1: 4, y2: 66});
+    this.label = svg("text", {x: 6, y: 14, "font-size": 12});
+    this.strip = svg("svg", {class: "strip", viewBox: `0 0 ${width} 70`, "aria-hidden": "true"}, this.path, this.falls,
+                     this.cursor, this.label);
+    this.strip.addEventListener("pointerdown", (event) => this.scrubTo(event));
+    this.strip.addEventListener("pointermove", (event) => event.buttons && this.scrubTo(event));
+    this.playButton = html("button", {type: "button", click: () => this.toggle(), class: "play"}, "Play");
+    this.slider = html("input", {type: "range", min: 0, step: 1, "aria-label": "time", input: () => {
+      this.pause();
+      this.show(Number(this.slider.value) / this.store.rate_hz);
+    }});
+    this.clock = html("span", {class: "time"});
+    this.speeds = html("select", {"aria-label": "speed", change: () => { this.speed = Number(this.speeds.value); }});
+    for (const [factor, name] of [[1, "real time"], [0.5, "1/2 speed"], [0.25, "1/4 speed"], [0.1, "1/10 speed"],
+                                  [0.05, "1/20 speed"]])
+      this.speeds.append(html("option", {value: factor}, name));
+    this.before = html("button", {type: "button", click: () => this.choose(this.place - 1), class: "previous",
+                                  "aria-label": "previous realization"}, "◀ previous");
+    this.after = html("button", {type: "button", click: () => this.choose(this.place + 1), class: "next",
+                                 "aria-label": "next realization"}, "next ▶");
+    this.title = html("p", {class: "which"});
+    this.says = html("p", {class: "says"});
+    this.element = html("div", {class: "player only-with-script", keydown: (event) => this.key(event)},
+        html("div", {class: "controls"}, this.before, this.after, this.title),
+        this.stage, this.strip,
+        html("div", {class: "controls"}, this.playButton, this.slider, this.clock, this.speeds),
+        this.says,
+        html("p", {class: "note"}, "Keys: space plays and pauses, the arrows go a sample back and on (with shift ten), ",
+             "n and p choose the next and the previous realization. The drawing moves with the base; the marks on the ",
+             "ground stand still in the laboratory."));
+  }
+
+  // ---- which realization ----
+
+  choose(place) {
+    if (place < 0 || place >= this.list.length) return;
+    this.pause();
+    this.place = place;
+    const one = this.list[place];
+    this.one = one;
+    this.numbers ??= new Map();
+    if (!this.numbers.has(one)) this.numbers.set(one, decoded(one, this.store.blocks.length));
+    this.now = this.numbers.get(one);
+    one.falls.sort((a, b) => a[1] - b[1]);
+    this.fallTime = new Map(one.falls);
+    this.end = (one.samples - 1) / this.store.rate_hz;
+    const quantum = this.store.quantum_px;
+    this.now.sizes.forEach(([w, h], i) => {
+      filled(this.blocks[i], {x: -w * quantum, y: -h * quantum, width: 2 * w * quantum, height: 2 * h * quantum}, []);
+    });
+    const shaking = one.frequency_hz > 0 ? ` at ${numberText(one.frequency_hz)} Hz, ${numberText(one.pga_m_s2)} m/s²` : "";
+    this.title.textContent = `Realization ${one.index}${shaking}: ${stateWords[one.state] ?? one.state} (` +
+        `${place + 1} of ${this.list.length})`;
+    this.stage.setAttribute("aria-label", this.title.textContent);
+    this.before.hidden = this.after.hidden = this.list.length === 1;
+    this.before.disabled = place === 0;
+    this.after.disabled = place === this.list.length - 1;
+    this.slider.max = one.samples - 1;
+    this.drawStrip();
+    this.show(0);
+  }
+
+  /** Displacement of the base over the whole time, with the falls. */
+  drawStrip() {
+    const base = this.now.channels.at(-1), {width} = this.store;
+    let most = 0;
+    for (const value of base) most = Math.max(most, Math.abs(value));
+    const x = (i) => (i / Math.max(1, base.length - 1) * (width - 2) + 1).toFixed(1);
+    let line = "";
+    base.forEach((value, i) => { line += `${i ? "L" : "M"}${x(i)} ${(40 - 24 * value / Math.max(most, 1)).toFixed(1)}`; });
+    this.path.setAttribute("d", line);
+    this.label.textContent = most === 0 ? "the base is at rest"
+        : `displacement of the base, ± ${numberText(most * this.store.quantum_px / this.store.px_m, 3)} m`;
+    this.falls.replaceChildren(...this.one.falls.filter(([, time]) => time <= this.end).map(([, time]) => {
+      const at = x(time * this.store.rate_hz);
+      return svg("line", {class: "fall", x1: at, x2: at, y1: 50, y2: 68});
+    }));
+  }
+
+  // ---- a moment ----
+
+  show(time) {
+    this.time = clamp(time, 0, this.end);
+    const {channels} = this.now, {quantum_px: quantum, width, ground, look, px_m} = this.store;
+    const at = this.time * this.store.rate_hz;
+    const i = Math.min(Math.floor(at + 1e-9), this.one.samples - 1), next = Math.min(i + 1, this.one.samples - 1);
+    const share = clamp(at - i, 0, 1);
+    const value = (channel) => channels[channel][i] + share * (channels[channel][next] - channels[channel][i]);
+    this.blocks.forEach((block, b) => {
+      const [w, h] = this.now.sizes[b];
+      const turn = value(3 * b + 2) / Math.hypot(w, h) * 180 / Math.PI;
+      const fallen = this.fallTime.has(b) && this.fallTime.get(b) <= this.time + 1e-9;
+      block.setAttribute("class", `block ${look[b]}${fallen ? " fallen" : ""}`);
+      block.setAttribute("transform", `translate(${(width / 2 + value(3 * b) * quantum).toFixed(2)} ` +
+          `${(ground - value(3 * b + 1) * quantum).toFixed(2)}) rotate(${(-turn).toFixed(3)})`);
+    });
+    const spacing = 40, shift = ((-value(3 * this.blocks.length) * quantum) % spacing + spacing) % spacing;
+    let ticks = "";
+    for (let x = shift; x < width; x += spacing) ticks += `M${x.toFixed(1)} ${ground}v10`;
+    this.ticks.setAttribute("d", ticks);
+    const x = this.time / Math.max(this.end, 1e-9) * (width - 2) + 1;
+    this.cursor.setAttribute("x1", x);
+    this.cursor.setAttribute("x2", x);
+    this.slider.value = i;
+    this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s`);
+    this.clock.textContent = `${this.time.toFixed(3)} s of ${this.end.toFixed(3)} s`;
+    const fallen = this.one.falls.filter(([, t]) => t <= this.time + 1e-9);
+    const base = value(3 * this.blocks.length) * quantum / px_m;
+    this.says.textContent = `Base at ${numberText(base, 3)} m. ` + (fallen.length
+        ? `Fallen: ${fallen.map(([b, t]) => `${this.store.blocks[b]} (${t.toFixed(3)} s)`).join(", ")}.`
+        : "No block has fallen.");
+  }
+
+  // ---- time runs ----
+
+  toggle() {
+    if (this.running) this.pause();
+    else this.play();
+  }
+
+  play() {
+    if (this.time >= this.end) this.show(0);
+    this.running = true;
+    this.playButton.textContent = "Pause";
+    let last = null;
+    const frame = (now) => {
+      if (!this.running) return;
+      if (last !== null) this.show(this.time + (now - last) / 1000 * this.speed);
+      last = now;
+      this.element.dispatchEvent(new CustomEvent("frame", {detail: this.time}));
+      if (this.time >= this.end) this.pause();
+      else requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  pause() {
+    const ran = this.running;
+    this.running = false;
+    this.playButton.textContent = "Play";
+    if (ran) this.element.dispatchEvent(new CustomEvent("paused", {detail: this.time}));
+  }
+
+  scrubTo(event) {
+    const box = this.strip.getBoundingClientRect();
+    this.pause();
+    this.show((event.clientX - box.left) / box.width * this.end);
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const own = event.target.tagName; // a control has its own use of some keys
+    const step = (event.shiftKey ? 10 : 1) / this.store.rate_hz;
+    const moment = (time) => { this.pause(); this.show(time); };
+    const actions = {
+      " ": () => this.toggle(),
+      ArrowLeft: () => moment(this.time - step),
+      ArrowRight: () => moment(this.time + step),
+      Home: () => moment(0),
+      End: () => moment(this.end),
+      n: () => this.choose(this.place + 1),
+      p: () => this.choose(this.place - 1),
+    };
+    if (!(event.key in actions) || own === "SELECT" || (own === "BUTTON" && event.key === " ") ||
+        (own === "INPUT" && event.key !== " " && event.key !== "n" && event.key !== "p")) return;
+    event.preventDefault();
+    actions[event.key]();
+    if (event.key === "n" || event.key === "p") say(this.title.textContent);
+  }
+}

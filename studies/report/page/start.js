@@ -1,0 +1,12 @@
+// Brings the page to life once it is read.
+document.body.append(spoken);
+for (const script of document.querySelectorAll("script.figure-data"))
+  new LiveFigure(script.parentElement.querySelector("svg"), JSON.parse(script.textContent));
+{
+  const store = dataOf("animations"), cells = dataOf("cells");
+  const map = document.querySelector("svg.cells");
+  if (cells && map) new CellMap(map, cells, store);
+  for (const place of document.querySelectorAll("[data-player]"))
+    if (store && store.list.length) place.append(new Player(store, store.list).element);
+}
+document.documentElement.dataset.alive = "yes";

@@ -1,0 +1,48 @@
+#pragma once
+/// Which realizations a page shows in motion, and their animations.
+
+#include "ensemble/model/observer.hpp"
+#include "kernels/isa.hpp"
+#include "studies/report/animation.hpp"
+#include "studies/results/results.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+inline constexpr double usual_animation_mb = 3;        ///< of the animations of a page together
+inline constexpr double usual_animation_seconds = 120; ///< for their realizations, which are run again
+inline constexpr double animation_rate_hz = 60;        ///< at most: the trajectories of a study may have more samples
+
+struct AnimationOptions {
+    std::uint64_t each = 1; ///< so many that fell and so many that did not, of each cell that has both; 0: none at all
+    double budget_mb = usual_animation_mb;    ///< 1e6 bytes of the page, > 0
+    double seconds = usual_animation_seconds; ///< after that none is begun any more
+    bool wanted = false; ///< the user has asked: what cannot be had is an error then, and else a note
+    int threads = 1;
+};
+
+struct KeptAnimations {
+    AnimationStage stage;
+    double rate_hz = 0;
+    std::vector<Animation> list; ///< by cell and index
+    std::string words;           ///< what was kept and what was not, for the page; empty: there is nothing to say
+    std::string warning;         ///< why there are none though there might be; empty: nothing is wrong
+};
+
+/// Those that the file keeps as trajectories, and those that are run again: of a surface by cells, of other studies
+/// over all realizations. Cells have their turns in an order that spreads them over the surface, so that a budget that
+/// is too small leaves gaps that are small. The choice does not depend on the threads; where the time is up it depends
+/// on the machine, which the words say.
+/// @pre the run is complete
+/// @param observer hears of the progress, and may stop it: what is returned then is not complete
+/// @throws InputError if they are wanted and cannot be had: the study has no realizations that can be run again, the
+///         results have no rows, the record is missing, or the budget is smaller than one animation
+KeptAnimations keep_animations(const Results& results, Isa isa, const AnimationOptions& options, Observer& observer);
+
+/// For the script of the page (player.js).
+std::string animations_json(const KeptAnimations& kept, const Study& study);
+
+} // namespace stylobate

@@ -1,0 +1,216 @@
+#include "studies/results/motion_film.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/model/structure.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/temporary_folder.hpp"
+#include "io/plots/program.hpp"
+#include "studies/report/animation.hpp"
+#include "studies/report/frame.hpp"
+#include "studies/results/kept_animations.hpp"
+#include "studies/results/result_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Rgb paper{244, 246, 248}, stone{233, 226, 208}, lintel{195, 211, 224}, fixed_stone{169, 160, 140},
+    fallen{227, 160, 143}, edge{90, 102, 114}, ground{181, 191, 201}, base_curve{31, 86, 115}, cursor{213, 94, 0},
+    fall_mark{178, 58, 58};
+
+/// The frames of a realization one after the other.
+class Film {
+public:
+    Film(const FollowedMotion& motion, const std::vector<PlacedBlock>& blocks, double rate_hz)
+        : t_(motion.trajectory), falls_(motion.fall_time_s), blocks_(blocks), stage_(animation_stage(blocks)),
+          rate_hz_(rate_hz)
+    {
+        for (const double x : t_.base_x_m)
+            most_base_m_ = std::max(most_base_m_, std::abs(x));
+    }
+
+    int width() const { return even(stage_.width_px); }
+    int height() const { return even(stage_.height_px + strip_px); }
+    std::size_t frames() const { return static_cast<std::size_t>(std::floor(t_.time_s.back() * rate_hz_ + 1e-9)) + 1; }
+
+    Frame frame(std::size_t number) const
+    {
+        Frame frame(width(), height(), paper);
+        const double time = static_cast<double>(number) / rate_hz_;
+        const auto found = std::upper_bound(t_.time_s.begin(), t_.time_s.end(), time);
+        const std::size_t next = std::min(static_cast<std::size_t>(found - t_.time_s.begin()), t_.time_s.size() - 1);
+        const std::size_t k = next == 0 ? 0 : next - 1;
+        const double share =
+            next == k ? 0 : std::clamp((time - t_.time_s[k]) / (t_.time_s[next] - t_.time_s[k]), 0.0, 1.0);
+        const auto between = [&](const std::vector<double>& v, std::size_t n, std::size_t b) {
+            return v[k * n + b] + share * (v[next * n + b] - v[k * n + b]);
+        };
+        const std::size_t n = t_.blocks();
+        for (std::size_t b = 0; b < n; ++b)
+            draw_block(frame, b, between(t_.x_m, n, b), between(t_.y_m, n, b), between(t_.theta_rad, n, b), time);
+        draw_ground(frame, between(t_.base_x_m, 1, 0));
+        draw_strip(frame, time);
+        return frame;
+    }
+
+private:
+    static constexpr double strip_px = 70; ///< of the base's displacement below the drawing
+    /// Codecs of films want it.
+    static int even(double px) { return 2 * static_cast<int>(std::ceil(px / 2)); }
+
+    void draw_block(Frame& frame, std::size_t b, double x_m, double y_m, double theta, double time) const
+    {
+        if (!std::isfinite(x_m) || !std::isfinite(y_m) || !std::isfinite(theta))
+            return;
+        const bool has_fallen = falls_.at(b) >= 0 && falls_[b] <= time + 1e-9;
+        const Rgb colour = has_fallen                               ? fallen
+                           : blocks_[b].fixed                       ? fixed_stone
+                           : blocks_[b].role == BlockRole::epistyle ? lintel
+                                                                    : stone;
+        const auto corners = [&](double inset) {
+            const double w = std::max(t_.half_width_m[b] * stage_.px_m - inset, 0.5);
+            const double h = std::max(t_.half_height_m[b] * stage_.px_m - inset, 0.5);
+            std::vector<FramePoint> points;
+            for (const auto& [sx, sy] : std::array<std::array<double, 2>, 4>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}})
+                points.push_back(
+                    {stage_.width_px / 2 + (x_m - stage_.middle_m) * stage_.px_m + sx * w * std::cos(theta) -
+                         sy * h * std::sin(theta),
+                     stage_.ground_px - y_m * stage_.px_m - sx * w * std::sin(theta) - sy * h * std::cos(theta)});
+            return points;
+        };
+        frame.fill(corners(0), edge);
+        frame.fill(corners(1.2), colour);
+    }
+
+    /// Its marks stand still in the laboratory.
+    void draw_ground(Frame& frame, double base_m) const
+    {
+        const double right = frame.width();
+        frame.fill({{0, stage_.ground_px}, {right, stage_.ground_px}, {right, stage_.height_px}, {0, stage_.height_px}},
+                   ground);
+        constexpr double spacing = 40;
+        const double shift = std::fmod(std::fmod(-base_m * stage_.px_m, spacing) + spacing, spacing);
+        for (double x = shift; x < right; x += spacing)
+            frame.line({x, stage_.ground_px}, {x, stage_.ground_px + 10}, 1.2, edge);
+    }
+
+    void draw_strip(Frame& frame, double time) const
+    {
+        const double right = frame.width() - 2, end = std::max(t_.time_s.back(), 1e-9);
+        const double middle = stage_.height_px + 35, scale = most_base_m_ > 0 ? 26 / most_base_m_ : 0;
+        const auto place = [&](std::size_t k) {
+            return FramePoint{1 + t_.time_s[k] / end * right, middle - t_.base_x_m[k] * scale};
+        };
+        const std::size_t stride = std::max<std::size_t>(1, t_.time_s.size() / 1280);
+        for (std::size_t k = stride; k < t_.time_s.size(); k += stride)
+            frame.line(place(k - stride), place(k), 1.4, base_curve);
+        for (const double fall : falls_)
+            if (fall >= 0 && fall <= end)
+                frame.line({1 + fall / end * right, middle + 18}, {1 + fall / end * right, middle + 33}, 1.6,
+                           fall_mark);
+        const double at = 1 + std::min(time / end, 1.0) * right;
+        frame.line({at, middle - 32}, {at, middle + 32}, 1.6, cursor);
+    }
+
+    const Trajectory& t_;
+    const std::vector<double>& falls_;
+    const std::vector<PlacedBlock>& blocks_;
+    const AnimationStage stage_;
+    const double rate_hz_;
+    double most_base_m_ = 0;
+};
+
+std::vector<std::string> ffmpeg_words(const Film& film, double rate_hz, const std::string& format)
+{
+    std::vector<std::string> words{"-nostdin", "-loglevel",
+                                   "error",    "-y",
+                                   "-f",       "rawvideo",
+                                   "-pix_fmt", "rgb24",
+                                   "-s",       fmt::format("{}x{}", film.width(), film.height()),
+                                   "-r",       fmt::format("{}", rate_hz),
+                                   "-i",       "pipe:0"};
+    if (format == "gif") // a palette of the film's own colours
+        words.insert(words.end(), {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none"});
+    else
+        words.insert(words.end(), {"-pix_fmt", "yuv420p"}); // what every player shows
+    words.push_back("film." + format);
+    return words;
+}
+
+void write_film(const FollowedMotion& motion, const Study& study, const std::string& format, const fs::path& file)
+{
+    const fs::path ffmpeg = find_tool("ffmpeg", "STYLOBATE_FFMPEG", "no film can be written", "ffmpeg");
+    AtomicFile target(file); // refuses before any work is done
+    const TemporaryFolder folder;
+    const double rate_hz = format == "gif" ? 25 : 50; // hundredths of a second are the unit of time of a GIF
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    const Film film(motion, blocks, rate_hz);
+    std::size_t next = 0;
+    const int status = run_program(ffmpeg, ffmpeg_words(film, rate_hz, format), folder.path(), folder / "ffmpeg.log",
+                                   [&] { return next < film.frames() ? film.frame(next++).bytes() : std::string(); });
+    const std::string content = content_of(folder.path() / ("film." + format));
+    if (status != 0 || content.empty()) {
+        std::string said = content_of(folder / "ffmpeg.log").substr(0, 600);
+        std::ranges::replace(said, '\n', ' ');
+        throw InputError(fmt::format("ffmpeg could not write '{}' (exit status {}): {}\n  Check that '{}' is a working "
+                                     "ffmpeg: apt install ffmpeg. --to html needs none.",
+                                     file.string(), status, said.empty() ? "no message" : said, ffmpeg.string()));
+    }
+    target.write(content);
+    target.commit();
+}
+
+/// The page of the player alone.
+std::string motion_page(const FollowedMotion& motion, const Results& results, std::uint64_t index,
+                        const std::string& title)
+{
+    KeptAnimations kept;
+    kept.stage = animation_stage(lay_out(results.study().structure).blocks);
+    const double rate = results.study().output.trajectory_rate_hz;
+    const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(rate / animation_rate_hz - 1e-9)));
+    kept.rate_hz = rate / static_cast<double>(stride);
+    Animation animation = animation_of(motion.trajectory, kept.stage, stride);
+    animation.state = motion.state;
+    animation.frequency_hz = motion.frequency_hz;
+    animation.pga_m_s2 = motion.pga_m_s2;
+    animation.fall_time_s = motion.fall_time_s;
+    kept.list.push_back(std::move(animation));
+    HtmlPage page(title.empty() ? fmt::format("{}, realization {}", results.title(), index) : title,
+                  fmt::format("Computed by stylobate {}.", results.header().code_version));
+    page.data("animations", animations_json(kept, results.study()));
+    page.player();
+    return page.text();
+}
+
+} // namespace
+
+bool is_motion_format(std::string_view format)
+{
+    return format == "html" || format == "gif" || format == "mp4" || format == "webm";
+}
+
+void write_motion(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
+                  const std::string& format, const fs::path& file)
+{
+    AtomicFile::check(file);
+    if (format != "html") // before the realization is run
+        (void)find_tool("ffmpeg", "STYLOBATE_FFMPEG", "no film can be written", "ffmpeg");
+    const FollowedMotion motion = followed_motion(results, isa, index);
+    if (format == "html")
+        return write_whole(file, motion_page(motion, results, index, title));
+    if (motion.trajectory.time_s.back() > longest_film_s)
+        throw InputError(
+            fmt::format("realization {} of {} lasts {:.0f} s; a film has at most {:.0f} s.\n  --to html has "
+                        "no such limit.",
+                        index, results.file(), motion.trajectory.time_s.back(), longest_film_s));
+    write_film(motion, results.study(), format, file);
+}
+
+} // namespace stylobate

@@ -1,0 +1,116 @@
+/// `stylobate export --to html, gif, mp4, webm`: one realization in motion.
+
+#include "io/plots/program.hpp"
+#include "tests/program/program.hpp"
+
+#include <fmt/format.h>
+
+namespace stylobate {
+namespace {
+
+class FilmExport : public Program {
+protected:
+    void SetUp() override
+    {
+        Program::SetUp();
+        const std::string study = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
+        EXPECT_EQ(run({"run", study, "-o", "one.h5", "--quiet"}).status, 0);
+    }
+    void TearDown() override
+    {
+        ::unsetenv("STYLOBATE_FFMPEG");
+        Program::TearDown();
+    }
+
+    /// A program in ffmpeg's place, which does these commands.
+    void use(const std::string& commands) const
+    {
+        write_bytes(folder / "ffmpeg.sh", "#!/bin/sh\n" + commands);
+        fs::permissions(folder / "ffmpeg.sh", fs::perms::owner_all);
+        ::setenv("STYLOBATE_FFMPEG", (folder / "ffmpeg.sh").c_str(), 1);
+    }
+};
+
+TEST_F(FilmExport, GivesEveryFrameToFfmpeg)
+{
+    const std::string frames = (folder / "frames").string(), words = (folder / "words").string();
+    for (const auto& [format, rate] : {std::pair<std::string, double>{"gif", 25}, {"mp4", 50}, {"webm", 50}}) {
+        use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n", words,
+                        frames));
+        const Ended ended = run({"export", "one.h5", "-o", "one." + format});
+        EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        EXPECT_EQ(ended.out, "one." + format + "\n");
+        EXPECT_EQ(read_bytes(folder / ("one." + format)), "film\n");
+        const std::string said = read_bytes(words);
+        int width = 0, height = 0;
+        ASSERT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &width, &height), 2) << said;
+        EXPECT_NE(said.find(fmt::format("\n-r\n{}\n", rate)), std::string::npos) << said;
+        const double end = ResultReader(folder / "one.h5").trajectory(0).time_s.back();
+        const auto count = static_cast<std::uintmax_t>(std::floor(end * rate + 1e-9)) + 1;
+        EXPECT_EQ(fs::file_size(frames), count * 3U * static_cast<unsigned>(width * height));
+        // the block is there, and moves: the first frame is not the last
+        const std::string all = read_bytes(frames);
+        const std::size_t one = all.size() / count;
+        EXPECT_NE(all.substr(0, one), all.substr(all.size() - one));
+    }
+}
+
+TEST_F(FilmExport, AsAPageOfItsOwn)
+{
+    const Ended ended = run({"export", "one.h5", "--to", "html", "--title", "A <block>"});
+    EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    EXPECT_EQ(ended.out, "one_realization_0.html\n");
+    const std::string page = read_bytes(folder / "one_realization_0.html");
+    EXPECT_NE(page.find("<h1>A &lt;block&gt;</h1>"), std::string::npos);
+    EXPECT_EQ(count_of(page, "id=\"animations\""), 1U);
+    EXPECT_EQ(count_of(page, "<div data-player"), 1U);
+    EXPECT_EQ(count_of(page, "<img"), 0U);
+}
+
+TEST_F(FilmExport, RefusesWhatCannotBeWritten)
+{
+    expect_refused({"export", "one.h5", "--to", "gif", "-o", "one.mp4"}, {"--to gif", "one.mp4"});
+    expect_refused({"export", "one.h5", "--to", "html", "--picture", "strip"}, {"--picture strip", "--realization"});
+    expect_refused({"export", "one.h5", "--to", "html", "--realization", "9"}, {"--realization 9"});
+    expect_refused({"export", "one.h5", "-o", "no/one.html"}, {"no/one.html", "nothing was written"});
+    ::setenv("STYLOBATE_FFMPEG", "/none/such", 1);
+    expect_refused({"export", "one.h5", "--to", "mp4"}, {"STYLOBATE_FFMPEG", "/none/such"});
+    const std::string path = std::getenv("PATH");
+    ::unsetenv("STYLOBATE_FFMPEG");
+    ::setenv("PATH", "/none", 1);
+    expect_refused({"export", "one.h5", "--to", "webm"}, {"ffmpeg was not found", "apt install ffmpeg"});
+    ::setenv("PATH", path.c_str(), 1);
+}
+
+TEST_F(FilmExport, ReportsWhatFfmpegReports)
+{
+    // one that fails at once, and one that reads nothing and leaves nothing
+    for (const auto& [commands, part] :
+         {std::pair<std::string, std::string>{"echo no such codec >&2\nexit 3\n", "no such codec"},
+          {"exit 0\n", "no message"}}) {
+        use(commands);
+        const Ended ended = run({"export", "one.h5", "--to", "mp4"});
+        EXPECT_EQ(ended.status, 2) << testing::PrintToString(ended);
+        EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+        expect_one_message(ended.err, ended.err);
+        EXPECT_FALSE(fs::exists(folder / "one_realization_0.mp4"));
+    }
+}
+
+TEST_F(FilmExport, WithTheRealFfmpeg)
+{
+    if (!find_program("ffmpeg"))
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const std::map<std::string, std::string> begins = {
+        {"gif", "GIF89a"}, {"mp4", std::string("\0\0\0", 3)}, {"webm", "\x1a\x45\xdf\xa3"}};
+    for (const auto& [format, magic] : begins) {
+        const Ended ended = run({"export", "one.h5", "-o", "film." + format, "--quiet"});
+        EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        const std::string film = read_bytes(folder / ("film." + format));
+        EXPECT_TRUE(film.starts_with(magic)) << format;
+        EXPECT_GT(film.size(), 2000U) << format;
+    }
+}
+
+} // namespace
+} // namespace stylobate

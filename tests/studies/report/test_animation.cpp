@@ -1,0 +1,205 @@
+/// Animations of a page, read back by another reader than that of the page: positions are those of the trajectory to
+/// half a tenth of a pixel, whatever moved before.
+
+#include "ensemble/model/structure.hpp"
+#include "studies/report/animation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace stylobate {
+namespace {
+
+std::vector<unsigned> bytes_of(const std::string& base64)
+{
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<unsigned> bytes;
+    unsigned bits = 0, held = 0;
+    for (const char c : base64) {
+        if (c == '=')
+            break;
+        bits = bits << 6 | static_cast<unsigned>(letters.find(c));
+        held += 6;
+        if (held >= 8) {
+            held -= 8;
+            bytes.push_back(bits >> held & 255);
+        }
+    }
+    return bytes;
+}
+
+/// What the header of animation.hpp and player.js say, step by step.
+struct ReadBack {
+    std::vector<std::array<double, 2>> half_size_px;
+    std::vector<std::vector<double>> x_px, y_px, theta_rad; ///< (blocks)(samples)
+    std::vector<double> base_px;
+};
+
+ReadBack read_back(const Animation& animation, std::size_t blocks)
+{
+    const std::vector<unsigned> bytes = bytes_of(animation.data);
+    std::size_t at = 0;
+    const auto number = [&] {
+        std::uint64_t value = 0;
+        for (unsigned shift = 0;; shift += 7) {
+            const unsigned byte = bytes.at(at++);
+            value |= static_cast<std::uint64_t>(byte & 127) << shift;
+            if (byte < 128)
+                return value;
+        }
+    };
+    const auto signed_of = [](std::uint64_t code) {
+        const double half = static_cast<double>(code) / 2;
+        return code % 2 == 0 ? half : -(half + 0.5);
+    };
+    const auto series = [&] {
+        std::vector<double> values{signed_of(number())};
+        while (values.size() < animation.samples) {
+            const std::uint64_t code = number();
+            if (code != 0) {
+                values.push_back(values.back() + signed_of(code));
+                continue;
+            }
+            for (std::uint64_t run = number(); run > 0; --run)
+                values.push_back(values.back());
+        }
+        if (values.size() != animation.samples)
+            throw std::runtime_error("a run is too long");
+        return values;
+    };
+    const auto scaled = [](std::vector<double> values, double by) {
+        for (double& v : values)
+            v *= by;
+        return values;
+    };
+    ReadBack back;
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const auto width = static_cast<double>(number());
+        back.half_size_px.push_back({0.1 * width, 0.1 * static_cast<double>(number())});
+    }
+    for (std::size_t b = 0; b < blocks; ++b) {
+        back.x_px.push_back(scaled(series(), 0.1));
+        back.y_px.push_back(scaled(series(), 0.1));
+        back.theta_rad.push_back(scaled(series(), 0.1 / std::hypot(back.half_size_px[b][0], back.half_size_px[b][1])));
+    }
+    back.base_px = scaled(series(), 0.1);
+    if (at != bytes.size())
+        throw std::runtime_error("something is left");
+    return back;
+}
+
+AnimationStage small_stage()
+{
+    PlacedBlock block;
+    block.width_m = 1;
+    block.height_m = 2;
+    block.axis_m = 3;
+    block.y_m = 1;
+    return animation_stage({block});
+}
+
+/// Two blocks that walk at random, rest for a while, and fly far away.
+Trajectory walk(std::size_t samples)
+{
+    Trajectory t;
+    t.index = 7;
+    t.half_width_m = {0.5, 0.25};
+    t.half_height_m = {1, 0.5};
+    std::mt19937 random(1);
+    std::normal_distribution<double> step(0, 0.02);
+    double x[2] = {3, 3}, y[2] = {1, 2.5}, theta[2] = {0, 0}, base = 0;
+    for (std::size_t k = 0; k < samples; ++k) {
+        const bool rests = k > 40 && k < 200;
+        for (int b = 0; b < 2; ++b) {
+            x[b] += rests ? 0 : step(random);
+            y[b] += rests ? 0 : step(random);
+            theta[b] += rests || b == 0 ? 0 : 10 * step(random);
+            t.x_m.push_back(x[b]);
+            t.y_m.push_back(y[b]);
+            t.theta_rad.push_back(theta[b]);
+        }
+        base += step(random);
+        t.base_x_m.push_back(base);
+        t.time_s.push_back(0.01 * static_cast<double>(k));
+    }
+    return t;
+}
+
+TEST(Animation, HasTheTrajectoryToHalfATenthOfAPixel)
+{
+    const AnimationStage stage = small_stage();
+    EXPECT_DOUBLE_EQ(stage.middle_m, 3);
+    for (const std::size_t stride : {1U, 3U, 7U}) {
+        const Trajectory t = walk(300);
+        const Animation animation = animation_of(t, stage, stride);
+        EXPECT_EQ(animation.index, 7U);
+        EXPECT_EQ(animation.samples, (300 + stride - 1) / stride);
+        const ReadBack back = read_back(animation, 2);
+        EXPECT_NEAR(back.half_size_px[0][0], 0.5 * stage.px_m, 0.0501);
+        EXPECT_NEAR(back.half_size_px[1][1], 0.5 * stage.px_m, 0.0501);
+        for (std::size_t k = 0; k < animation.samples; ++k)
+            for (std::size_t b = 0; b < 2; ++b) {
+                const std::size_t at = 2 * k * stride + b;
+                ASSERT_NEAR(back.x_px[b][k], (t.x_m[at] - 3) * stage.px_m, 0.0501);
+                ASSERT_NEAR(back.y_px[b][k], t.y_m[at] * stage.px_m, 0.0501);
+                // a corner moves on the circle of the half diagonal
+                const double half_diagonal = std::hypot(t.half_width_m[b], t.half_height_m[b]) * stage.px_m;
+                ASSERT_NEAR(back.theta_rad[b][k] * half_diagonal, t.theta_rad[at] * half_diagonal,
+                            0.0501 + 0.001 * std::abs(t.theta_rad[at]) * half_diagonal);
+                ASSERT_NEAR(back.base_px[k], t.base_x_m[k * stride] * stage.px_m, 0.0501);
+            }
+    }
+}
+
+TEST(Animation, OfWhatRestsIsShort)
+{
+    Trajectory t = walk(1);
+    const auto repeat = [](std::vector<double>& values, std::size_t n) {
+        const std::vector<double> first = values;
+        for (std::size_t k = 1; k < n; ++k)
+            values.insert(values.end(), first.begin(), first.end());
+    };
+    for (std::vector<double>* values : {&t.x_m, &t.y_m, &t.theta_rad, &t.base_x_m, &t.time_s})
+        repeat(*values, 5000);
+    const Animation animation = animation_of(t, small_stage(), 1);
+    EXPECT_LT(animation.data.size(), 80U);
+    EXPECT_EQ(read_back(animation, 2).x_px[1].size(), 5000U);
+}
+
+TEST(Animation, KeepsWhatIsNotFiniteOrFarAwayWithinBounds)
+{
+    Trajectory t = walk(4);
+    t.x_m[2] = std::numeric_limits<double>::quiet_NaN();
+    t.y_m[2] = std::numeric_limits<double>::infinity();
+    t.x_m[4] = 1e30;
+    t.x_m[6] = -1e30;
+    const ReadBack back = read_back(animation_of(t, small_stage(), 1), 2);
+    EXPECT_EQ(back.x_px[0][1], back.x_px[0][0]);
+    EXPECT_EQ(back.y_px[0][1], back.y_px[0][0]);
+    EXPECT_NEAR(back.x_px[0][2], 1e5, 1e-6);
+    EXPECT_NEAR(back.x_px[0][3], -1e5, 1e-6);
+}
+
+TEST(Animation, StageHoldsTheStructure)
+{
+    for (const auto& [width, height] : {std::pair{0.1, 5.0}, {30.0, 2.0}, {1.0, 1.0}}) {
+        PlacedBlock block;
+        block.width_m = width;
+        block.height_m = height;
+        block.y_m = height / 2;
+        const AnimationStage stage = animation_stage({block});
+        EXPECT_LT(width * stage.px_m, 0.6 * stage.width_px);
+        EXPECT_LT(height * stage.px_m, stage.ground_px);
+        EXPECT_GT(std::max(width * stage.px_m / stage.width_px, height * stage.px_m / stage.ground_px), 0.5);
+        EXPECT_LT(stage.ground_px, stage.height_px);
+        EXPECT_LT((width / 2 + height) * stage.px_m, stage.width_px / 2); // toppled to a side it is still seen
+    }
+}
+
+} // namespace
+} // namespace stylobate
