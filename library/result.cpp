@@ -2,6 +2,7 @@
 
 #include "io/study/study_file.hpp"
 #include "library/outcomes.hpp"
+#include "studies/app/run_report.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,11 @@ inner::LimitState limit_of(const std::string& word)
 const char* to_string(State state)
 {
     return inner::to_string(static_cast<inner::State>(state));
+}
+
+const char* to_string(InvalidReason reason)
+{
+    return inner::to_string(static_cast<inner::InvalidReason>(reason));
 }
 
 Result::Result(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
@@ -80,6 +86,12 @@ std::uint64_t Result::realizations() const
 std::uint64_t Result::invalid() const
 {
     return data_->invalid;
+}
+
+std::string Result::too_many_invalid() const
+{
+    return data_->complete ? inner::too_many_invalid(data_->study, data_->invalid, data_->done, data_->name)
+                           : std::string();
 }
 
 std::vector<std::string> Result::warnings() const

@@ -42,6 +42,11 @@ struct Trajectory {
 ///         each other
 Trajectory follow(const Experiment& experiment, std::uint64_t index);
 
+/// Runs one realization of a result again, as `stylobate replay` does.
+/// @param settings may only give the present path of its record: "excitation.file=PATH"
+/// @throws InputError as above, and if the record is not the one of the result, or the settings give anything else
+Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings = {});
+
 /// Draws the structure at a time, to scale, in the frame of the base: a vector picture for any browser. A file that is
 /// there is replaced.
 /// @throws InputError if the arrays do not fit each other, or if the file cannot be written
