@@ -1,5 +1,6 @@
 #include "library/results.hpp"
 
+#include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
 #include "library/outcomes.hpp"
 #include "studies/app/run_report.hpp"
@@ -133,6 +134,17 @@ const std::vector<Outcome>& Result::outcomes() const
 std::vector<std::string> Result::input_names() const
 {
     return data_->header.input_names;
+}
+
+std::vector<std::string> Result::input_units() const
+{
+    std::vector<std::string> units;
+    const inner::ResultLayout layout(data_->header);
+    for (const std::string& name : data_->header.input_names) {
+        const std::string path = "input/" + name.substr(0, name.find('['));
+        units.push_back(std::ranges::find(layout.columns(), path, &inner::Column::path)->unit);
+    }
+    return units;
 }
 
 std::vector<std::string> Result::block_names() const

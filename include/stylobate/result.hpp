@@ -101,6 +101,7 @@ public:
     /// By index. Empty for a study that keeps no rows (`output.realizations = "none"`).
     const std::vector<Outcome>& outcomes() const;
     std::vector<std::string> input_names() const; ///< "friction[0]"
+    std::vector<std::string> input_units() const; ///< "N/m2"; empty: none
     std::vector<std::string> block_names() const; ///< in layout order
 
     /// The surface of a limit state, of a result that is complete or not.

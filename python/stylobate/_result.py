@@ -140,10 +140,11 @@ class Result:
 
     def realizations(self):
         """A pandas.DataFrame with a row for each realization, by index: cell, frequency_hz, pga_m_s2, the outcome, the
-        drawn inputs (`input/friction[0]`) and when each block fell (`fall_time_s[0]`).
+        drawn inputs (`input_friction[0]`) and when each block fell (`fall_time_s[0]`).
 
-        The columns are those of `export --to csv` of the program; a time is NaN where a thing did not happen; of blocks
-        -1 is none and -2 several at once. `attrs["units"]`: the unit of each column.
+        The columns are those of `export --to csv` of the program (which adds the unit to the names of inputs); a time
+        is NaN where a thing did not happen; of blocks -1 is none and -2 several at once. `attrs["units"]`: the unit of
+        each column.
         """
         import numpy as np
         import pandas
@@ -163,8 +164,8 @@ class Result:
             columns[f"fall_time_s[{i}]"] = np.where(falls[:, i] == -1, np.nan, falls[:, i])
             units[f"fall_time_s[{i}]"] = "s"
         inputs = core.inputs()
-        for i, name in enumerate(core.input_names):
-            columns[f"input/{name}"] = inputs[:, i]
+        for i, (name, unit) in enumerate(zip(core.input_names, core.input_units)):
+            columns[f"input_{name}"], units[f"input_{name}"] = inputs[:, i], unit or "1"
         frame = pandas.DataFrame(columns).set_index("index")
         frame.attrs["units"] = units
         return frame

@@ -245,9 +245,9 @@ private:
         exporting->add_option("RESULTS", file_, "results file (HDF5)")->required();
         exporting
             ->add_option("--to", export_.format,
-                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json (default: by "
-                         "the file extension of -o)")
-            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json"}));
+                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; vtk: a "
+                         "realization for ParaView (default: by the file extension of -o)")
+            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json", "vtk"}));
         exporting
             ->add_option("--picture", export_.picture,
                          fmt::format("{} (default: by the kind of the study)", fmt::join(pictures, ", ")))
@@ -256,7 +256,7 @@ private:
             "--limit", export_.limit,
             "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
             "state of the study (default: peaks and collapse)");
-        exporting->add_option("--realization", export_.realization, "strip: index of the realization (default: 0)")
+        exporting->add_option("--realization", export_.realization, "strip, vtk: index of the realization (default: 0)")
             ->check(CLI::Range(0LL, 999999999999LL));
         exporting->add_option("--cell", export_.cell, "order: one cell of a surface (default: all cells)")
             ->check(CLI::Range(0LL, 999999999999LL));
@@ -267,9 +267,9 @@ private:
             ->delimiter(',');
         exporting->add_option("--title", export_.title,
                               "title of the picture (default: study.title, or the file's name)");
-        exporting->add_option(
-            "-o,--output", export_.output,
-            "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of the tables");
+        exporting->add_option("-o,--output", export_.output,
+                              "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of "
+                              "the tables or of vtk");
         add_force(*exporting, options_);
         add_set(*exporting, options_);
         add_common(*exporting, options_);

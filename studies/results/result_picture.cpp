@@ -17,26 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Followed {
-    Trajectory trajectory;
-    std::vector<double> fall_time_s; ///< (blocks)
-};
-
-/// The trajectory that the file holds, or else the realization run again.
-Followed trajectory_of(const Results& results, Isa isa, std::uint64_t index)
-{
-    const ResultReader& reader = results.reader();
-    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
-    if (std::find(stored.begin(), stored.end(), index) != stored.end())
-        return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
-    const Experiment& experiment = results.experiment();
-    if (index < results.header().first || index >= results.end())
-        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
-                                     results.header().first, results.end() - 1));
-    FollowedRealization f = follow(experiment, index, isa);
-    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
-}
-
 std::string strip_title(const Results& results, std::uint64_t index)
 {
     std::string title = fmt::format("{}, realization {}", results.title(), index);
@@ -50,6 +30,20 @@ std::string strip_title(const Results& results, std::uint64_t index)
 }
 
 } // namespace
+
+Followed trajectory_of(const Results& results, Isa isa, std::uint64_t index)
+{
+    const ResultReader& reader = results.reader();
+    const std::vector<std::uint64_t> stored = reader.trajectory_indices();
+    if (std::find(stored.begin(), stored.end(), index) != stored.end())
+        return {reader.trajectory(index), reader.row(index).outcome.fall_time_s};
+    const Experiment& experiment = results.experiment();
+    if (index < results.header().first || index >= results.end())
+        throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
+                                     results.header().first, results.end() - 1));
+    FollowedRealization f = follow(experiment, index, isa);
+    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s)};
+}
 
 void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title, const fs::path& file)
 {

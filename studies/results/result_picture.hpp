@@ -7,8 +7,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace stylobate {
+
+struct Followed {
+    Trajectory trajectory;
+    std::vector<double> fall_time_s; ///< (blocks)
+};
+
+/// The trajectory that the file holds, or else the realization run again.
+/// @throws InputError if there is no such realization
+Followed trajectory_of(const Results& results, Isa isa, std::uint64_t index);
 
 /// One realization over time: from the file's trajectory, or else run again.
 /// @param title empty: by the results, the realization and what became of it
