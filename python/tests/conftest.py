@@ -25,6 +25,8 @@ SMALL_FRAGILITY = {
 def toml_text(value):
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key} = {toml_text(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, bool):
+        return str(value).lower()
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 

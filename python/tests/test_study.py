@@ -9,7 +9,7 @@ import pytest
 import stylobate
 from conftest import INPUTS, program
 
-FILES = sorted(INPUTS.glob("*.toml"))
+FILES = sorted(file for file in INPUTS.glob("*.toml") if file.stem != "record")  # it needs a record
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)

