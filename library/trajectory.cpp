@@ -21,14 +21,14 @@ namespace {
         "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
 }
 
-Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index)
+Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const std::function<bool()>& go_on = {})
 {
     const inner::Study& study = loaded.study();
     if (study.rare)
         refuse_rare();
     if (index >= study.total())
         throw InputError(fmt::format("realization {}: the study has realizations 0 to {}", index, study.total() - 1));
-    inner::FollowedRealization f = inner::follow(loaded.experiment(), index, inner::best_isa());
+    inner::FollowedRealization f = inner::follow(loaded.experiment(), index, inner::best_isa(), go_on);
     Trajectory t;
     t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
     t.time_s = std::move(f.trajectory.time_s);
@@ -78,13 +78,18 @@ Trajectory follow(const Experiment& experiment, std::uint64_t index)
     return translated([&] { return followed(Inside::of(experiment).loaded, index); });
 }
 
-Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings)
+Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings,
+                  const std::function<bool()>& go_on)
 {
     return translated([&] {
         const auto& of = Inside::of(result);
         if (of.study.rare) // before its motions are read
             refuse_rare();
-        return followed(inner::LoadedStudy::from_results(of.study, of.header, of.name, settings), index);
+        try {
+            return followed(inner::LoadedStudy::from_results(of.study, of.header, of.name, settings), index, go_on);
+        } catch (const inner::FollowStopped&) {
+            throw Stopped(fmt::format("realization {} was stopped", index));
+        }
     });
 }
 

@@ -58,8 +58,8 @@ struct Outcome {
     double energy_friction_j = 0;  ///< dissipated
     double energy_damping_j = 0;   ///< dissipated
     double energy_base_work_j = 0; ///< done by the base
-    double energy_residual = 0;   ///< what the balance lacks, over the energy that went through it
-    double end_time_s = 0;        ///< simulated time
+    double energy_residual = 0;    ///< what the balance lacks, over the energy that went through it
+    double end_time_s = 0;         ///< simulated time
     double step_s = 0;
     std::uint64_t steps = 0;
     std::vector<double> fall_time_s; ///< (blocks) when each fell

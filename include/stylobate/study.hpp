@@ -29,8 +29,8 @@ public:
 
     /// The canonical text: every key with its default, in one order. Two studies are the same if their texts are.
     std::string text() const;
-    /// Structure, contacts, excitation and what is drawn: a name and a few words each, as the pages of `stylobate report`
-    /// have it.
+    /// Structure, contacts, excitation and what is drawn: a name and a few words each, as the pages of `stylobate
+    /// report` have it.
     std::vector<std::pair<std::string, std::string>> summary() const;
     /// "single", "surface", "fragility", "sensitivity" or "rare"
     std::string kind() const;

@@ -36,8 +36,8 @@ sb::Result run(const sb::Experiment& experiment, const std::optional<std::filesy
 
 sb::Trajectory follow(const sb::Result& result, std::uint64_t index, const std::vector<std::string>& settings)
 {
-    return interruptible<sb::Progress, sb::Trajectory>([&](const Tell&) { return sb::follow(result, index, settings); },
-                                                       {});
+    return interruptible<sb::Progress, sb::Trajectory>(
+        [&](const Tell& tell) { return sb::follow(result, index, settings, [&] { return tell(std::nullopt); }); }, {});
 }
 
 } // namespace

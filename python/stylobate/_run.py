@@ -21,7 +21,7 @@ def run(study, output=None, *, threads=0, simd="auto", progress=None, record=Non
     record    a Record that shakes the base instead of the study's [excitation]
 
     Other Python threads go on meanwhile. Ctrl-C raises KeyboardInterrupt within a second and keeps, in `output`, every
-    realization that has ended. (A study of kind "single" stops between two realizations.)
+    realization that has ended.
 
     InputError: as the program, exit status 2; nothing is written. TooManyInvalid: exit status 3; its `result` is
     complete. What the program prints as a warning is given to `warnings.warn`.

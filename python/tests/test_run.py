@@ -253,3 +253,29 @@ def test_pictures(folder, small_surface):
     single = stylobate.run(INPUTS / "free_rocking.toml")
     with pytest.raises(stylobate.InputError, match="has no surface"):
         single.plot()
+
+
+def long_single():
+    """One realization of 25 million steps."""
+    tables = tomllib.loads(COLUMN.read_text())
+    del tables["surface"], tables["perturbation"]
+    tables["study"] = {"kind": "single", "realizations": 1}
+    tables["excitation"] |= {"frequency_hz": 1.0, "pga_m_s2": 1.0, "cycles": 1000}
+    return stylobate.Study(tables)
+
+
+def test_ctrl_c_within_a_realization(folder):
+    calls = []
+
+    def interrupt(news):
+        calls.append(news)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        stylobate.run(long_single(), "a.h5", progress=interrupt)
+    part = stylobate.Result("a.h5")
+    assert len(calls) == 1 and part.count == 0 and not part.complete
+    with pytest.raises(KeyboardInterrupt):
+        signal.signal(signal.SIGALRM, lambda number, frame: os.kill(os.getpid(), signal.SIGINT))
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        part.replay(0)

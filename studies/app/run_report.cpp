@@ -62,14 +62,14 @@ void print_text(const RunReport& r)
 
 } // namespace
 
-std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total,
-                             const std::string& results)
+std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
 {
     if (static_cast<double>(invalid) / static_cast<double>(total) <= study.run.max_invalid_fraction)
         return {};
-    return fmt::format("{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
-                       "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
-                       invalid, total, study.run.max_invalid_fraction, results);
+    return fmt::format(
+        "{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
+        "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
+        invalid, total, study.run.max_invalid_fraction, results);
 }
 
 int report_run(const CommonOptions& options, const RunReport& r)

@@ -48,7 +48,8 @@ private:
 
 } // namespace
 
-FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa)
+FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa,
+                           const std::function<bool()>& go_on)
 {
     FollowedRealization followed;
     followed.realization = experiment.sampler().realization(index);
@@ -70,7 +71,10 @@ FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Is
     LaneSet lanes(stepped, experiment.record(), kernels(isa), r);
     lanes.load(lane, r);
     Recorder recorder(t, lanes.motion(lane), experiment.study().output.trajectory_rate_hz, r.step_s);
+    constexpr std::uint64_t steps_between_questions = 1024;
     for (std::uint64_t n = 0; !lanes.outcome(lane); ++n) {
+        if (go_on && n % steps_between_questions == 0 && !go_on())
+            throw FollowStopped();
         const int k = static_cast<int>(n % chunk_steps);
         const bool due = recorder.due(n);
         const Snapshot before = due ? lanes.snapshot(lane) : Snapshot{};

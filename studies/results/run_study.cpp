@@ -90,10 +90,28 @@ public:
         std::uint64_t run_now = 0;
         progress.total = experiment.study().total();
         progress.occupancy = 1.0 / kernels(options.isa).lanes;
+        const auto elapsed_s = [&] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        };
+        // within a realization too, which may take long
+        double next_report_s = 0.1;
+        const auto go_on = [&] {
+            if (elapsed_s() >= next_report_s) {
+                progress.seconds = elapsed_s();
+                next_report_s = progress.seconds + 0.1;
+                observer.progress(progress);
+            }
+            return !observer.stop_requested();
+        };
         for (std::uint64_t index = 0; index < progress.total && !observer.stop_requested(); ++index) {
             std::optional<State> state = store_.state(index);
             if (!state) {
-                const FollowedRealization f = stylobate::follow(experiment, index, options.isa);
+                FollowedRealization f;
+                try {
+                    f = stylobate::follow(experiment, index, options.isa, go_on);
+                } catch (const FollowStopped&) {
+                    return false;
+                }
                 if (index < kept_trajectories)
                     store_.add(f.trajectory); // before its row: where the row is, it is
                 take(result_row(experiment.study(), f.realization, f.outcome));
@@ -102,7 +120,7 @@ public:
                 progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
             }
             ++progress.done;
-            progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            progress.seconds = elapsed_s();
             progress.rate = static_cast<double>(run_now) / progress.seconds;
             progress.collapsed += state == State::collapsed;
             progress.invalid += state == State::invalid;
