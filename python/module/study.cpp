@@ -37,6 +37,7 @@ void add_errors(py::module_& module)
     py::register_exception<sb::InputError>(module, "InputError",
                                            py::make_tuple(error, py::reinterpret_borrow<py::object>(PyExc_ValueError)));
     // a full disk, a folder that cannot be written
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 wants
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown)
