@@ -4,9 +4,11 @@
     check_labels.py STYLOBATE INPUTS      exit 77 where python3-xarray or python3-h5netcdf is not installed
 """
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 try:
     import h5netcdf  # noqa: F401  the engine of xarray
@@ -107,6 +109,23 @@ with tempfile.TemporaryDirectory() as folder:
     with xarray.open_dataset(f"{folder}/fragility.h5", group="fragility", engine="h5netcdf") as fragility:
         expect(fragility.curve.dims == ("states", "grid"), "the curves are not over the intensity")
         expect(fragility.grid.attrs["units"] == "m/s", "the intensity is not in the unit of its measure")
+
+def check_unfinished(folder):
+    """A run that was interrupted has its axes."""
+    file = pathlib.Path(folder, "unfinished.h5")
+    words = [word for setting in axes[:2] + ["study.realizations=100000"] for word in ("--set", setting)]
+    running = subprocess.Popen([program, "run", inputs / "small_scale_column.toml", "-o", file, "--quiet", *words])
+    while not file.exists() and running.poll() is None:
+        time.sleep(0.01)
+    running.send_signal(signal.SIGINT)
+    expect(running.wait() == 130, "the run was not interrupted")
+    with xarray.open_dataset(file, group="surface", engine="h5netcdf") as surface:
+        expect(list(surface.coords) == ["frequency_hz", "pga_m_s2"], f"the unfinished file has {surface}")
+        expect(surface.pga_m_s2.attrs["units"] == "m/s2", "the unfinished file has no units")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    check_unfinished(folder)
 
 for failure in failures:
     print(failure)
