@@ -71,8 +71,15 @@ class Study:
     def __copy__(self):
         return Study(self._core.__copy__())
 
+    def __reduce__(self):  # deep copies, and other processes
+        return _from_text, (self.text,)
+
     def __repr__(self):
         return f"<Study: {self.kind}, {self.realizations} realizations>"
+
+
+def _from_text(text):
+    return Study(_core.Study.from_text(text))
 
 
 def _settings(settings):

@@ -1,6 +1,8 @@
 """Studies: the same text and the same messages as the program's."""
 
+import copy
 import pathlib
+import pickle
 import tomllib
 
 import numpy
@@ -73,6 +75,10 @@ def test_describe_and_properties(small_surface):
     text = small_surface.describe()
     assert "7 drums" in text and "K_N" in text and "Realizations" in text
     assert repr(small_surface) == "<Study: surface, 18 realizations>"
+    for copied in (copy.copy(small_surface), copy.deepcopy(small_surface), pickle.loads(pickle.dumps(small_surface))):
+        assert copied == small_surface
+        copied.set("study.seed", 2)
+        assert copied != small_surface
 
 
 def test_record_is_read_only_and_keeps_its_owner(folder):

@@ -87,6 +87,15 @@ TEST_P(LibraryKinds, InMemoryItHasTheNumbersOfTheFile)
         EXPECT_EQ(got.collapse_time_s, want.collapse_time_s);
         EXPECT_EQ(got.peak_top_displacement_m, want.peak_top_displacement_m);
         EXPECT_EQ(got.total_sliding_m, want.total_sliding_m);
+        EXPECT_STREQ(to_string(got.invalid_reason), to_string(want.invalid_reason));
+        EXPECT_EQ(got.top_path_m, want.top_path_m);
+        EXPECT_EQ(got.sliding_path_m, want.sliding_path_m);
+        EXPECT_EQ(got.rocking_path_rad, want.rocking_path_rad);
+        EXPECT_EQ(got.energy_kinetic_j, want.energy_kinetic_j);
+        EXPECT_EQ(got.energy_potential_j, want.energy_potential_j);
+        EXPECT_EQ(got.energy_spring_j, want.energy_spring_j);
+        EXPECT_EQ(got.energy_base_work_j, want.energy_base_work_j);
+        EXPECT_EQ(got.steps, want.steps);
         EXPECT_EQ(got.fall_time_s, want.fall_time_s);
         EXPECT_EQ(got.inputs, rows[i].inputs);
     }
