@@ -250,6 +250,16 @@ TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
     EXPECT_EQ(got.sample_at(1e9), got.time_s.size() - 1);
     EXPECT_THROW(api::follow(experiment, 16), api::InputError);
 
+    const api::Result result = api::Result::from_file(folder / "program.h5");
+    int asked = 0;
+    EXPECT_EQ(api::follow(result, 9, {}, [&] { return ++asked > 0; }).x_m, want.x_m);
+    EXPECT_GT(asked, 10);
+    EXPECT_THROW(api::follow(result, 9, {}, [] { return false; }), api::Stopped);
+    EXPECT_THROW(api::follow(result, 16), api::InputError);
+    EXPECT_THROW(api::follow(result, 9, {"contact.friction=0.5"}), api::InputError);
+    EXPECT_EQ(result.too_many_invalid(), "");
+    EXPECT_EQ(result.input_units().size(), result.input_names().size());
+
     api::write_svg(got, 0, folder / "t.svg");
     const std::string svg = read_bytes(folder / "t.svg");
     EXPECT_EQ(count_of(svg, "<polygon"), 7U);
