@@ -1,7 +1,9 @@
 #include "library/results.hpp"
 
+#include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
 #include "library/outcomes.hpp"
+#include "studies/app/run_report.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +28,11 @@ inner::LimitState limit_of(const std::string& word)
 const char* to_string(State state)
 {
     return inner::to_string(static_cast<inner::State>(state));
+}
+
+const char* to_string(InvalidReason reason)
+{
+    return inner::to_string(static_cast<inner::InvalidReason>(reason));
 }
 
 Result::Result(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
@@ -82,6 +89,12 @@ std::uint64_t Result::invalid() const
     return data_->invalid;
 }
 
+std::string Result::too_many_invalid() const
+{
+    return data_->complete ? inner::too_many_invalid(data_->study, data_->invalid, data_->done, data_->name)
+                           : std::string();
+}
+
 std::vector<std::string> Result::warnings() const
 {
     return data_->header.warnings;
@@ -121,6 +134,17 @@ const std::vector<Outcome>& Result::outcomes() const
 std::vector<std::string> Result::input_names() const
 {
     return data_->header.input_names;
+}
+
+std::vector<std::string> Result::input_units() const
+{
+    std::vector<std::string> units;
+    const inner::ResultLayout layout(data_->header);
+    for (const std::string& name : data_->header.input_names) {
+        const std::string path = "input/" + name.substr(0, name.find('['));
+        units.push_back(std::ranges::find(layout.columns(), path, &inner::Column::path)->unit);
+    }
+    return units;
 }
 
 std::vector<std::string> Result::block_names() const

@@ -1,6 +1,7 @@
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
+#include "studies/results/study_facts.hpp"
 
 namespace stylobate::api {
 
@@ -29,6 +30,11 @@ void Study::set(const std::string& setting)
 std::string Study::text() const
 {
     return data_->study.text;
+}
+
+std::vector<std::pair<std::string, std::string>> Study::summary() const
+{
+    return inner::study_facts(data_->study);
 }
 
 std::string Study::kind() const

@@ -3,6 +3,7 @@
 #include "io/plots/plot_strip.hpp"
 #include "library/inside.hpp"
 #include "library/outcomes.hpp"
+#include "library/results.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,40 @@
 namespace stylobate::api {
 
 namespace {
+
+[[noreturn]] void refuse_rare()
+{
+    throw InputError(
+        "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
+}
+
+Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const std::function<bool()>& go_on = {})
+{
+    const inner::Study& study = loaded.study();
+    if (study.rare)
+        refuse_rare();
+    if (index >= study.total())
+        throw InputError(fmt::format("realization {}: the study has realizations 0 to {}", index, study.total() - 1));
+    inner::FollowedRealization f = inner::follow(loaded.experiment(), index, inner::best_isa(), go_on);
+    Trajectory t;
+    t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
+    t.time_s = std::move(f.trajectory.time_s);
+    t.x_m = std::move(f.trajectory.x_m);
+    t.y_m = std::move(f.trajectory.y_m);
+    t.theta_rad = std::move(f.trajectory.theta_rad);
+    t.base_x_m = std::move(f.trajectory.base_x_m);
+    t.half_width_m = std::move(f.trajectory.half_width_m);
+    t.half_height_m = std::move(f.trajectory.half_height_m);
+    t.rest_x_m = std::move(f.trajectory.rest_x_m);
+    t.rest_y_m = std::move(f.trajectory.rest_y_m);
+    for (std::size_t i = 0; i < t.blocks(); ++i) {
+        t.fixed.push_back(f.realization.blocks[i].fixed);
+        t.epistyle.push_back(f.trajectory.role[i] == inner::BlockRole::epistyle);
+        t.column.push_back(f.trajectory.column[i]);
+    }
+    t.name = std::move(f.trajectory.name);
+    return t;
+}
 
 /// @throws InputError if the arrays of a trajectory do not fit each other
 void check(const Trajectory& t)
@@ -40,34 +75,21 @@ std::size_t Trajectory::sample_at(double at_s) const
 
 Trajectory follow(const Experiment& experiment, std::uint64_t index)
 {
+    return translated([&] { return followed(Inside::of(experiment).loaded, index); });
+}
+
+Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings,
+                  const std::function<bool()>& go_on)
+{
     return translated([&] {
-        const inner::LoadedStudy& loaded = Inside::of(experiment).loaded;
-        const inner::Study& study = loaded.study();
-        if (study.rare)
-            throw InputError(
-                "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
-        if (index >= study.total())
-            throw InputError(
-                fmt::format("realization {}: the study has realizations 0 to {}", index, study.total() - 1));
-        inner::FollowedRealization f = inner::follow(loaded.experiment(), index, inner::best_isa());
-        Trajectory t;
-        t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
-        t.time_s = std::move(f.trajectory.time_s);
-        t.x_m = std::move(f.trajectory.x_m);
-        t.y_m = std::move(f.trajectory.y_m);
-        t.theta_rad = std::move(f.trajectory.theta_rad);
-        t.base_x_m = std::move(f.trajectory.base_x_m);
-        t.half_width_m = std::move(f.trajectory.half_width_m);
-        t.half_height_m = std::move(f.trajectory.half_height_m);
-        t.rest_x_m = std::move(f.trajectory.rest_x_m);
-        t.rest_y_m = std::move(f.trajectory.rest_y_m);
-        for (std::size_t i = 0; i < t.blocks(); ++i) {
-            t.fixed.push_back(f.realization.blocks[i].fixed);
-            t.epistyle.push_back(f.trajectory.role[i] == inner::BlockRole::epistyle);
-            t.column.push_back(f.trajectory.column[i]);
+        const auto& of = Inside::of(result);
+        if (of.study.rare) // before its motions are read
+            refuse_rare();
+        try {
+            return followed(inner::LoadedStudy::from_results(of.study, of.header, of.name, settings), index, go_on);
+        } catch (const inner::FollowStopped&) {
+            throw Stopped(fmt::format("realization {} was stopped", index));
         }
-        t.name = std::move(f.trajectory.name);
-        return t;
     });
 }
 

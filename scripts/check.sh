@@ -17,7 +17,7 @@
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
-scripts/install_packages.sh
+scripts/install_packages.sh --tests
 scripts/install_packages.sh clang clang-format clang-tidy libclang-rt-14-dev
 jobs=$(nproc)
 work=build/check
@@ -48,6 +48,7 @@ gate_clang() {
 
 gate_headers() {
     local flags=(-std=c++20 -fsyntax-only -x c++ -I. -Iinclude -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial
+        -isystem /usr/include/python3.11
         -DFMT_SHARED '-DSTYLOBATE_SOURCE_DIR=""' '-DSTYLOBATE_DATA_DIR=""' '-DSTYLOBATE_PROGRAM=""' -mavx2 -mfma
         -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align -Wconversion -Werror
         -Wno-pragma-once-outside-header -Wno-unused-const-variable -Wno-unused-function)

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that Stylobate is built from, run and tested with: the one list of them.
-# (Chromium and h5py, for the tests of pages in a browser, are installed by scripts/test.sh: nothing else needs them.)
 # Does nothing if all are installed; needs the rights of apt only.
 #
-#   scripts/install_packages.sh [PACKAGE...]     instead of that list
+#   scripts/install_packages.sh [--tests | PACKAGE...]
+#
+#   --tests    also what only the tests and the Python module need; PACKAGE...: these instead of the list
 set -euo pipefail
 
 packages=(
@@ -16,7 +17,17 @@ packages=(
     gnuplot-nox fonts-dejavu-core                       # pictures
     libgtest-dev libbenchmark-dev python3-jsonschema    # tests, benchmarks
 )
-[[ $# -eq 0 ]] || packages=("$@")
+for_tests=(
+    pybind11-dev python3-dev python3-numpy              # the Python module
+    python3-pytest python3-pandas python3-xarray        # its tests, and those of labels in results files
+    python3-h5netcdf python3-matplotlib python3-pil
+    chromium python3-h5py                               # pages of reports in a browser
+)
+if [[ ${1:-} == --tests ]]; then
+    packages+=("${for_tests[@]}")
+elif [[ $# -gt 0 ]]; then
+    packages=("$@")
+fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -27,9 +27,7 @@ while [[ $# -gt 0 ]]; do
 done
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
-scripts/install_packages.sh
-scripts/install_packages.sh chromium python3-h5py || # the pages of reports in a real browser
-    echo "test.sh: without Chromium and h5py the tests labelled browser are skipped" >&2
+scripts/install_packages.sh --tests
 cmake --preset "$preset" >/dev/null
 cmake --build "build/$preset" --parallel "$(nproc)"
 export TSAN_OPTIONS="suppressions=$PWD/tests/tsan_suppressions.txt ${TSAN_OPTIONS:-}"

@@ -15,4 +15,10 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// What the caller stopped before there was a result: `follow` with a function that returned false.
+class Stopped : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 } // namespace stylobate::api

@@ -23,6 +23,11 @@ enum class State : std::uint8_t {
 /// "stood", "rocked", "slid", "collapsed", "invalid"
 const char* to_string(State state);
 
+/// Why a realization was set aside.
+enum class InvalidReason : std::uint8_t { none = 0, not_finite = 1, energy = 2 };
+/// "none", "not_finite", "energy"
+const char* to_string(InvalidReason reason);
+
 /// One realization. Times are from the start of the simulation; -1 where a thing did not happen.
 struct Outcome {
     std::uint64_t index = 0;
@@ -30,6 +35,7 @@ struct Outcome {
     double frequency_hz = 0; ///< of the shaking
     double pga_m_s2 = 0;     ///< of the shaking
     State state = State::stood;
+    InvalidReason invalid_reason = InvalidReason::none;
     double collapse_time_s = -1;
     std::int32_t first_fallen_block = -1; ///< in layout order; -2: several at the same step
     std::int32_t fallen_blocks = 0;
@@ -38,16 +44,24 @@ struct Outcome {
     double total_collapse_time_s = -1; ///< when all had fallen, where the study follows its realizations to rest
     double peak_top_displacement_m = 0;
     double residual_top_displacement_m = 0;
+    double top_path_m = 0;           ///< path of the top block's centre relative to the base
     double total_sliding_m = 0;      ///< sum over the beds
+    double sliding_path_m = 0;       ///< sum over the beds of the relative path of the faces in contact
     double residual_sliding_m = 0;   ///< sum over the beds
     double residual_dislocation = 0; ///< of the bed that is worst, over its width
     double total_rocking_rad = 0;    ///< sum over the beds of the largest relative rotation
+    double rocking_path_rad = 0;     ///< sum over the beds of the path of the relative rotation
     double max_relative_rotation_rad = 0;
-    double energy_friction_j = 0; ///< dissipated
-    double energy_damping_j = 0;  ///< dissipated
-    double energy_residual = 0;   ///< what the balance lacks, over the energy that went through it
-    double end_time_s = 0;        ///< simulated time
+    double energy_kinetic_j = 0;   ///< at the end
+    double energy_potential_j = 0; ///< gravity, relative to the start
+    double energy_spring_j = 0;    ///< contact springs, relative to the start
+    double energy_friction_j = 0;  ///< dissipated
+    double energy_damping_j = 0;   ///< dissipated
+    double energy_base_work_j = 0; ///< done by the base
+    double energy_residual = 0;    ///< what the balance lacks, over the energy that went through it
+    double end_time_s = 0;         ///< simulated time
     double step_s = 0;
+    std::uint64_t steps = 0;
     std::vector<double> fall_time_s; ///< (blocks) when each fell
     std::vector<double> inputs;      ///< (`Result::input_names`) what was drawn
 };
@@ -74,6 +88,9 @@ public:
     bool complete() const;              ///< whether every realization of the study has been run
     std::uint64_t realizations() const; ///< that have been run
     std::uint64_t invalid() const;      ///< those that were set aside
+    /// What the command line prints, with exit status 3, where a complete run has more invalid realizations than
+    /// `run.max_invalid_fraction` allows; else empty.
+    std::string too_many_invalid() const;
     std::vector<std::string> warnings() const;
 
     /// How often a limit state was reached, over all cells or motions.
@@ -84,6 +101,7 @@ public:
     /// By index. Empty for a study that keeps no rows (`output.realizations = "none"`).
     const std::vector<Outcome>& outcomes() const;
     std::vector<std::string> input_names() const; ///< "friction[0]"
+    std::vector<std::string> input_units() const; ///< "N/m2"; empty: none
     std::vector<std::string> block_names() const; ///< in layout order
 
     /// The surface of a limit state, of a result that is complete or not.

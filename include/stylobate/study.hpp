@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate::api {
@@ -28,6 +29,9 @@ public:
 
     /// The canonical text: every key with its default, in one order. Two studies are the same if their texts are.
     std::string text() const;
+    /// Structure, contacts, excitation and what is drawn: a name and a few words each, as the pages of `stylobate
+    /// report` have it.
+    std::vector<std::pair<std::string, std::string>> summary() const;
     /// "single", "surface", "fragility", "sensitivity" or "rare"
     std::string kind() const;
     std::uint64_t seed() const;

@@ -1,5 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_file.hpp"
+#include "io/store/result_labels.hpp"
 #include "io/store/result_store.hpp"
 #include "io/store/result_trajectory.hpp"
 #include "io/tables/table_hdf5.hpp"
@@ -124,6 +125,7 @@ std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& 
         const std::uint64_t block = seal_bytes(1);
         hdf5::Handle made = hdf5::create_file(unready, block);
         write_beginning(made.id(), header);
+        write_labels(made.id());
         made.close();
         write_open_seal(result.handle, block);
         result.journal = RowJournal(result.handle.size());
@@ -244,6 +246,7 @@ void ResultWriter::finish(const SurfaceTable* surface, const std::vector<Table>&
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, record] : impl_->trajectories)
         write_trajectory(opened.id(), trajectory_of(RowJournal::content(file.handle, record)));
+    write_labels(opened.id());
     hdf5::change_number(opened.id(), "complete", 1);
     made.places = find_rows(opened.id(), made.layout);
     opened.close();

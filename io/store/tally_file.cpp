@@ -62,6 +62,9 @@ void write_tally(hid_t file, const ResultHeader& header, const TallyFile& counte
 
     const hdf5::Dims cells = {header.frequency_hz.size(), header.pga_m_s2.size()};
     const auto by = [&](std::size_t more) { return hdf5::Dims{cells[0], cells[1], more}; };
+    // the axes of /surface once more: the scale of a dimension lies in the same group
+    hdf5::write_array(file, in_tally("frequency_hz"), header.frequency_hz, {cells[0]}, "Hz");
+    hdf5::write_array(file, in_tally("pga_m_s2"), header.pga_m_s2, {cells[1]}, "m/s2");
     hdf5::write_array(file, in_tally("trials"), tally.trials, cells, "");
     hdf5::write_array(file, in_tally("invalid"), tally.invalid, cells, "");
     hdf5::write_array(file, in_tally("reached"), tally.reached, by(tally.limit_states), "");

@@ -1,5 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_file.hpp"
+#include "io/store/result_labels.hpp"
 #include "io/store/tally_file.hpp"
 #include "io/store/tally_store.hpp"
 
@@ -44,6 +45,7 @@ struct TallyWriter::Impl {
         write_tally(file.id(), header, counted);
         if (surface)
             write_surface(file.id(), *surface);
+        write_labels(file.id());
         file.close();
         write_seal(made, block, {});
         made.sync();

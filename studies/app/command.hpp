@@ -34,11 +34,11 @@ struct CommonOptions {
 
 /// Options of `export`; empty, or -1: not given.
 struct ExportOptions {
-    std::string format;              ///< "png", "svg" or "pdf" of a picture; "csv", "nrml" or "json" of tables
+    std::string format;              ///< "png", "svg" or "pdf" of a picture; "csv", "nrml" or "json" of tables; "vtk"
     std::string picture;             ///< of `picture_names`
     std::string output;              ///< file of the picture, folder of the tables
     std::string limit;               ///< limit state of a surface or slice
-    long long realization = -1;      ///< of a strip
+    long long realization = -1;      ///< of a strip, or of "vtk"
     long long cell = -1;             ///< of a surface, for the order of falls
     std::vector<double> frequencies; ///< of a slice [Hz]
     std::string title;               ///< of the picture, instead of the study's or the file's name

@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/store/export_csv.hpp"
+#include "io/store/export_vtk.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/file_kind.hpp"
@@ -43,12 +44,11 @@ std::string format_of(const ExportOptions& wanted)
     if (wanted.format.empty() && !is_picture_format(ending))
         throw InputError(
             wanted.output.empty()
-                ? "no output format is given: give --to png, svg, pdf, csv, nrml or json; html, gif, mp4 or webm.\n  "
-                  "Or name "
-                  "a picture by -o: its file extension selects the format."
-                : fmt::format(
-                      "-o {}: its file extension is not a known format.\n  {} Tables need --to csv, nrml or json.",
-                      wanted.output, of_picture));
+                ? "no output format is given: give --to png, svg, pdf, csv, nrml, json or vtk; html, gif, mp4 or "
+                  "webm.\n  Or name a picture by -o: its file extension selects the format."
+                : fmt::format("-o {}: its file extension is not a known format.\n  {} Tables need --to csv, nrml or "
+                              "json; ParaView --to vtk.",
+                              wanted.output, of_picture));
     if (wanted.format.empty())
         return ending;
     if (wanted.output.empty())
@@ -57,7 +57,7 @@ std::string format_of(const ExportOptions& wanted)
         throw InputError(fmt::format(
             "--to {} and -o {}: the file extension is not that of {}.\n  {} It selects the format: omit --to.",
             wanted.format, wanted.output, wanted.format, of_picture));
-    const auto files = {"png", "svg", "pdf", "csv", "xml", "nrml", "json", "html", "h5"};
+    const auto files = {"png", "svg", "pdf", "csv", "xml", "nrml", "json", "html", "h5", "vtk", "pvd", "vtp"};
     if (!is_picture_format(wanted.format) && std::find(files.begin(), files.end(), ending) != files.end())
         throw InputError(fmt::format(
             "--to {} and -o {}: these are several files, in a folder.\n  Name a folder, without a file extension.",
@@ -174,6 +174,25 @@ void export_csv(const Results& results, const std::string& name, const fs::path&
         write_trajectory_csv(folder / fmt::format("trajectory_{}.csv", index), reader.trajectory(index));
 }
 
+/// One realization for ParaView.
+fs::path export_vtk(const CommonOptions& options, const std::string& file, const ExportOptions& wanted)
+{
+    if (!wanted.limit.empty() || !wanted.picture.empty() || !wanted.title.empty() || wanted.cell >= 0 ||
+        !wanted.frequencies.empty())
+        throw InputError("--to vtk: writes one realization through time; of the options of pictures only --realization "
+                         "applies to it");
+    const Results results(file, options.set);
+    const std::uint64_t index =
+        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+    const fs::path folder =
+        wanted.output.empty() ? beside(file, fmt::format("_realization_{}_vtk", index)) : fs::path(wanted.output);
+    check_not_input(file, folder);
+    write_vtk(folder, fmt::format("realization_{}", index), followed_motion(results, options.isa(), index).trajectory);
+    if (!options.quiet)
+        fmt::print(stderr, "Forces and openings of joints are not part of a trajectory; they are left out.\n");
+    return folder;
+}
+
 fs::path export_tables(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
                        const std::string& format)
 {
@@ -256,6 +275,7 @@ int export_command(const CommonOptions& options, const std::string& results, con
     const std::string format = motion.empty() ? format_of(wanted) : motion;
     const fs::path written = !motion.empty()             ? export_motion(options, results, wanted, motion)
                              : is_picture_format(format) ? export_picture(options, results, wanted, format)
+                             : format == "vtk"           ? export_vtk(options, results, wanted)
                                                          : export_tables(options, results, wanted, format);
     if (options.json)
         fmt::print("{}\n", Json::object().member("written", written.string()).text());

@@ -246,10 +246,11 @@ private:
         exporting->add_option("RESULTS", file_, "results file (HDF5)")->required();
         exporting
             ->add_option("--to", export_.format,
-                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; one "
+                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; vtk: a "
+                         "realization for ParaView; one "
                          "realization in motion: html, or by ffmpeg gif, mp4 or webm (default: by the file extension "
                          "of -o)")
-            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json", "html", "gif", "mp4", "webm"}));
+            ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json", "vtk", "html", "gif", "mp4", "webm"}));
         exporting
             ->add_option("--picture", export_.picture,
                          fmt::format("{} (default: by the kind of the study)", fmt::join(pictures, ", ")))
@@ -259,7 +260,8 @@ private:
             "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
             "state of the study (default: peaks and collapse)");
         exporting
-            ->add_option("--realization", export_.realization, "strip, motion: index of the realization (default: 0)")
+            ->add_option("--realization", export_.realization,
+                         "strip, vtk, motion: index of the realization (default: 0)")
             ->check(CLI::Range(0LL, 999999999999LL));
         exporting->add_option("--cell", export_.cell, "order: one cell of a surface (default: all cells)")
             ->check(CLI::Range(0LL, 999999999999LL));
@@ -270,9 +272,9 @@ private:
             ->delimiter(',');
         exporting->add_option("--title", export_.title,
                               "title of the picture (default: study.title, or the file's name)");
-        exporting->add_option(
-            "-o,--output", export_.output,
-            "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of the tables");
+        exporting->add_option("-o,--output", export_.output,
+                              "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of "
+                              "the tables or of vtk");
         add_force(*exporting, options_);
         add_set(*exporting, options_);
         add_common(*exporting, options_);

@@ -62,6 +62,16 @@ void print_text(const RunReport& r)
 
 } // namespace
 
+std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
+{
+    if (static_cast<double>(invalid) / static_cast<double>(total) <= study.run.max_invalid_fraction)
+        return {};
+    return fmt::format(
+        "{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
+        "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
+        invalid, total, study.run.max_invalid_fraction, results);
+}
+
 int report_run(const CommonOptions& options, const RunReport& r)
 {
     if (options.json)
@@ -71,12 +81,10 @@ int report_run(const CommonOptions& options, const RunReport& r)
     if (!r.complete)
         return exit_interrupted;
     const Progress& p = r.progress;
-    if (static_cast<double>(p.invalid) / static_cast<double>(p.total) <= r.study.run.max_invalid_fraction)
+    const std::string message = too_many_invalid(r.study, p.invalid, p.total, r.results);
+    if (message.empty())
         return exit_done;
-    fmt::print(stderr,
-               "stylobate: {} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
-               "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.\n",
-               p.invalid, p.total, r.study.run.max_invalid_fraction, r.results);
+    fmt::print(stderr, "stylobate: {}\n", message);
     return exit_invalid;
 }
 

@@ -5,6 +5,7 @@
 #include "studies/app/command.hpp"
 #include "studies/kinds/kind.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace stylobate {
@@ -18,6 +19,10 @@ struct RunReport {
     const RunOptions& run;
     bool complete = false;
 };
+
+/// The message where more realizations are invalid than the study allows; else empty. @param results the file
+std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total,
+                             const std::string& results);
 
 /// Prints it, as lines or as JSON, and a message where too many realizations are invalid.
 /// @returns the exit status

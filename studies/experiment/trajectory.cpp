@@ -281,14 +281,19 @@ private:
 
 } // namespace
 
-FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa)
+FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa,
+                           const std::function<bool()>& go_on)
 {
     const Realization r = experiment.sampler().realization(index);
     const Study stepped = stepped_as(experiment.study(), index);
     Follower lanes(experiment, stepped, isa, r, 1);
     lanes.load(0, r, true);
-    while (!lanes.ended(0))
+    constexpr int chunks_between_questions = 16;
+    for (int chunk = 0; !lanes.ended(0); ++chunk) {
+        if (go_on && chunk % chunks_between_questions == 0 && !go_on())
+            throw FollowStopped();
         lanes.advance();
+    }
     return lanes.take(0);
 }
 

@@ -20,9 +20,15 @@ struct FollowedRealization {
     Trajectory trajectory;
 };
 
+/// Thrown by `follow` where it was asked to stop.
+struct FollowStopped {};
+
 /// Runs one realization to its end. Its trajectory is sampled at `output.trajectory_rate_hz`, from 0 on, linear between
 /// the two steps about each sample.
-FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa);
+/// @param go_on asked every 1024 steps; false: stop. May be empty
+/// @throws FollowStopped then
+FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa,
+                           const std::function<bool()>& go_on = {});
 
 /// Which realizations to follow, and where they go.
 struct FollowPlan {

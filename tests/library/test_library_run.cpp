@@ -87,6 +87,15 @@ TEST_P(LibraryKinds, InMemoryItHasTheNumbersOfTheFile)
         EXPECT_EQ(got.collapse_time_s, want.collapse_time_s);
         EXPECT_EQ(got.peak_top_displacement_m, want.peak_top_displacement_m);
         EXPECT_EQ(got.total_sliding_m, want.total_sliding_m);
+        EXPECT_STREQ(to_string(got.invalid_reason), to_string(want.invalid_reason));
+        EXPECT_EQ(got.top_path_m, want.top_path_m);
+        EXPECT_EQ(got.sliding_path_m, want.sliding_path_m);
+        EXPECT_EQ(got.rocking_path_rad, want.rocking_path_rad);
+        EXPECT_EQ(got.energy_kinetic_j, want.energy_kinetic_j);
+        EXPECT_EQ(got.energy_potential_j, want.energy_potential_j);
+        EXPECT_EQ(got.energy_spring_j, want.energy_spring_j);
+        EXPECT_EQ(got.energy_base_work_j, want.energy_base_work_j);
+        EXPECT_EQ(got.steps, want.steps);
         EXPECT_EQ(got.fall_time_s, want.fall_time_s);
         EXPECT_EQ(got.inputs, rows[i].inputs);
     }
@@ -240,6 +249,16 @@ TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
     EXPECT_EQ(got.sample_at(got.time_s[5]), 5U);
     EXPECT_EQ(got.sample_at(1e9), got.time_s.size() - 1);
     EXPECT_THROW(api::follow(experiment, 16), api::InputError);
+
+    const api::Result result = api::Result::from_file(folder / "program.h5");
+    int asked = 0;
+    EXPECT_EQ(api::follow(result, 9, {}, [&] { return ++asked > 0; }).x_m, want.x_m);
+    EXPECT_GT(asked, 10);
+    EXPECT_THROW(api::follow(result, 9, {}, [] { return false; }), api::Stopped);
+    EXPECT_THROW(api::follow(result, 16), api::InputError);
+    EXPECT_THROW(api::follow(result, 9, {"contact.friction=0.5"}), api::InputError);
+    EXPECT_EQ(result.too_many_invalid(), "");
+    EXPECT_EQ(result.input_units().size(), result.input_names().size());
 
     api::write_svg(got, 0, folder / "t.svg");
     const std::string svg = read_bytes(folder / "t.svg");

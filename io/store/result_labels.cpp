@@ -1,0 +1,329 @@
+#include "io/store/result_labels.hpp"
+
+#include "io/files/hdf5_scales.hpp"
+#include "io/store/result_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace stylobate {
+
+namespace {
+
+namespace names = result_names;
+
+/// What is known of a data set. Its dimensions are names of scales, separated by spaces.
+struct Label {
+    const char* path;
+    const char* dimensions;
+    const char* long_name;
+};
+
+/// '*' is any one name. Inputs and intervals (NAME_lower, NAME_upper) follow rules below.
+constexpr Label labels[] = {
+    {"realizations/index", "index", "index of the realization"},
+    {"realizations/cell", "index", "cell of the surface, or motion x stripes + stripe"},
+    {"realizations/frequency_hz", "index", "frequency of the shaking"},
+    {"realizations/pga_m_s2", "index", "peak ground acceleration"},
+    {"realizations/chunk_checksum", "chunk_checksum", "checksum of each 256 rows"},
+    {"realizations/outcome/block", "block", "block"},
+    {"realizations/outcome/state", "index",
+     "how the realization ended: 0 stood, 1 rocked, 2 slid, 3 collapsed, 4 invalid"},
+    {"realizations/outcome/invalid_reason", "index", "why it was set aside: 0 none, 1 not finite, 2 energy"},
+    {"realizations/outcome/collapse_time_s", "index", "time of the collapse"},
+    {"realizations/outcome/first_collapse_block", "index", "number of the block that fell first"},
+    {"realizations/outcome/fallen_blocks", "index", "number of fallen blocks"},
+    {"realizations/outcome/unseated_block", "index", "number of the epistyle that lost a seat first"},
+    {"realizations/outcome/unseating_time_s", "index", "time at which an epistyle lost a seat"},
+    {"realizations/outcome/total_collapse_time_s", "index", "time at which all columns and epistyles had fallen"},
+    {"realizations/outcome/peak_top_displacement_m", "index", "largest horizontal displacement of the top block"},
+    {"realizations/outcome/residual_top_displacement_m", "index",
+     "horizontal displacement of the top block at the end"},
+    {"realizations/outcome/top_path_m", "index", "path of the top block relative to the base"},
+    {"realizations/outcome/total_sliding_m", "index", "slip, sum over the joints"},
+    {"realizations/outcome/sliding_path_m", "index", "path of the faces in contact, sum over the joints"},
+    {"realizations/outcome/residual_sliding_m", "index", "displacement of the faces at the end, sum over the joints"},
+    {"realizations/outcome/residual_dislocation", "index",
+     "largest displacement of two faces at the end, over the width of the narrower one"},
+    {"realizations/outcome/total_rocking_rad", "index", "largest relative rotation, sum over the joints"},
+    {"realizations/outcome/rocking_path_rad", "index", "path of the relative rotation, sum over the joints"},
+    {"realizations/outcome/max_relative_rotation_rad", "index", "relative rotation of the joint with the largest one"},
+    {"realizations/outcome/energy_kinetic_j", "index", "kinetic energy at the end"},
+    {"realizations/outcome/energy_potential_j", "index", "potential energy, relative to the start"},
+    {"realizations/outcome/energy_spring_j", "index", "energy of the contact springs, relative to the start"},
+    {"realizations/outcome/energy_friction_j", "index", "energy dissipated by friction"},
+    {"realizations/outcome/energy_damping_j", "index", "energy dissipated by the dashpots"},
+    {"realizations/outcome/energy_base_work_j", "index", "work of the base"},
+    {"realizations/outcome/energy_residual", "index", "residual of the energy balance, over the energy of the run"},
+    {"realizations/outcome/end_time_s", "index", "simulated time"},
+    {"realizations/outcome/step_s", "index", "time step"},
+    {"realizations/outcome/steps", "index", "number of steps"},
+    {"realizations/outcome/fall_time_s", "index block", "time at which each block fell"},
+    {"surface/frequency_hz", "frequency_hz", "frequency of the shaking"},
+    {"surface/pga_m_s2", "pga_m_s2", "peak ground acceleration"},
+    {"surface/trials", "frequency_hz pga_m_s2", "valid realizations"},
+    {"surface/collapses", "frequency_hz pga_m_s2", "collapsed realizations"},
+    {"surface/probability", "frequency_hz pga_m_s2", "probability of collapse"},
+    {"surface/lower", "frequency_hz pga_m_s2", "lower end of the interval of the probability of collapse"},
+    {"surface/upper", "frequency_hz pga_m_s2", "upper end of the interval of the probability of collapse"},
+    {"surface/method", "frequency_hz pga_m_s2", "source of the interval: 0 own trials, 1 pooled with the neighbours"},
+    {"tally/frequency_hz", "frequency_hz", "frequency of the shaking"},
+    {"tally/pga_m_s2", "pga_m_s2", "peak ground acceleration"},
+    {"tally/limit_state", "limit_state", "limit state"},
+    {"tally/block", "block", "block"},
+    {"tally/trials", "frequency_hz pga_m_s2", "valid realizations"},
+    {"tally/invalid", "frequency_hz pga_m_s2", "invalid realizations"},
+    {"tally/reached", "frequency_hz pga_m_s2 limit_state", "realizations that reached the limit state"},
+    {"tally/first_fallen", "frequency_hz pga_m_s2 block", "realizations in which the block fell first"},
+    {"tally/first_together", "frequency_hz pga_m_s2", "realizations in which several blocks fell first, together"},
+    {"tally/collapse_time/time_s", "time_s", "time of the collapse"},
+    {"tally/collapse_time/count", "time_s", "realizations with this time"},
+    {"tally/total_collapse_time/time_s", "time_s", "time at which all columns and epistyles had fallen"},
+    {"tally/total_collapse_time/count", "time_s", "realizations with this time"},
+    {"tally/invalid_index", "invalid_index", "index of an invalid realization"},
+    {"tally/invalid_reason", "invalid_index", "why it was set aside: 0 none, 1 not finite, 2 energy"},
+    {"tally/done", "part bound", "realizations that are counted, by their place in the order of the run"},
+    {"tally/part", "part", "part of the order of the run"},
+    {"tally/bound", "bound", "begin, end, reached the first limit state, invalid"},
+    {"twins/original", "original", "index of the original"},
+    {"twins/kind", "original", "kind of the replica"},
+    {"twins/start", "original", "separation at rest, in widths and radians"},
+    {"twins/exponent_per_s", "original", "growth rate of the logarithm of the separation"},
+    {"twins/horizon_s", "original", "time at which the separation reached the tolerance"},
+    {"twins/followed_s", "original", "end of the following"},
+    {"twins/original_end_s", "original", "end of the original"},
+    {"motions/motion", "motion", "ground motion"},
+    {"motions/measure", "measure", "intensity measure, with its unit"},
+    {"motions/shaking", "shaking", "shaking of a sequence"},
+    {"motions/value", "motion measure", "intensity of the motion as it stands, in the unit of the measure"},
+    {"motions/exponent", "measure", "power of the scale factor by which the measure grows"},
+    {"motions/shaking_end_s", "motion shaking", "end of each shaking of a sequence"},
+    {"fragility/motion", "motion", "number of the realization's motion in /motions"},
+    {"fragility/intensity", "motion", "intensity of the realization's shaking"},
+    {"fragility/states", "states", "limit state"},
+    {"fragility/meanings", "states", "when the limit state is reached"},
+    {"fragility/trials", "states", "valid realizations"},
+    {"fragility/reached", "states", "realizations that reached the limit state"},
+    {"fragility/median", "states", "median of the fragility curve"},
+    {"fragility/dispersion", "states", "dispersion of the fragility curve"},
+    {"fragility/grid", "grid", "intensity at which the curves are given"},
+    {"fragility/curve", "states grid", "probability of reaching the limit state"},
+    {"fragility/stripe", "stripe", "intensity of the stripe"},
+    {"fragility/share", "states stripe", "share of the realizations of a stripe that reached the limit state"},
+    {"sensitivity/outcomes", "outcomes", "outcome"},
+    {"sensitivity/units", "outcomes", "unit of the outcome"},
+    {"sensitivity/meanings", "outcomes", "how the outcome is counted"},
+    {"sensitivity/factors", "factors", "perturbed quantity"},
+    {"sensitivity/indices", "indices", "index of sensitivity"},
+    {"sensitivity/acts", "factors", "1 if the factor ever changed an outcome"},
+    {"sensitivity/mean", "outcomes", "mean of the outcome, in the unit of `units`"},
+    {"sensitivity/explained", "outcomes", "share of the variance that the factors explain"},
+    {"sensitivity/first", "outcomes factors", "Sobol's first index of the mean over the rest"},
+    {"sensitivity/total", "outcomes factors", "Sobol's total index of the mean over the rest"},
+    {"sensitivity/value_first", "outcomes factors", "Sobol's first index of single outcomes"},
+    {"sensitivity/value_total", "outcomes factors", "Sobol's total index of single outcomes"},
+    {"sensitivity/mu_star", "outcomes factors", "mean of the absolute elementary effects, in the unit of `units`"},
+    {"sensitivity/rms", "outcomes factors", "root mean square of the elementary effects, in the unit of `units`"},
+    {"sensitivity/mu", "outcomes factors", "mean of the elementary effects, in the unit of `units`"},
+    {"sensitivity/sigma", "outcomes factors", "standard deviation of the elementary effects, in the unit of `units`"},
+    {"rare/repeats", "repeats", "estimate of the probability of each repeat"},
+    {"rare/level", "level", "level of the subset simulation"},
+    {"rare/threshold_m", "repeats level", "lower bound of the peak displacement of the samples of a level"},
+    {"rare/share", "repeats level", "share of the samples above the next threshold, or collapsed"},
+    {"rare/acceptance", "repeats level", "share of accepted candidates"},
+    {"rare/stuck", "repeats level", "share of the chains that never moved"},
+    {"trajectories/*/time_s", "time_s", "time"},
+    {"trajectories/*/block", "block", "block"},
+    {"trajectories/*/x_m", "time_s block", "horizontal place of the centre, in the frame of the base"},
+    {"trajectories/*/y_m", "time_s block", "height of the centre, in the frame of the base"},
+    {"trajectories/*/theta_rad", "time_s block", "rotation, counter-clockwise from upright"},
+    {"trajectories/*/base_x_m", "time_s", "displacement of the base"},
+    {"trajectories/*/rest_x_m", "block", "horizontal place of the centre as built"},
+    {"trajectories/*/rest_y_m", "block", "height of the centre as built"},
+    {"trajectories/*/half_width_m", "block", "half width of the block"},
+    {"trajectories/*/half_height_m", "block", "half height of the block"},
+    {"trajectories/*/role", "block", "role of the block: 0 drum, 1 epistyle, 2 ground"},
+    {"trajectories/*/column", "block", "column of a drum, from the left; -1 of all others"}};
+
+/// Where the values of a scale are that the file has as an attribute of the group.
+constexpr std::pair<const char*, const char*> kept_as_attribute[] = {{"block", names::blocks},
+                                                                     {"limit_state", names::limit_states},
+                                                                     {"motion", names::motion_names},
+                                                                     {"measure", names::measure_names}};
+
+std::string group_of(const std::string& path)
+{
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? std::string() : path.substr(0, slash);
+}
+
+/// The path as it is in `labels`.
+std::string as_listed(const std::string& path)
+{
+    const std::string in = std::string(names::trajectories) + "/";
+    const std::size_t slash = path.find('/', in.size());
+    return path.starts_with(in) && slash != std::string::npos ? in + "*" + path.substr(slash) : path;
+}
+
+struct FullLabel {
+    std::string long_name;
+    std::vector<std::string> dimensions;
+};
+
+std::optional<FullLabel> label_of(const std::string& path, std::size_t rank)
+{
+    const std::string listed = as_listed(path), inputs = std::string(names::input) + "/";
+    if (path.starts_with(inputs)) {
+        const std::string name = path.substr(inputs.size());
+        std::string words = name;
+        std::ranges::replace(words, '_', ' ');
+        return FullLabel{"drawn " + words, rank == 2 ? std::vector<std::string>{"index", name + "_of"}
+                                                     : std::vector<std::string>{"index"}};
+    }
+    if (const auto found = std::ranges::find(labels, listed, &Label::path); found != std::end(labels)) {
+        std::istringstream words(found->dimensions);
+        FullLabel label{found->long_name, {}};
+        for (std::string word; words >> word;)
+            label.dimensions.push_back(word);
+        return label;
+    }
+    for (const std::string end : {"lower", "upper"})
+        if (listed.ends_with("_" + end))
+            if (auto of = label_of(path.substr(0, path.size() - end.size() - 1), rank)) {
+                of->long_name = end + " end of the interval: " + of->long_name;
+                return of;
+            }
+    return std::nullopt;
+}
+
+/// Of a name that ends with its unit; the longest ending counts.
+std::string unit_in_name(const std::string& name)
+{
+    for (const auto& [ending, unit] : {std::pair{"_m_s2", "m/s2"}, {"_m_s", "m/s"}, {"_m", "m"}, {"_s", "s"}})
+        if (name.ends_with(ending))
+            return unit;
+    return {};
+}
+
+class Labels {
+public:
+    explicit Labels(hid_t file) : file_(file) { find(""); }
+
+    void write()
+    {
+        for (const std::string& path : std::set<std::string>(datasets_))
+            write(path);
+        scales_.write(file_);
+    }
+
+private:
+    /// All data sets of a group and of those below it.
+    void find(const std::string& group)
+    {
+        const hdf5::Handle opened = hdf5::open_group(file_, "/" + group);
+        for (const std::string& name : hdf5::names_in(opened.id())) {
+            const std::string path = group.empty() ? name : group + "/" + name;
+            const hdf5::Handle object = hdf5::open_object(file_, path);
+            if (H5Iget_type(object.id()) == H5I_GROUP)
+                find(path);
+            else
+                datasets_.insert(path);
+        }
+    }
+
+    void write(const std::string& path)
+    {
+        const hdf5::Dims dims = hdf5::dims_of(file_, path);
+        const std::optional<FullLabel> label = label_of(path, dims.size());
+        if (!label || label->dimensions.size() != dims.size())
+            return;
+        const hdf5::Handle object = hdf5::open_object(file_, path);
+        hdf5::write_text(object.id(), "long_name", label->long_name);
+        if (const std::string unit = unit_of(path, object.id()); !unit.empty())
+            hdf5::write_text(object.id(), "units", unit);
+        std::vector<std::string> scales;
+        for (std::size_t i = 0; i < dims.size(); ++i)
+            scales.push_back(scale(path, label->dimensions[i], dims[i]));
+        scales_.attach(path, scales);
+    }
+
+    /// Empty for texts, and for numbers whose unit differs from one to the next.
+    std::string unit_of(const std::string& path, hid_t object) const
+    {
+        const hdf5::Handle type(H5Dget_type(object), H5Tclose);
+        if (H5Tget_class(type.id()) == H5T_STRING)
+            return {};
+        if (hdf5::has_attribute(object, "unit"))
+            return hdf5::read_text(object, "unit");
+        const std::string listed = as_listed(path);
+        const auto is = [&](std::initializer_list<std::string_view> these) {
+            return std::ranges::any_of(these, [&](std::string_view each) {
+                return listed == each || (listed.starts_with(each) && (listed.substr(each.size()) == "_lower" ||
+                                                                       listed.substr(each.size()) == "_upper"));
+            });
+        };
+        if (is({"motions/value", "sensitivity/mean", "sensitivity/mu_star", "sensitivity/rms", "sensitivity/mu",
+                "sensitivity/sigma"}))
+            return {};
+        if (is({"fragility/intensity", "fragility/median", "fragility/grid", "fragility/stripe"})) {
+            const hdf5::Handle group = hdf5::open_group(file_, "fragility");
+            if (const std::string unit = unit_in_name(hdf5::read_text(group.id(), "measure")); !unit.empty())
+                return unit;
+        }
+        return "1";
+    }
+
+    /// The path of a dimension's scale: in the group of the data set or in one above it; else it is made in the group.
+    std::string scale(const std::string& dataset, const std::string& name, hsize_t length)
+    {
+        for (std::string group = group_of(dataset); !group.empty(); group = group_of(group))
+            if (const std::string path = group + "/" + name; datasets_.contains(path))
+                return path;
+        const std::string path = group_of(dataset) + "/" + name;
+        std::vector<std::string> texts = texts_of(dataset, name, length);
+        if (texts.size() != length)
+            throw hdf5::Error("'" + dataset + "' does not have a name for each " + name);
+        hdf5::write_texts(file_, path, texts);
+        datasets_.insert(path);
+        const hdf5::Handle made = hdf5::open_object(file_, path);
+        const auto label = label_of(path, 1);
+        hdf5::write_text(made.id(), "long_name", label ? label->long_name : name);
+        scales_.attach(path, {path});
+        return path;
+    }
+
+    std::vector<std::string> texts_of(const std::string& dataset, const std::string& name, hsize_t length) const
+    {
+        const hdf5::Handle group = hdf5::open_group(file_, group_of(dataset));
+        for (const auto& [scale, attribute] : kept_as_attribute)
+            if (name == scale && hdf5::has_attribute(group.id(), attribute))
+                return split_names(hdf5::read_text(group.id(), attribute));
+        if (name == "bound")
+            return {"begin", "end", "reached", "invalid"};
+        const bool is_input = dataset.starts_with(names::input);
+        const std::string of = is_input ? dataset.substr(dataset.rfind('/') + 1) : name;
+        std::vector<std::string> texts;
+        for (hsize_t i = 0; i < length; ++i)
+            texts.push_back(is_input ? fmt::format("{}[{}]", of, i) : fmt::format("{} {}", of, i + 1));
+        return texts;
+    }
+
+    hid_t file_;
+    std::set<std::string> datasets_;
+    hdf5::DimensionScales scales_;
+};
+
+} // namespace
+
+void write_labels(hid_t file)
+{
+    Labels(file).write();
+}
+
+} // namespace stylobate

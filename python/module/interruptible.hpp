@@ -1,0 +1,86 @@
+#pragma once
+/// Work in a thread of its own, while Python goes on.
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace stylobate::python {
+
+/// Runs work(tell) without the GIL and returns what it returns. Twenty times a second at least the calling thread,
+/// which may be Python's main one, handles signals: Ctrl-C raises KeyboardInterrupt here. (The threads of the work
+/// could not: Python handles signals in its main thread only.)
+///
+/// @param listen called with the GIL, in the calling thread, with the newest that tell(news) was given; false: stop
+/// @param work   tell(news) returns false once it is to stop; without news it only asks
+template <class News, class Answer>
+Answer interruptible(const std::function<Answer(const std::function<bool(const std::optional<News>&)>&)>& work,
+                     const std::function<bool(const News&)>& listen)
+{
+    namespace py = pybind11;
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::optional<News> newest;
+    std::optional<Answer> answer;
+    bool stop = false, ended = false;
+    std::exception_ptr of_work, of_python;
+
+    std::thread worker([&] {
+        try {
+            answer.emplace(work([&](const std::optional<News>& news) {
+                const std::lock_guard lock(mutex);
+                if (news) {
+                    newest = news;
+                    changed.notify_one();
+                }
+                return !stop;
+            }));
+        } catch (...) {
+            of_work = std::current_exception();
+        }
+        const std::lock_guard lock(mutex);
+        ended = true;
+        changed.notify_one();
+    });
+    {
+        const py::gil_scoped_release released;
+        std::unique_lock lock(mutex);
+        for (bool last = false; !last;) {
+            changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return ended || newest.has_value(); });
+            last = ended;
+            const std::optional<News> news = std::exchange(newest, std::nullopt);
+            if (stop)
+                continue;
+            lock.unlock();
+            bool go_on = true;
+            {
+                const py::gil_scoped_acquire acquired;
+                try {
+                    if (PyErr_CheckSignals() != 0)
+                        throw py::error_already_set();
+                    go_on = !news || !listen || listen(*news);
+                } catch (...) {
+                    of_python = std::current_exception();
+                    go_on = false;
+                }
+            }
+            lock.lock();
+            stop = !go_on;
+        }
+    }
+    worker.join();
+    if (of_python)
+        std::rethrow_exception(of_python);
+    if (of_work)
+        std::rethrow_exception(of_work);
+    return std::move(*answer);
+}
+
+} // namespace stylobate::python

@@ -1,0 +1,70 @@
+"""What the simulation gets wrong of measured data."""
+
+import json
+import os
+
+from . import _core
+from ._study import Study, study_of
+
+
+class Diagnosis:
+    """Where the simulation disagrees with a measured campaign, and why."""
+
+    def __init__(self, core):
+        self._core = core
+
+    @property
+    def verdict(self):
+        """ "none": simulation and measurement agree; "named": a mechanism, or a set, explains the difference;
+        "unexplained"."""
+        return self._core.verdict
+
+    @property
+    def verdict_text(self):
+        """The verdict in plain words."""
+        return self._core.verdict_text
+
+    @property
+    def causes(self):
+        """The named mechanisms, the most probable one first: Cause with mechanism, place, parameter, unit, size, lower,
+        upper (95 % interval), probability; None: not known."""
+        return self._core.causes
+
+    @property
+    def extended_study(self):
+        """The study with the cause in it (a Study); None: there is none."""
+        text = self._core.extended_study
+        return Study(_core.Study.from_text(text)) if text else None
+
+    def text(self):
+        """The page that the program prints."""
+        return self._core.text()
+
+    def to_dict(self):
+        """All of it, as `stylobate diagnose --json`."""
+        return json.loads(self._core.json())
+
+    def write(self, path):
+        """Writes the file that `stylobate report` takes."""
+        self._core.write(os.fspath(path))
+
+    def __repr__(self):
+        return f"<Diagnosis: {self.verdict}, {len(self.causes)} causes>"
+
+
+def diagnose(campaign, study=None, *, nulls=192, seed=1, threads=0, simd="auto", cache=None, progress=None):
+    """Diagnoses a measured campaign: an HDF5 file, or a folder of tables (io/FORMAT.md).
+
+    study     contacts to begin with; None: a bed of stone
+    nulls     healthy campaigns that are simulated; 0: none, and only direct tests name a cause
+    seed      of what is drawn in them
+    cache     file that keeps the simulated campaigns, so that a stopped diagnosis goes on; None: they are not kept
+    progress  called with a line of text for each stage; returns False to stop
+
+    Returns a Diagnosis; None if `progress` stopped it. Ctrl-C raises KeyboardInterrupt after the campaign that is being
+    simulated.
+    """
+    start = None if study is None else study_of(study)._core
+    found = _core.diagnose(os.fspath(campaign), start, nulls, seed, threads, simd,
+                           "" if cache is None else os.fspath(cache), progress)
+    return None if found is None else Diagnosis(found)

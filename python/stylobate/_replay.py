@@ -1,0 +1,58 @@
+"""One realization through time."""
+
+
+class Replay:
+    """The blocks of a structure at evenly spaced times. `nt` times, `nb` blocks in layout order: column by column from
+    the bottom, then epistyles. The arrays are read-only views; places are in the frame of the base, y upwards.
+
+    time_s         (nt) s
+    x_m, y_m       (nt, nb) m     centres of the blocks
+    theta_rad      (nt, nb) rad   rotations, counter-clockwise from upright
+    base_x_m       (nt) m         displacement of the base
+    rest_x_m, rest_y_m            (nb) m   centres as built: upright, faces touching
+    half_width_m, half_height_m   (nb) m
+    blocks         names of the blocks (nb)
+    fixed          (nb) whether a block moves with the base
+    epistyle       (nb) whether it lies across columns
+    outcome        how it ended: a dictionary, with the names of `Result.realizations`; -1: it did not happen
+    """
+
+    def __init__(self, core):
+        self._core = core  # the owner of what the arrays show
+        for name in ("time_s", "x_m", "y_m", "theta_rad", "base_x_m", "rest_x_m", "rest_y_m", "half_width_m",
+                     "half_height_m"):
+            setattr(self, name, getattr(core, name))
+        self.blocks = list(core.name)
+        self.fixed = list(core.fixed)
+        self.epistyle = list(core.epistyle)
+        self.outcome = core.outcome()
+
+    def corners(self):
+        """Corners of the blocks, counter-clockwise from the lower left one: (nt, nb, 4, 2) m, x and y."""
+        import numpy as np
+
+        cos, sin = np.cos(self.theta_rad), np.sin(self.theta_rad)
+        corners = np.empty((*self.x_m.shape, 4, 2))
+        for i, (a, b) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1))):
+            u, v = a * self.half_width_m, b * self.half_height_m
+            corners[..., i, 0] = self.x_m + cos * u - sin * v
+            corners[..., i, 1] = self.y_m + sin * u + cos * v
+        return corners
+
+    def to_xarray(self):
+        """An xarray.Dataset over time_s [s] and block, with units."""
+        import xarray
+
+        data = {name: (("time_s", "block"), getattr(self, name), {"units": unit, "long_name": text})
+                for name, unit, text in (("x_m", "m", "horizontal place of the centre"),
+                                         ("y_m", "m", "height of the centre"),
+                                         ("theta_rad", "rad", "rotation, counter-clockwise"))}
+        data["base_x_m"] = ("time_s", self.base_x_m, {"units": "m", "long_name": "displacement of the base"})
+        for name in ("rest_x_m", "rest_y_m", "half_width_m", "half_height_m"):
+            data[name] = ("block", getattr(self, name), {"units": "m", "long_name": name[:-2].replace("_", " ")})
+        return xarray.Dataset(data, coords={"time_s": ("time_s", self.time_s, {"units": "s", "long_name": "time"}),
+                                            "block": ("block", self.blocks)})
+
+    def __repr__(self):
+        return (f"<Replay: realization {self.outcome['index']}, {self.outcome['state']}, {len(self.time_s)} times x "
+                f"{len(self.blocks)} blocks>")
