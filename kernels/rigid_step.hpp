@@ -417,8 +417,7 @@ private:
     {
         const Real zero(0.0);
         for (int j = 0; j < topology_.beds(); ++j)
-            for (int k = 0; k < 3; ++k)
-                put(J::force, j, select(which, get(J::before, j, k), get(J::force, j, k)), k);
+            put_first_forces(j, which);
         apply_forces();
         const Real settled = abs_of(get(OfRealization::gravity_dy)) * Real(detail::settled_rate<NumberOf<Real>>);
         Mask busy = which;
@@ -435,11 +434,36 @@ private:
         }
         return busy;
     }
+    /// What a relaxation begins with: in frames the forces of the last step, in stacks what may be of the solution that
+    /// contradicts itself.
+    template <class Mask>
+    STYLOBATE_INLINE void put_first_forces(int j, Mask which) const
+    {
+        const Real zero(0.0);
+        const V solved = load_three(J::force, j);
+        V first = topology_.stack ? solved : load_three(J::before, j);
+        first.v[0] = select(may_carry(j, J::left_gap), max_of(first.v[0], zero), zero);
+        first.v[1] = select(may_carry(j, J::right_gap), max_of(first.v[1], zero), zero);
+        const Real limit = friction_limit(j, first);
+        first.v[2] = clamp(first.v[2], zero - limit, limit);
+        for (int k = 0; k < 3; ++k)
+            put(J::force, j, select(which, first.v[k], solved.v[k]), k);
+    }
+    STYLOBATE_INLINE auto may_carry(int j, J::Field gap) const
+    {
+        const Real reach =
+            abs_of(get(OfRealization::gravity_dy)) + abs_of(get(J::left_rate, j)) + abs_of(get(J::right_rate, j));
+        return (get(J::usable, j) > Real(0.5)) & (get(gap, j) < reach);
+    }
+    STYLOBATE_INLINE Real friction_limit(int j, const V& force) const
+    {
+        return get(OfJoint::mu, j) * (force.v[0] + force.v[1] + get(J::left_back, j) + get(J::right_back, j));
+    }
     /// @return largest change of a rate
     template <class Mask>
     STYLOBATE_INLINE Real relax_bed(int j, Mask which) const
     {
-        const Real zero(0.0), half(0.5), one(1.0);
+        const Real zero(0.0), one(1.0);
         const Bed b = bed(j);
         const V before = load_three(J::force, j);
         const V from = rates(b, free(b.lower), free(b.upper));
@@ -460,15 +484,9 @@ private:
             put_chosen(which, b.upper, moved_by(b.upper, next(b.upper), p.upper));
             force.v[row] = now;
         };
-        const auto near = [&](J::Field gap) {
-            return (get(J::usable, j) > half) &
-                   (get(gap, j) < abs_of(get(OfRealization::gravity_dy)) + abs_of(get(J::left_rate, j)) +
-                                      abs_of(get(J::right_rate, j)));
-        };
-        take(0, select(near(J::left_gap), max_of(wanted(0, get(J::left_goal, j)), zero), zero));
-        take(1, select(near(J::right_gap), max_of(wanted(1, get(J::right_goal, j)), zero), zero));
-        const Real normal = force.v[0] + force.v[1] + get(J::left_back, j) + get(J::right_back, j);
-        const Real limit = get(OfJoint::mu, j) * normal;
+        take(0, select(may_carry(j, J::left_gap), max_of(wanted(0, get(J::left_goal, j)), zero), zero));
+        take(1, select(may_carry(j, J::right_gap), max_of(wanted(1, get(J::right_goal, j)), zero), zero));
+        const Real limit = friction_limit(j, force);
         take(2, clamp(wanted(2, get(J::sliding_goal, j)), zero - limit, limit));
         for (int k = 0; k < 3; ++k)
             put(J::force, j, select(which, force.v[k], before.v[k]), k);

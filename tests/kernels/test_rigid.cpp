@@ -141,7 +141,7 @@ TEST(Rigid, StacksMoveFromTheAccelerationOnThatLimitAnalysisGives)
 }
 
 /// Epistyles make loops of beds; one over three columns relates beds that share no block. The load comes at once, which
-/// is the hardest to find forces for: a step of 1e-4 of the width is what is left of the last part of the limit.
+/// is the hardest to find forces for.
 TEST(Rigid, FramesMoveFromTheAccelerationOnThatLimitAnalysisGives)
 {
     for (const int columns : {2, 3, 4})
@@ -162,9 +162,9 @@ TEST(Rigid, FramesMoveFromTheAccelerationOnThatLimitAnalysisGives)
                     const Realization r = rigid(model::colonnade(c, bed, 1e-3, false), 1e-3);
                     const double limit = verification::limit_acceleration(r).acceleration_m_s2;
                     for (const double part : {0.3, 0.5, 0.6, 0.8, 0.9, 0.95, 0.99})
-                        EXPECT_LT(moved_under(r, part * limit), 1e-4)
+                        EXPECT_LT(moved_under(r, part * limit), part < 0.99 ? 1e-4 : 1e-3)
                             << mu << ' ' << columns << ' ' << drums << ' ' << whole << ' ' << part;
-                    EXPECT_GT(moved_under(r, 1.01 * limit), 3e-4) << mu << ' ' << columns << ' ' << drums;
+                    EXPECT_GT(moved_under(r, 1.01 * limit), 1e-3) << mu << ' ' << columns << ' ' << drums;
                 }
             }
 }
