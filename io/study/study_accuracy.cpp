@@ -104,26 +104,31 @@ void choose_steps(const KeyReader& keys, Study& study)
 {
     using namespace run_keys;
     RunSpec& run = study.run;
-    if (!run.accuracy || study.contact.form == ContactForm::rigid)
+    if (!run.accuracy)
         return;
+    const bool column = study.structure.kind == StructureKind::column && study.outcome.follow == Follow::collapse;
+    const auto choose_single = [&](const char* reason) {
+        if (keys.has(precision) || !study.mechanisms.empty() || !column || *run.accuracy < single_accuracy)
+            return;
+        run.precision = Precision::single;
+        choose(study, table, precision, "\"single\"", reason);
+    };
+    if (study.contact.form == ContactForm::rigid)
+        return choose_single("0.6 times the processor time, at far less error than the accuracy");
     if (*run.accuracy < usual_step_accuracy) {
         run.step_fraction /= 2;
         choose(study, table, step_fraction, fmt::format("{:g}", run.step_fraction),
                fmt::format("steps of {:g} change probabilities by up to {:g}", 2 * run.step_fraction,
                            usual_step_accuracy));
     }
-    const bool column = study.structure.kind == StructureKind::column && study.outcome.follow == Follow::collapse;
     const bool area = study.contact.form == ContactForm::area;
     if (!keys.has(step_bound) && area && study.contact.damping == DampingAt::ends &&
         *run.accuracy >= structure_accuracy) {
         run.step_bound = StepBasis::structure;
         choose(study, table, step_bound, "\"structure\"", "a longer step, at no more error than the accuracy");
     }
-    if (!keys.has(precision) && area && study.contact.damping == DampingAt::centroid && study.mechanisms.empty() &&
-        column && *run.accuracy >= single_accuracy) {
-        run.precision = Precision::single;
-        choose(study, table, precision, "\"single\"", "up to twice as fast, at far less error than the accuracy");
-    }
+    if (area && study.contact.damping == DampingAt::centroid)
+        choose_single("up to twice as fast, at far less error than the accuracy");
 }
 
 } // namespace stylobate

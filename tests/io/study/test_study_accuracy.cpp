@@ -63,8 +63,11 @@ TEST(StudyAccuracy, BlocksAreRigidWhereNothingMustYield)
 {
     const Study study = with({});
     EXPECT_EQ(study.contact.form, ContactForm::rigid);
-    EXPECT_EQ(chosen(study), Keys{"contact.form"});
-    EXPECT_EQ(chosen(with({"contact.form=\"rigid\""})), Keys{}); // given
+    EXPECT_EQ(chosen(study), (Keys{"contact.form", "run.precision"}));
+    EXPECT_EQ(chosen(with({"contact.form=\"rigid\""})), Keys{"run.precision"}); // the form is given
+    EXPECT_EQ(chosen(with({"contact.form=\"rigid\"", "run.precision=\"double\""})), Keys{});
+    EXPECT_EQ(with({"run.accuracy=0.019"}).run.precision, Precision::double_);
+    EXPECT_EQ(with({"outcome.follow=\"rest\""}).run.precision, Precision::double_);
     // what is written reads the same, and chooses nothing any more
     const Study again = parse_study(study.text, "again.toml");
     EXPECT_EQ(again.text, study.text);
