@@ -35,8 +35,9 @@ namespace detail {
 inline constexpr int passes_of_all = 8, passes_of_one = 40;
 /// Rounds of solutions, each of which is followed by a relaxation of what has not been found, and its sweeps.
 inline constexpr int rounds = 3, relaxation_sweeps = 10;
-/// Most sweeps in frames, and the change of a rate at which they end, as a part of what gravity adds in a step.
-inline constexpr int frame_sweeps = 200;
+/// Sweeps in frames, before each of which but the first the equations are solved, and the change of a rate at which
+/// they end, as a part of what gravity adds in a step.
+inline constexpr int frame_sweeps[] = {15, 35, 150};
 template <class Number>
 inline constexpr Number settled_rate = 1e-6;
 template <>
@@ -261,7 +262,7 @@ private:
             const Real open = find_contacts(round + 1 == detail::rounds);
             if (!any(open > half))
                 return;
-            relax(open > half, detail::relaxation_sweeps);
+            relax(open > half, detail::relaxation_sweeps, false);
         }
     }
 
@@ -270,29 +271,56 @@ private:
     /// are solved for the ends that it has found, and the solution is taken if nothing moves faster with it.
     STYLOBATE_INLINE void solve_frame() const
     {
-        const Real half(0.5), zero(0.0);
-        const auto busy = relax(half > zero, detail::frame_sweeps);
-        auto taken = half < zero;
-        if (any(busy)) {
-            for (int j = 0; j < topology_.beds(); ++j)
-                for (int k = 0; k < 6; ++k)
-                    put(J::relaxed, j, k < 3 ? get(J::force, j, k) : get(flag(k - 3), j), k);
+        const Real half(0.5), zero(0.0), one(1.0);
+        auto busy = half > zero;
+        Real solved(0.0); // 1 where the equations' solution is taken
+        bool goes_on = false;
+        for (const int sweeps : detail::frame_sweeps) {
+            busy = relax(busy, sweeps, goes_on);
+            goes_on = true;
+            if (!any(busy))
+                break;
+            keep_relaxed();
             const Real most = kinetic() + slow();
             const Real open = find_contacts(false);
-            taken = busy & (open < half) & (kinetic() < most);
-            for (int j = 0; j < topology_.beds(); ++j)
-                for (int k = 0; k < 6; ++k) {
-                    const Real relaxed = get(J::relaxed, j, k);
-                    if (k < 3)
-                        put(J::force, j, select(taken, get(J::force, j, k), relaxed), k);
-                    else
-                        put(flag(k - 3), j, select(taken, get(flag(k - 3), j), relaxed));
-                }
+            const auto taken = busy & (open < half) & (kinetic() < most);
+            put_relaxed(taken);
+            apply_forces();
+            solved = select(taken, one, solved);
+            busy = busy & (solved < half);
         }
         for (int j = 0; j < topology_.beds(); ++j)
             for (int k = 0; k < 3; ++k)
-                put(J::closing, j, select(taken, get(J::closing, j, k), zero), k);
+                put(J::closing, j, zero, k);
+        if (!any(solved > half))
+            return apply_forces();
+        // what closes the gaps of those, which the others' solutions have overwritten
+        keep_relaxed();
+        solve_equations();
+        put_relaxed(solved > half);
+        for (int j = 0; j < topology_.beds(); ++j)
+            for (int k = 0; k < 3; ++k)
+                put(J::closing, j, select(solved > half, get(J::closing, j, k), zero), k);
         apply_forces();
+    }
+    /// Keeps forces and ends, and puts them back but for some realizations.
+    STYLOBATE_INLINE void keep_relaxed() const
+    {
+        for (int j = 0; j < topology_.beds(); ++j)
+            for (int k = 0; k < 6; ++k)
+                put(J::relaxed, j, k < 3 ? get(J::force, j, k) : get(flag(k - 3), j), k);
+    }
+    template <class Mask>
+    STYLOBATE_INLINE void put_relaxed(Mask but_for) const
+    {
+        for (int j = 0; j < topology_.beds(); ++j)
+            for (int k = 0; k < 6; ++k) {
+                const Real relaxed = get(J::relaxed, j, k);
+                if (k < 3)
+                    put(J::force, j, select(but_for, get(J::force, j, k), relaxed), k);
+                else
+                    put(flag(k - 3), j, select(but_for, get(flag(k - 3), j), relaxed));
+            }
     }
     STYLOBATE_INLINE static J::Field flag(int k) { return k == 0 ? J::left : k == 1 ? J::right : J::slips; }
     /// Of the increments with the forces found, twice.
@@ -413,11 +441,12 @@ private:
     /// it is rare in stacks.
     /// @return where it has not ended
     template <class Mask>
-    STYLOBATE_APART Mask relax(Mask which, int sweeps) const
+    STYLOBATE_APART Mask relax(Mask which, int sweeps, bool goes_on) const
     {
         const Real zero(0.0);
-        for (int j = 0; j < topology_.beds(); ++j)
-            put_first_forces(j, which);
+        if (!goes_on)
+            for (int j = 0; j < topology_.beds(); ++j)
+                put_first_forces(j, which);
         apply_forces();
         const Real settled = abs_of(get(OfRealization::gravity_dy)) * Real(detail::settled_rate<NumberOf<Real>>);
         Mask busy = which;

@@ -191,8 +191,7 @@ Entries entries_of(const ContactSpec& contact)
         out.add(form, contact.form);
         out.add(friction, contact.friction);
         out.add(restitution, contact.restitution);
-        if (contact.restitution_law != RestitutionLaw::newton)
-            out.add(restitution_law, contact.restitution_law);
+        out.add(restitution_law, contact.restitution_law);
         return out;
     }
     out.add(normal_stiffness, contact.normal_stiffness_n_m2);
