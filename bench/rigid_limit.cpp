@@ -129,7 +129,7 @@ int main(int argc, char** argv)
     std::uint64_t draws = 512;
     int threads = 1;
     std::string only;
-    std::optional<double> stiffness, damping;
+    std::optional<double> rate, stiffness, damping;
     bool steps = false, stiff = false, cost = false;
     app.add_flag("--steps", steps, "rigid blocks over the step alone");
     app.add_flag("--stiff", stiff, "two corners of much higher stiffness alone")->excludes("--steps");
@@ -137,6 +137,7 @@ int main(int argc, char** argv)
     app.add_option("--draws", draws, "realizations of each")->check(CLI::Range(8, 1000000));
     app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
     app.add_option("--cell", only, "one structure and shaking alone");
+    app.add_option("--rate", rate, "rows of one step of rigid blocks alone [1/s]");
     app.add_option("--stiffness", stiffness, "rows of one K_N alone [N/m2]");
     app.add_option("--damping-ratio", damping, "rows of one damping ratio alone");
     CLI11_PARSE(app, argc, argv);
@@ -157,7 +158,8 @@ int main(int argc, char** argv)
     std::vector<std::vector<Answer>> answers; // (laws) of the cells
     for (const Law& law : laws(table)) {
         if (law.stiffness_n_m2 != stiffness.value_or(law.stiffness_n_m2) ||
-            law.damping_ratio != damping.value_or(law.damping_ratio))
+            law.damping_ratio != damping.value_or(law.damping_ratio) ||
+            (rate && std::fabs(law.step_s * *rate - 1) > 1e-9))
             continue;
         std::string row = text_of(law);
         answers.emplace_back();

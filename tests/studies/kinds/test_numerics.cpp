@@ -101,8 +101,10 @@ TEST(Numerics, AnAccuracyChoosesTheForm)
     EXPECT_DOUBLE_EQ(stiff.run.step_fraction, RunSpec{}.step_fraction / 2);
     const std::string wrong = head + tail + "0.02\nstep_s = 0.001\n";
     EXPECT_THROW(parse_study(wrong, "a.toml"), InputError);
-    const std::string rest = head + tail + "0.02\n[outcome]\nfollow = \"rest\"\n"; // what no form here reaches
-    EXPECT_THROW(parse_study(rest, "a.toml"), InputError);
+    const std::string rest = head + tail + "0.02\n[outcome]\nfollow = \"rest\"\n"; // hands over what falls
+    EXPECT_EQ(parse_study(rest, "a.toml").contact.form, ContactForm::rigid);
+    const std::string dragged = head + tail + "0.02\n[mechanisms]\ndrag = { coefficient_n_s2_m2 = 1 }\n";
+    EXPECT_THROW(parse_study(dragged, "a.toml"), InputError); // what no form here reaches
     // what is written reads the same
     const Study once = parse_study(head + tail + "0.02\n", "a.toml");
     EXPECT_EQ(parse_study(once.text, "b.toml").text, once.text);
