@@ -42,7 +42,7 @@ gate_format() { sources '*.cpp' '*.hpp' '*.cu' | xargs -P "$jobs" -n 40 clang-fo
 
 gate_clang() {
     configure
-    ninja -C "$work/clang" -t commands all | grep -- ' -c ' | grep -vE 'version.cpp|cmake_pch.hxx.cxx' |
+    ninja -C "$work/clang" -t commands all | grep -- ' -c ' | grep -vE 'version.cpp|page_assets.cpp|cmake_pch.hxx.cxx' |
         sed -E "s| -o [^ ]+||; s| -M[DTF]+( [^ ]+\.(o\|d))?||g; s|^|cd $work/clang \&\& |; s|\$| -fsyntax-only|" | in_parallel
 }
 

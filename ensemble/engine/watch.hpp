@@ -8,6 +8,7 @@
 #include "kernels/trig.hpp"
 
 #include <cstdint>
+#include <initializer_list>
 
 namespace stylobate {
 
@@ -150,7 +151,7 @@ STYLOBATE_INLINE bool leaves_beds(const Topology& topology, const Bundle& b, int
             return true;
     }
     for (int j = topology.beds(); j < topology.joints; ++j) {
-        const auto [lower, upper] = topology.joint[j];
+        const int lower = topology.joint[j].lower, upper = topology.joint[j].upper;
         // half sizes of the boxes around them, and what the blocks can come nearer
         double reach_x = 0, reach_y = 0, turn = 0;
         for (const int i : {lower, upper}) {
