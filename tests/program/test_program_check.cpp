@@ -9,8 +9,8 @@ class Check : public Program {
 protected:
     Ended check(const Words& settings) const
     {
-        Words words{"check", STYLOBATE_SOURCE_DIR "/studies/inputs/rigid_column.toml", "--quiet", "--json", "--pilot",
-                    "16"};
+        const std::string study = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/rigid_column.toml";
+        Words words{"check", study, "--quiet", "--json", "--pilot", "16"};
         for (const std::string& setting : settings)
             words.insert(words.end(), {"--set", setting});
         return run(words);
