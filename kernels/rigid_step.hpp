@@ -37,7 +37,11 @@ inline constexpr int passes_of_all = 8, passes_of_one = 40;
 inline constexpr int rounds = 3, relaxation_sweeps = 10;
 /// Sweeps in frames, before each of which but the first the equations are solved, and the change of a rate at which
 /// they end, as a part of what gravity adds in a step.
-inline constexpr int frame_sweeps[] = {15, 35, 150};
+inline constexpr int frame_stages = 3;
+constexpr int frame_sweeps(int stage)
+{
+    return stage == 0 ? 15 : stage == 1 ? 35 : 150;
+}
 template <class Number>
 inline constexpr Number settled_rate = 1e-6;
 template <>
@@ -274,10 +278,8 @@ private:
         const Real half(0.5), zero(0.0), one(1.0);
         auto busy = half > zero;
         Real solved(0.0); // 1 where the equations' solution is taken
-        bool goes_on = false;
-        for (const int sweeps : detail::frame_sweeps) {
-            busy = relax(busy, sweeps, goes_on);
-            goes_on = true;
+        for (int stage = 0; stage < detail::frame_stages; ++stage) {
+            busy = relax(busy, detail::frame_sweeps(stage), stage > 0);
             if (!any(busy))
                 break;
             keep_relaxed();
