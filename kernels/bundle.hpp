@@ -156,7 +156,7 @@ struct OfRealizationExtension {
     };
 };
 
-/// Additional fields of a block of the rigid form (`rigid_step.hpp`).
+/// Additional fields of a block of the rigid form (`rigid/rigid_step.hpp`).
 struct OfRigidBlock {
     enum Field : int {
         change_x,        ///< change of the increment by the last step [m]; step

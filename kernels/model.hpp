@@ -10,7 +10,7 @@ enum class ContactForm : std::uint8_t {
     area,       ///< the paper's: overlap area, at its centroid
     two_corner, ///< springs at the two ends of the face
     points,     ///< Hertz-like springs at points along the face
-    rigid       ///< no springs: the ends of the face may not enter it (`rigid_step.hpp`)
+    rigid       ///< no springs: the ends of the face may not enter it (`rigid/rigid_step.hpp`)
 };
 
 /// What a restitution is a part of.

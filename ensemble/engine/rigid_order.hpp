@@ -1,5 +1,5 @@
 #pragma once
-/// In which order the rigid form eliminates the forces of the beds (`kernels/rigid_step.hpp`): found once for a
+/// In which order the rigid form eliminates the forces of the beds (`kernels/rigid/rigid_step.hpp`): found once for a
 /// topology.
 
 #include "kernels/topology.hpp"

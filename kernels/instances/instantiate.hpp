@@ -3,7 +3,7 @@
 /// compiled for one instruction set must not leak into functions that others share.
 
 #include "kernels/isa.hpp"
-#include "kernels/rigid_step.hpp"
+#include "kernels/rigid/rigid_step.hpp"
 #include "kernels/step.hpp"
 
 #include <type_traits>

@@ -6,7 +6,7 @@
 #include "kernels/mechanisms/points.hpp"
 #include "kernels/mechanisms/two_corner.hpp"
 #include "kernels/overlap.hpp"
-#include "kernels/rigid_step.hpp"
+#include "kernels/rigid/rigid_step.hpp"
 #include "kernels/scratch.hpp"
 #include "kernels/step.hpp"
 

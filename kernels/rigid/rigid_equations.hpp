@@ -1,7 +1,7 @@
 #pragma once
 /// The equations of all beds of the rigid form, and their direct solution. `THEORY.md` section 10 derives them.
 
-#include "kernels/rigid_bed.hpp"
+#include "kernels/rigid/rigid_bed.hpp"
 
 namespace stylobate {
 

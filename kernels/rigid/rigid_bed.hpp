@@ -2,7 +2,7 @@
 /// A bed of the rigid form: what a displacement of its two blocks does to the gaps at its ends and to the sliding, and
 /// what its forces do to the blocks. `THEORY.md` section 10 derives the formulas.
 
-#include "kernels/matrix3.hpp"
+#include "kernels/rigid/matrix3.hpp"
 #include "kernels/rows.hpp"
 
 namespace stylobate {
