@@ -7,9 +7,8 @@
 /// The study has rigid contacts and outcome.follow = "rest".
 
 #include "bench/processor.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/experiment.hpp"
-#include "ensemble/statics/compliant_form.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/markdown.hpp"
 
@@ -44,12 +43,12 @@ std::optional<HandOver> handed(const Study& study, const Realization& r, double 
 
 Outcome finish(const Study& study, const HandOver& from)
 {
-    const Realization pattern = compliant_form(from.realization);
-    LaneSet lanes(study, nullptr, kernels(Isa::scalar), pattern);
-    lanes.load(lane, from);
-    while (!lanes.outcome(lane))
-        lanes.advance();
-    return *lanes.outcome(lane);
+    CompliantSet set(study, nullptr, kernels(Isa::scalar), from.realization);
+    set.take(from);
+    Outcome outcome;
+    while (!set.empty())
+        set.advance([&](const Realization&, const Outcome& ended) { outcome = ended; });
+    return outcome;
 }
 
 struct Mean {

@@ -7,6 +7,27 @@
 
 namespace stylobate {
 
+/// A rectangle that is turned: sine and cosine without their signs.
+template <class Real>
+struct TurnedBox {
+    Real half_width, half_height, sine, cosine;
+};
+/// How far apart the upright boxes around two rectangles are; below 0 they have a part in common.
+template <class Real>
+struct BoxGap {
+    Real x, y;
+};
+/// @param x, y distances of their centres, without sign
+template <class Real>
+STYLOBATE_INLINE BoxGap<Real> box_gap(Real x, Real y, const TurnedBox<Real>& a, const TurnedBox<Real>& b)
+{
+    const Real reach_x =
+        fma(a.half_width, a.cosine, fma(a.half_height, a.sine, fma(b.half_width, b.cosine, b.half_height * b.sine)));
+    const Real reach_y =
+        fma(a.half_width, a.sine, fma(a.half_height, a.cosine, fma(b.half_width, b.sine, b.half_height * b.cosine)));
+    return {x - reach_x, y - reach_y};
+}
+
 template <class Real, class Mechanism, class Layout = Packed>
 class Neighbours : protected Rows<Real, Layout> {
 protected:
@@ -81,18 +102,18 @@ protected:
     STYLOBATE_INLINE auto meets(int joint, Real margin) const
     {
         const auto [lower, upper] = topology_.joint[joint];
-        const Real one(1.0);
-        const Real sl = abs_of(get(OfBlock::sine, lower)), cl = abs_of(one - get(OfBlock::versine, lower));
-        const Real su = abs_of(get(OfBlock::sine, upper)), cu = abs_of(one - get(OfBlock::versine, upper));
-        const Real bl = get(OfBlock::half_width, lower), hl = get(OfBlock::half_height, lower);
-        const Real bu = get(OfBlock::half_width, upper), hu = get(OfBlock::half_height, upper);
         const Real x = abs_of(get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower)));
         const Real y = abs_of(get(OfJoint::height, joint) + (centre_y(upper) - centre_y(lower)));
-        const Real reach_x = fma(bl, cl, fma(hl, sl, fma(bu, cu, hu * su)));
-        const Real reach_y = fma(bl, sl, fma(hl, cl, fma(bu, su, hu * cu)));
+        const BoxGap<Real> gap = box_gap(x, y, box(lower), box(upper));
         const Real carried = abs_of(get(OfJoint::spring, joint)) + abs_of(get(OfJoint::shear_force, joint)) +
                              abs_of(get(OfJoint::dashpot_force, joint));
-        return ((x - reach_x < margin) & (y - reach_y < margin)) | (carried > Real(0.0));
+        return ((gap.x < margin) & (gap.y < margin)) | (carried > Real(0.0));
+    }
+
+    STYLOBATE_INLINE TurnedBox<Real> box(int i) const
+    {
+        return {get(OfBlock::half_width, i), get(OfBlock::half_height, i), abs_of(get(OfBlock::sine, i)),
+                abs_of(Real(1.0) - get(OfBlock::versine, i))};
     }
 
     /// Lists the pairs that can meet before a block has strayed by the skin: those less than two skins apart.

@@ -1,6 +1,6 @@
 #include "ensemble/engine/executor.hpp"
 
-#include "ensemble/engine/handed_over.hpp"
+#include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/engine/slots.hpp"
 #include "ensemble/numerics/interval.hpp"
@@ -48,16 +48,16 @@ public:
     {
         guarded([this] {
             LaneSet lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
-            std::optional<HandedOver> handed_over = taker();
+            std::optional<CompliantSet> compliant = compliant_set();
             for (int lane = 0; lane < lanes.lanes(); ++lane)
                 refill(lanes, lane);
             while (lanes.active() > 0 && !stopped_) {
                 count_chunks(lanes.lanes(), lanes.active());
                 lanes.advance();
                 for (int lane = 0; lane < lanes.lanes(); ++lane)
-                    if (finish(lanes, lane, handed_over))
+                    if (finish(lanes, lane, compliant))
                         refill(lanes, lane);
-                step(handed_over, lanes.active() == 0);
+                step(compliant, lanes.active() == 0);
                 report(false);
             }
         });
@@ -72,16 +72,16 @@ public:
             const auto most =
                 static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
             SlotSet set(study_, record_, pattern_, device, slots, most);
-            std::optional<HandedOver> handed_over = taker();
+            std::optional<CompliantSet> compliant = compliant_set();
             tbb::parallel_for(0, set.slots(), [&](int slot) { refill(set, slot); });
             for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
                 set.advance();
                 count_chunks(set.used(), active);
                 for (const int slot : set.ended())
-                    finish(set, slot, handed_over);
+                    finish(set, slot, compliant);
                 tbb::parallel_for(std::size_t{0}, set.ended().size(),
                                   [&](std::size_t i) { refill(set, set.ended()[i]); });
-                step(handed_over, set.active() == 0);
+                step(compliant, set.active() == 0);
                 report(false);
             }
         });
@@ -113,24 +113,24 @@ private:
         handover_.fetch_add(1);
     }
 
-    /// Who takes what rigid contacts hand over.
-    std::optional<HandedOver> taker() const
+    /// What takes over what rigid contacts hand over.
+    std::optional<CompliantSet> compliant_set() const
     {
-        std::optional<HandedOver> taker;
+        std::optional<CompliantSet> set;
         if (pattern_.form == ContactForm::rigid)
-            taker.emplace(study_, record_, kernels_, pattern_);
-        return taker;
+            set.emplace(study_, record_, kernels_, pattern_);
+        return set;
     }
 
     /// Delivers what has ended, and passes on what is handed over.
     /// @return whether the lane has done with its realization
     template <class Lanes>
-    bool finish(const Lanes& lanes, int lane, std::optional<HandedOver>& handed_over)
+    bool finish(const Lanes& lanes, int lane, std::optional<CompliantSet>& compliant)
     {
         if (lanes.outcome(lane))
             deliver(lanes.realization(lane), *lanes.outcome(lane));
         else if (lanes.handed(lane))
-            handed_over->take(*lanes.handed(lane));
+            compliant->take(*lanes.handed(lane));
         else
             return false;
         return true;
@@ -138,12 +138,12 @@ private:
 
     /// Steps what was handed over while there is a register of it.
     /// @param all to the end of the last one
-    void step(std::optional<HandedOver>& handed_over, bool all)
+    void step(std::optional<CompliantSet>& compliant, bool all)
     {
-        while (handed_over && !handed_over->empty() && (all || handed_over->full()) && !stopped_) {
-            handed_over->advance(
+        while (compliant && !compliant->empty() && (all || compliant->full()) && !stopped_) {
+            compliant->advance(
                 [this](const Realization& realization, const Outcome& outcome) { deliver(realization, outcome); });
-            count_chunks(handed_over->lanes(), handed_over->active());
+            count_chunks(compliant->lanes(), compliant->active());
             report(false);
         }
     }

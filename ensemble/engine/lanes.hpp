@@ -118,7 +118,7 @@ public:
     /// The outcome of a realization that has ended.
     const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
     /// What has become of one of the rigid form whose blocks are about to meet otherwise than at beds: it goes on in
-    /// another set (`handed_over.hpp`).
+    /// another set (`compliant_set.hpp`).
     const std::optional<HandOver>& handed(int lane) const { return places_[static_cast<std::size_t>(lane)].handed; }
     /// The same, of a realization of the rigid form that still runs.
     HandOver hand_over(int lane) const;

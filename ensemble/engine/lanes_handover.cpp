@@ -1,4 +1,4 @@
-/// How a realization goes from rigid contacts to contacts that yield (`lanes.hpp`, `handed_over.hpp`).
+/// How a realization goes from rigid contacts to contacts that yield (`lanes.hpp`, `compliant_set.hpp`).
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/statics/compliant_form.hpp"

@@ -4,11 +4,11 @@
 /// would change anything.
 
 #include "kernels/bundle.hpp"
+#include "kernels/neighbours.hpp"
 #include "kernels/rows.hpp"
 #include "kernels/trig.hpp"
 
 #include <cstdint>
-#include <initializer_list>
 
 namespace stylobate {
 
@@ -152,23 +152,21 @@ STYLOBATE_INLINE bool leaves_beds(const Topology& topology, const Bundle& b, int
     }
     for (int j = topology.beds(); j < topology.joints; ++j) {
         const int lower = topology.joint[j].lower, upper = topology.joint[j].upper;
-        // half sizes of the boxes around them, and what the blocks can come nearer
-        double reach_x = 0, reach_y = 0, turn = 0;
-        for (const int i : {lower, upper}) {
-            const double sine = abs_of(b.at(OfBlock::sine, i, lane)),
-                         cosine = abs_of(1 - b.at(OfBlock::versine, i, lane));
-            const double half_width = b.at(OfBlock::half_width, i, lane),
-                         half_height = b.at(OfBlock::half_height, i, lane);
-            reach_x += half_width * cosine + half_height * sine;
-            reach_y += half_width * sine + half_height * cosine;
-            turn += (half_width + half_height) * abs_of(b.at(OfBlock::dtheta, i, lane));
-        }
+        const auto box = [&](int i) {
+            return TurnedBox<double>{b.at(OfBlock::half_width, i, lane), b.at(OfBlock::half_height, i, lane),
+                                     abs_of(b.at(OfBlock::sine, i, lane)), abs_of(1 - b.at(OfBlock::versine, i, lane))};
+        };
+        const auto turns_by = [&](int i) { // the path of its corners
+            return (b.at(OfBlock::half_width, i, lane) + b.at(OfBlock::half_height, i, lane)) *
+                   abs_of(b.at(OfBlock::dtheta, i, lane));
+        };
         const auto difference = [&](OfBlock::Field f) { return b.at(f, upper, lane) - b.at(f, lower, lane); };
-        const double margin = 1e-3 * b.at(OfRealization::skin, lane) + ahead * turn;
-        const double x = abs_of(b.at(OfJoint::reference_x, j, lane) + difference(OfBlock::x)) - reach_x;
-        const double y = abs_of(b.at(OfJoint::height, j, lane) + difference(OfBlock::y)) - reach_y;
-        if (x < margin + ahead * abs_of(difference(OfBlock::dx)) &&
-            y < margin + ahead * abs_of(difference(OfBlock::dy)))
+        const BoxGap<double> gap =
+            box_gap(abs_of(b.at(OfJoint::reference_x, j, lane) + difference(OfBlock::x)),
+                    abs_of(b.at(OfJoint::height, j, lane) + difference(OfBlock::y)), box(lower), box(upper));
+        const double margin = 1e-3 * b.at(OfRealization::skin, lane) + ahead * (turns_by(lower) + turns_by(upper));
+        if (gap.x < margin + ahead * abs_of(difference(OfBlock::dx)) &&
+            gap.y < margin + ahead * abs_of(difference(OfBlock::dy)))
             return true;
     }
     return false;

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"
+#include "ensemble/statics/extension.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
@@ -380,9 +381,7 @@ Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int
     const ContactSpec& contact = study_->contact;
     const Block& below = blocks[static_cast<std::size_t>(lower)];
     const Block& above = blocks[static_cast<std::size_t>(upper)];
-    const double mass = below.fixed   ? above.mass_kg
-                        : above.fixed ? below.mass_kg
-                                      : std::min(below.mass_kg, above.mass_kg);
+    const double mass = contact_mass_kg(below, above);
     const Ratios ratio = ratios(values);
     Joint joint;
     joint.lower = lower;
@@ -433,8 +432,7 @@ void Sampler::watch(const Values& values, Realization& realization) const
         const double wide = a.half_width_m + b.half_width_m - std::abs(a.x_m - b.x_m);
         const double high = a.half_height_m + b.half_height_m - std::abs(a.y_m - b.y_m);
         // the longest contact that the two can have: dashpots in proportion to the length reach their full value there
-        const double chord =
-            2 * std::min(std::max(a.half_width_m, a.half_height_m), std::max(b.half_width_m, b.half_height_m));
+        const double chord = longest_contact_m(a, b);
         // rounding of sums of lengths aside
         if (std::min(wide, high) > 1e-9 * chord)
             throw InputError(fmt::format("perturbation: in realization {} {} and {} overlap by {:.3g} m at rest. Lower "

@@ -1,5 +1,6 @@
 #include "ensemble/statics/compliant_form.hpp"
 
+#include "ensemble/model/study.hpp"
 #include "ensemble/statics/extension.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
@@ -15,32 +16,6 @@ namespace {
 constexpr double sunk_part = 1e-4;
 constexpr double shear_part = 0.5;
 constexpr double ratio_of_damping = 0.5;
-// Of the bound: as runs have it unless they say otherwise.
-constexpr double step_fraction = 0.8;
-// So that the rigid step's checks, and the middle of its steps, are at whole steps.
-constexpr double step_multiple = 8;
-
-/// The longest contact of a pair: of a bed its faces', of others the shorter one's longer side.
-double chord_m(const Realization& r, int j)
-{
-    if (j < r.beds())
-        return face_length_m(r, j);
-    const Joint& joint = r.joints[static_cast<std::size_t>(j)];
-    const auto longest = [&](int block) {
-        const Block& b = r.blocks[static_cast<std::size_t>(block)];
-        return std::max(b.half_width_m, b.half_height_m);
-    };
-    return 2 * std::min(longest(joint.lower), longest(joint.upper));
-}
-
-double effective_mass_kg(const Realization& r, const Joint& joint)
-{
-    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
-    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
-    if (lower.fixed)
-        return upper.mass_kg;
-    return upper.fixed ? lower.mass_kg : std::min(lower.mass_kg, upper.mass_kg);
-}
 
 } // namespace
 
@@ -55,7 +30,10 @@ Realization compliant_form(const Realization& rigid)
     const double K_n = line_load_n_m / (sunk_part * scales_of(r).least_size_m);
     for (int j = 0; j < static_cast<int>(r.joints.size()); ++j) {
         Joint& joint = r.joints[static_cast<std::size_t>(j)];
-        const double chord = chord_m(r, j), mass = effective_mass_kg(r, joint);
+        const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+        const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+        const double chord = j < r.beds() ? face_length_m(r, j) : longest_contact_m(lower, upper);
+        const double mass = contact_mass_kg(lower, upper);
         joint.normal_stiffness_n_m2 = K_n;
         joint.tangential_stiffness_n_m = shear_part * K_n * chord;
         joint.normal_damping_n_s_m = 2 * ratio_of_damping * std::sqrt(K_n * chord * mass);
@@ -63,8 +41,9 @@ Realization compliant_form(const Realization& rigid)
         joint.damping_chord_m = chord;
         joint.restitution = 0;
     }
-    const double longest_s = step_fraction * step_bound_to_rest(r).dt_s;
-    r.step_s = rigid.step_s / (step_multiple * std::ceil(rigid.step_s / (step_multiple * longest_s)));
+    // an even part, so that the middle of a rigid step is between two of these
+    const double longest_s = RunSpec{}.step_fraction * step_bound_to_rest(r).dt_s;
+    r.step_s = rigid.step_s / (2 * std::ceil(rigid.step_s / (2 * longest_s)));
     return r;
 }
 

@@ -85,6 +85,16 @@ double bed_load_n(const Realization& r, int bed)
     return mass * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
 }
 
+double longest_contact_m(const Block& a, const Block& b)
+{
+    return 2 * std::min(std::max(a.half_width_m, a.half_height_m), std::max(b.half_width_m, b.half_height_m));
+}
+
+double contact_mass_kg(const Block& a, const Block& b)
+{
+    return a.fixed ? b.mass_kg : b.fixed ? a.mass_kg : std::min(a.mass_kg, b.mass_kg);
+}
+
 double face_length_m(const Realization& r, int bed)
 {
     const Joint& joint = joint_of(r, bed);

@@ -23,6 +23,12 @@ double bed_load_n(const Realization& realization, int bed);
 /// Length that the faces of a bed have in common in the reference stack, without what `corner_loss` takes [m].
 double face_length_m(const Realization& realization, int bed);
 
+/// Longest contact that two blocks can have: the longer side of the smaller one [m].
+double longest_contact_m(const Block& a, const Block& b);
+
+/// Mass that the dashpots of a pair's contact are counted for: of the block that moves, or of the lighter one [kg].
+double contact_mass_kg(const Block& a, const Block& b);
+
 /// The elastic law of a bed.
 struct BedLaw {
     ContactForm form = ContactForm::area;

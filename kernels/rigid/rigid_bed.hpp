@@ -108,6 +108,31 @@ protected:
         return {get(B::free_x, i), get(B::free_y, i), get(B::free_theta, i)};
     }
 
+    STYLOBATE_INLINE void put_free(int i, const Planar<Real>& d) const
+    {
+        put(B::free_x, i, d.x);
+        put(B::free_y, i, d.y);
+        put(B::free_theta, i, d.theta);
+    }
+    /// Adds what forces of a bed do to the increments without them (`free`).
+    STYLOBATE_INLINE void push_free(int j, const V& force) const
+    {
+        const Bed b = bed(j);
+        const Pull p = pull(b, force);
+        if (is_free(b.lower))
+            put_free(b.lower, moved_by(b.lower, free(b.lower), p.lower));
+        put_free(b.upper, moved_by(b.upper, free(b.upper), p.upper));
+    }
+    /// The same to the increments with them (`next`).
+    STYLOBATE_INLINE void push_next(int j, const V& force) const
+    {
+        const Bed b = bed(j);
+        const Pull p = pull(b, force);
+        if (is_free(b.lower))
+            put_next(b.lower, moved_by(b.lower, next(b.lower), p.lower));
+        put_next(b.upper, moved_by(b.upper, next(b.upper), p.upper));
+    }
+
     const Topology& topology_;
 };
 

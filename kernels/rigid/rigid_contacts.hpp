@@ -50,6 +50,7 @@ protected:
     using Equations::moved_by;
     using Equations::next;
     using Equations::pull;
+    using Equations::push_next;
     using Equations::put;
     using Equations::put_next;
     using Equations::rates;
@@ -190,13 +191,8 @@ private:
     {
         for (int i = topology_.fixed; i < topology_.blocks; ++i)
             put_next(i, free(i));
-        for (int j = 0; j < topology_.beds(); ++j) {
-            const Bed b = bed(j);
-            const Pull p = pull(b, load_three(J::force, j));
-            if (is_free(b.lower))
-                put_next(b.lower, moved_by(b.lower, next(b.lower), p.lower));
-            put_next(b.upper, moved_by(b.upper, next(b.upper), p.upper));
-        }
+        for (int j = 0; j < topology_.beds(); ++j)
+            push_next(j, load_three(J::force, j));
         for (int j = 0; j < topology_.beds(); ++j)
             put_next_rates(j);
     }

@@ -73,14 +73,13 @@ private:
     using Contacts::bed;
     using Contacts::free;
     using Contacts::get;
-    using Contacts::is_free;
     using Contacts::last;
     using Contacts::load_three;
-    using Contacts::moved_by;
     using Contacts::next;
     using Contacts::part_late;
-    using Contacts::pull;
+    using Contacts::push_free;
     using Contacts::put;
+    using Contacts::put_free;
     using Contacts::put_next;
     using Contacts::put_own_response;
     using Contacts::put_response;
@@ -90,7 +89,6 @@ private:
     using B = OfRigidBlock;
     using typename Contacts::Bed;
     using J = OfRigidJoint;
-    using typename Contacts::Pull;
     using V = Vector3<Real>;
 
     STYLOBATE_INLINE void turn(int i, Real theta) const
@@ -186,28 +184,17 @@ private:
         const Real push = rest * (get(OfRealization::gravity_dx) - this->base(step));
         const Real fall = rest * get(OfRealization::gravity_dy);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            put(B::free_x, i, get(OfBlock::dx, i) + fma(share, get(B::change_x, i), push));
-            put(B::free_y, i, get(OfBlock::dy, i) + fma(share, get(B::change_y, i), fall));
-            put(B::free_theta, i, fma(share, get(B::change_theta, i), get(OfBlock::dtheta, i)));
+            put_free(i, {get(OfBlock::dx, i) + fma(share, get(B::change_x, i), push),
+                         get(OfBlock::dy, i) + fma(share, get(B::change_y, i), fall),
+                         fma(share, get(B::change_theta, i), get(OfBlock::dtheta, i))});
         }
         for (int i = 0; i < topology_.fixed; ++i)
             put_next(i, {Real(0.0), Real(0.0), Real(0.0)});
         if (expands())
-            for (int j = 0; j < topology_.beds(); ++j) {
-                const Bed b = bed(j);
-                const Pull p = pull(b, {{get(J::left_back, j), get(J::right_back, j), Real(0.0)}});
-                if (is_free(b.lower))
-                    put_free(b.lower, moved_by(b.lower, free(b.lower), p.lower));
-                put_free(b.upper, moved_by(b.upper, free(b.upper), p.upper));
-            }
+            for (int j = 0; j < topology_.beds(); ++j)
+                push_free(j, {{get(J::left_back, j), get(J::right_back, j), Real(0.0)}});
     }
     STYLOBATE_INLINE bool expands() const { return any(get(OfRigid::expands) > Real(0.5)); }
-    STYLOBATE_INLINE void put_free(int i, const Planar<Real>& d) const
-    {
-        put(B::free_x, i, d.x);
-        put(B::free_y, i, d.y);
-        put(B::free_theta, i, d.theta);
-    }
     /// What the forces of the beds have to achieve.
     STYLOBATE_INLINE void set_goals() const
     {
@@ -236,17 +223,11 @@ private:
         const Real late = part_late();
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             const Planar<Real> before = last(i), after = next(i);
-            put(B::free_x, i, late * (before.x - after.x));
-            put(B::free_y, i, late * (before.y - after.y));
-            put(B::free_theta, i, late * (before.theta - after.theta));
+            put_free(i,
+                     {late * (before.x - after.x), late * (before.y - after.y), late * (before.theta - after.theta)});
         }
-        for (int j = 0; j < topology_.beds(); ++j) {
-            const Bed b = bed(j);
-            const Pull p = pull(b, load_three(J::closing, j));
-            if (is_free(b.lower))
-                put_free(b.lower, moved_by(b.lower, free(b.lower), p.lower));
-            put_free(b.upper, moved_by(b.upper, free(b.upper), p.upper));
-        }
+        for (int j = 0; j < topology_.beds(); ++j)
+            push_free(j, load_three(J::closing, j));
     }
 
     /// Losses of the beds: each force's work is its force times the mean of the increments before and after it.

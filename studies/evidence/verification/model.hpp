@@ -4,8 +4,8 @@
 /// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
+#include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/statics/compliant_form.hpp"
 #include "ensemble/statics/static_state.hpp"
 
 #include <algorithm>
@@ -124,12 +124,12 @@ using Look = std::function<void(std::size_t index, const Snapshot&)>;
 /// Runs one that rigid contacts have handed over to its end.
 inline Outcome finish(const Study& study, const HandOver& handed, const Motion* record = nullptr)
 {
-    const Realization pattern = compliant_form(handed.realization);
-    LaneSet taker(study, record, kernels(best_isa()), pattern);
-    taker.load(0, handed);
-    while (!taker.outcome(0))
-        taker.advance();
-    return *taker.outcome(0);
+    CompliantSet set(study, record, kernels(best_isa()), handed.realization);
+    set.take(handed);
+    Outcome outcome;
+    while (!set.empty())
+        set.advance([&](const Realization&, const Outcome& ended) { outcome = ended; });
+    return outcome;
 }
 
 /// Runs each realization to its end, a register at a time, on the widest instruction set; outcomes in their order.

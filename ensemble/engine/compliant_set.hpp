@@ -1,6 +1,5 @@
 #pragma once
-/// What sets of the rigid form have handed over: it waits until there is a register of it, and is then stepped with
-/// contacts that yield until it ends.
+/// Steps what sets of the rigid form hand over, with contacts that yield, to its end: a register at a time.
 
 #include "ensemble/engine/lanes.hpp"
 
@@ -8,10 +7,10 @@
 
 namespace stylobate {
 
-class HandedOver {
+class CompliantSet {
 public:
     /// @param pattern of the set that hands over; other arguments as those of `LaneSet`
-    HandedOver(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);
+    CompliantSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern);
 
     void take(const HandOver& handed) { waiting_.push_back(handed); }
     /// Whether a register can be filled.
