@@ -113,11 +113,14 @@ STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
 
 /// The check after a chunk, as far as it is the same every time.
 /// @return whether the host is to check instead; `w` is then not to be used
+template <class Mechanism>
 STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 {
     w.steps += static_cast<std::uint64_t>(check_steps(m.topology));
-    return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) ||
-           leaves_beds(m.topology, m.bundle, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
+    if constexpr (Mechanism::form == ContactForm::rigid)
+        if (leaves_beds(m.topology, m.bundle, slot, w))
+            return true;
+    return !is_finite(m.topology, m.bundle, slot) || alarmed(m, slot, w) || unbalanced(m.topology, m.bundle, slot, w) ||
            watch_rest(m.topology, m.bundle, slot, false, w);
 }
 
@@ -148,7 +151,7 @@ struct AdvanceSlot {
             else
                 Stepper<double, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
             Watch next = w;
-            if (detail::asks(m, slot, next)) {
+            if (detail::asks<Mechanism>(m, slot, next)) {
                 m.state[slot] = SlotState::asks;
                 break;
             }
