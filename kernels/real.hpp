@@ -21,7 +21,7 @@
 #endif
 
 // For rare paths: not inlined into the rest. (Except on a device: a call needs the stepper in memory, and with it
-// every pointer to its rows. Inlined, no kernel has a stack frame; docs/gpu.md has the registers.)
+// every pointer to its rows. docs/gpu.md has the registers.)
 #if defined(__CUDACC__)
 #define STYLOBATE_APART STYLOBATE_INLINE
 #elif defined(__GNUC__)
