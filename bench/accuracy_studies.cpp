@@ -11,6 +11,7 @@
 ///                                                      runs, less contacts 256 times as stiff
 ///       [--draws N] [--study NAME] [--inputs FOLDER]
 
+#include "bench/mean.hpp"
 #include "bench/processor.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
@@ -155,7 +156,7 @@ Study study_of(const Place& place, const std::string& inputs, double strength, s
 }
 
 struct Answer {
-    std::vector<signed char> fallen; ///< (draws) 1, 0, or -1: invalid
+    Fallen fallen; ///< (draws)
     double probability = 0;
     double seconds = 0; ///< of processor time for each realization
     double step_s = 0;  ///< mean
@@ -176,12 +177,7 @@ Answer run(const Study& study)
     const std::clock_t begin = std::clock();
     run_ensemble(experiment, {best_isa(), 1}, plan, quiet);
     out.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / static_cast<double>(study.total());
-    double fallen = 0, valid = 0;
-    for (const signed char one : out.fallen) {
-        fallen += one > 0;
-        valid += one >= 0;
-    }
-    out.probability = fallen / valid;
+    out.probability = share_of(out.fallen).value();
     return out;
 }
 
@@ -201,14 +197,8 @@ double strength_of(const Place& place, const std::string& inputs, const Change& 
 /// How much larger the share of `a` is than that of `b`, and its standard error by the pairs.
 std::string difference(const Answer& a, const Answer& b)
 {
-    double sum = 0, apart = 0, valid = 0;
-    for (std::size_t i = 0; i < a.fallen.size(); ++i)
-        if (a.fallen[i] >= 0 && b.fallen[i] >= 0) {
-            sum += a.fallen[i] - b.fallen[i];
-            apart += a.fallen[i] != b.fallen[i];
-            ++valid;
-        }
-    return fmt::format("{:+.4f} ± {:.4f}", sum / valid, std::sqrt(apart - sum * sum / valid) / valid);
+    const Mean d = paired_difference(a.fallen, b.fallen);
+    return fmt::format("{:+.4f} ± {:.4f}", d.value(), d.error());
 }
 
 /// The limit of probabilities a, b, c at K_N / 4, K_N and 4 K_N, less that of `far`, of the same draws.
@@ -223,19 +213,16 @@ std::string extrapolated(const std::array<const Answer*, 3>& of, const Answer& f
     const std::array<double, 3> weight =
         exponent > 0 ? std::array<double, 3>{0, -part, 1 + part}
                      : std::array<double, 3>{c * c / (d * d), -2 * b * c / (d * d), b * b / (d * d)};
-    double n = 0, sum = 0, squares = 0;
+    Mean mean;
     for (std::size_t i = 0; i < far.fallen.size(); ++i) {
         if (std::min({of[0]->fallen[i], of[1]->fallen[i], of[2]->fallen[i], far.fallen[i]}) < 0)
             continue;
         double one = -far.fallen[i];
         for (std::size_t k = 0; k < 3; ++k)
             one += weight[k] * of[k]->fallen[i];
-        ++n;
-        sum += one;
-        squares += one * one;
+        mean.add(one);
     }
-    return fmt::format("{:+.4f} ± {:.4f}", of[2]->probability + part * c - far.probability,
-                       std::sqrt((squares / n - sum / n * sum / n) / n));
+    return fmt::format("{:+.4f} ± {:.4f}", of[2]->probability + part * c - far.probability, mean.error());
 }
 
 /// Three stiffnesses 4 times apart, their limit by several formulas, and one 256 times as stiff.

@@ -1,32 +1,42 @@
 #pragma once
-/// A number that counts what is done with it: the kernel is run on it once, so that the floating-point operations of a
-/// step are counted from the code itself.
+/// A number that counts what is done with it: the kernel is run on it, so that the floating-point operations of a step
+/// are counted from the code itself.
 
 #include "kernels/real.hpp"
+
+#include <cmath>
 
 namespace stylobate {
 
 struct OperationCounts {
     long add = 0, mul = 0, fma = 0, div = 0, sqrt = 0;
     long load = 0, store = 0;
+    long meant = 0;     ///< how often `any` asked whether a realization is meant, and it was
+    long subnormal = 0; ///< numbers so small that some processors are slow with them
     /// As is customary: a fused multiply-add is two, selections and minima are none.
     long flops() const { return add + mul + 2 * fma + div + sqrt; }
 };
 inline OperationCounts counted;
 
 struct Counted {
+    struct Mask {
+        bool v;
+        friend Mask operator&(Mask a, Mask b) { return {a.v && b.v}; }
+        friend Mask operator|(Mask a, Mask b) { return {a.v || b.v}; }
+        Mask operator!() const { return {!v}; }
+    };
     double v = 0;
     Counted() = default;
-    Counted(double value) : v(value) {}
+    Counted(double value) : v(value) { counted.subnormal += std::fpclassify(v) == FP_SUBNORMAL; }
     friend Counted operator+(Counted a, Counted b) { return ++counted.add, Counted(a.v + b.v); }
     friend Counted operator-(Counted a, Counted b) { return ++counted.add, Counted(a.v - b.v); }
     friend Counted operator*(Counted a, Counted b) { return ++counted.mul, Counted(a.v * b.v); }
     friend Counted operator/(Counted a, Counted b) { return ++counted.div, Counted(a.v / b.v); }
-    friend bool operator<(Counted a, Counted b) { return a.v < b.v; }
-    friend bool operator>(Counted a, Counted b) { return a.v > b.v; }
-    friend bool operator<=(Counted a, Counted b) { return a.v <= b.v; }
-    friend bool operator>=(Counted a, Counted b) { return a.v >= b.v; }
-    friend bool operator!=(Counted a, Counted b) { return a.v != b.v; }
+    friend Mask operator<(Counted a, Counted b) { return {a.v < b.v}; }
+    friend Mask operator>(Counted a, Counted b) { return {a.v > b.v}; }
+    friend Mask operator<=(Counted a, Counted b) { return {a.v <= b.v}; }
+    friend Mask operator>=(Counted a, Counted b) { return {a.v >= b.v}; }
+    friend Mask operator!=(Counted a, Counted b) { return {a.v != b.v}; }
 };
 
 template <>
@@ -37,6 +47,11 @@ struct Lanes<Counted> {
     static void store(double* to, Counted value) { ++counted.store, *to = value.v; }
 };
 
+inline bool any(Counted::Mask mask)
+{
+    counted.meant += mask.v;
+    return mask.v;
+}
 inline Counted fma(Counted a, Counted b, Counted c)
 {
     return ++counted.fma, Counted(fma(a.v, b.v, c.v));
@@ -49,9 +64,9 @@ inline Counted fms(Counted a, Counted b, Counted c)
 {
     return ++counted.fma, Counted(fms(a.v, b.v, c.v));
 }
-inline Counted select(bool mask, Counted yes, Counted no)
+inline Counted select(Counted::Mask mask, Counted yes, Counted no)
 {
-    return mask ? yes : no;
+    return mask.v ? yes : no;
 }
 inline Counted min_of(Counted a, Counted b)
 {
@@ -76,6 +91,14 @@ inline Counted round_of(Counted a)
 inline Counted turn_sign(Counted a, Counted sign)
 {
     return turn_sign(a.v, sign.v);
+}
+inline Counted power_of_two(Counted k)
+{
+    return power_of_two(k.v);
+}
+inline Counted exponent_of(Counted a)
+{
+    return exponent_of(a.v);
 }
 
 /// What a block costs in one step: the step counted on a bundle of one realization that rocks (`counted_step.cpp`).

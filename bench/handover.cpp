@@ -6,6 +6,7 @@
 ///
 /// The study has rigid contacts and outcome.follow = "rest".
 
+#include "bench/mean.hpp"
 #include "bench/processor.hpp"
 #include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/experiment.hpp"
@@ -50,19 +51,6 @@ Outcome finish(const Study& study, const HandOver& from)
         set.advance([&](const Realization&, const Outcome& ended) { outcome = ended; });
     return outcome;
 }
-
-struct Mean {
-    double sum = 0, squares = 0;
-    int count = 0;
-    void add(double x)
-    {
-        sum += x;
-        squares += x * x;
-        ++count;
-    }
-    double value() const { return sum / count; }
-    double error() const { return std::sqrt(std::max(0.0, squares / count - value() * value()) / count); }
-};
 
 } // namespace
 

@@ -7,6 +7,7 @@
 ///   stylobate_rigid_limit --stiff ...                                 of much stiffer contacts, far slower
 ///   stylobate_rigid_limit --cost ...                                  realizations per second of processor time
 
+#include "bench/mean.hpp"
 #include "bench/processor.hpp"
 #include "bench/rocking_cells.hpp"
 #include "ensemble/engine/executor.hpp"
@@ -72,7 +73,7 @@ std::vector<Law> laws(Table table)
 }
 
 struct Answer {
-    std::vector<signed char> fallen; ///< (draws) 1, 0, or -1: invalid
+    Fallen fallen;   ///< (draws)
     double rate = 0; ///< realizations of 10 s per second of processor time; one that falls counts by its time
 };
 
@@ -97,28 +98,17 @@ Answer run(const Study& study, int threads)
 /// The share of the valid ones that fell, and its standard error.
 std::string probability(const Answer& answer)
 {
-    double fallen = 0, valid = 0;
-    for (const signed char one : answer.fallen) {
-        fallen += one > 0;
-        valid += one >= 0;
-    }
-    const double p = fallen / valid;
-    const auto invalid = static_cast<double>(answer.fallen.size()) - valid;
-    return fmt::format("{:.4f} ± {:.4f}{}", p, std::sqrt(p * (1 - p) / valid),
+    const Mean share = share_of(answer.fallen);
+    const double invalid = static_cast<double>(answer.fallen.size()) - share.count;
+    return fmt::format("{:.4f} ± {:.4f}{}", share.value(), share.error(),
                        invalid > 0 ? fmt::format(" ({:.0f} invalid)", invalid) : "");
 }
 
 /// How much larger the share of `a` is than that of `b`, of the same draws, and its standard error by the pairs.
 std::string difference(const Answer& a, const Answer& b)
 {
-    double sum = 0, apart = 0, valid = 0;
-    for (std::size_t i = 0; i < a.fallen.size(); ++i)
-        if (a.fallen[i] >= 0 && b.fallen[i] >= 0) {
-            sum += a.fallen[i] - b.fallen[i];
-            apart += a.fallen[i] != b.fallen[i];
-            ++valid;
-        }
-    return fmt::format("{:+.4f} ± {:.4f}", sum / valid, std::sqrt(apart - sum * sum / valid) / valid);
+    const Mean d = paired_difference(a.fallen, b.fallen);
+    return fmt::format("{:+.4f} ± {:.4f}", d.value(), d.error());
 }
 
 } // namespace

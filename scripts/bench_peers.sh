@@ -14,6 +14,10 @@ set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 tests=(rocking restitution collapse)
+if [[ ${1:-} == --help || ${1:-} == -h ]]; then # before anything is installed
+    sed -n '2,/^set/s/^# \{0,1\}//p' scripts/bench_peers.sh | sed 's/^#$//'
+    exit 0
+fi
 if [[ ${1:-} == --only ]]; then
     if [[ $# -ne 2 || " ${tests[*]} " != *" $2 "* ]]; then
         echo "scripts/bench_peers.sh: --only takes one of: ${tests[*]}" >&2

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate::peers {
@@ -58,6 +59,21 @@ struct Engine {
     std::vector<std::string> settings; ///< of its solver; the first one is customary
     std::function<std::unique_ptr<World>(const Scene&, std::size_t setting, double step_s)> make;
 };
+
+/// An engine whose worlds are `AWorld(scene, setting, step_s)`.
+/// @param settings each has a `name`; they live as long as the engine
+template <class AWorld, class Settings>
+Engine engine_of(std::string name, std::string version, std::string planar, double customary_step_s, double ahead_steps,
+                 const Settings& settings)
+{
+    Engine engine{std::move(name), std::move(version), std::move(planar), customary_step_s, ahead_steps, {}, {}};
+    for (const auto& setting : settings)
+        engine.settings.emplace_back(setting.name);
+    engine.make = [&settings](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
+        return std::make_unique<AWorld>(scene, settings.at(setting), step_s);
+    };
+    return engine;
+}
 
 /// The engines that were found when this was built.
 std::vector<Engine> engines();

@@ -95,13 +95,7 @@ std::string impact_json(const std::vector<ImpactScan>& scans, const std::string&
                                                            .member("shaken", json_of(scan.reached[t]->shaken)));
         rows.item(row.member("scanned", scanned));
     }
-    return Json::object()
-               .member("stylobate", code_version())
-               .member("processor", processor)
-               .member("phases", impact_phases)
-               .member("results", rows)
-               .text() +
-           '\n';
+    return json_head(processor).member("phases", impact_phases).member("results", rows).text() + '\n';
 }
 
 } // namespace stylobate::peers

@@ -131,6 +131,11 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
     return text;
 }
 
+Json json_head(const std::string& processor)
+{
+    return Json::object().member("stylobate", code_version()).member("processor", processor);
+}
+
 std::string json(const std::vector<Result>& results, const std::string& processor)
 {
     Json rows = Json::list();
@@ -150,12 +155,7 @@ std::string json(const std::vector<Result>& results, const std::string& processo
                 row.member("within " + target_text(t), json_of(c, *r.reached[t]));
         rows.item(row.member("scanned", scanned));
     }
-    return Json::object()
-               .member("stylobate", code_version())
-               .member("processor", processor)
-               .member("results", rows)
-               .text() +
-           '\n';
+    return json_head(processor).member("results", rows).text() + '\n';
 }
 
 } // namespace stylobate::peers

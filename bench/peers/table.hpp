@@ -26,5 +26,7 @@ std::string engine_text(const Contender& contender);
 /// Member of the JSON for its dial, with the unit.
 std::string dial_key(const Contender& contender);
 Json json_of(const Columns& columns);
+/// Begins what a test found: what ran, and where.
+Json json_head(const std::string& processor);
 
 } // namespace stylobate::peers

@@ -108,6 +108,11 @@ std::string TomlKey::unit() const
 {
     if (type != KeyType::number && type != KeyType::numbers && type != KeyType::interval && type != KeyType::table)
         return {};
+    return unit_in_name(name);
+}
+
+std::string unit_in_name(std::string_view name)
+{
     for (const auto& [ending, unit] : unit_endings)
         if (name.ends_with(ending))
             return unit;

@@ -104,6 +104,9 @@ protected:
     void set_default(std::string toml);
 };
 
+/// The unit that the name of a quantity ends with: "m/s2" of "pga_m_s2"; empty: none.
+std::string unit_in_name(std::string_view name);
+
 /// The value of a key as TOML.
 std::string toml_text(double value);
 std::string toml_text(bool value);

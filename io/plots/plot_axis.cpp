@@ -61,6 +61,18 @@ double PlotAxis::unscaled(double position) const
     return log ? std::exp(position) : position;
 }
 
+double PlotAxis::in_unit(double value) const
+{
+    const double first = scaled(edges.front()), last = scaled(edges.back());
+    return (scaled(value) - first) / (last - first);
+}
+
+double PlotAxis::from_unit(double unit) const
+{
+    const double first = scaled(edges.front()), last = scaled(edges.back());
+    return unscaled(first + unit * (last - first));
+}
+
 std::string PlotAxis::commands(char letter) const
 {
     const std::string range = fmt::format("set {}range [{}:{}]\n", letter, edges.front(), edges.back());

@@ -14,6 +14,9 @@ struct PlotAxis {
     /// Position along the axis, for the arithmetic of distances, and back.
     double scaled(double value) const;
     double unscaled(double position) const;
+    /// The same with 0 at the first edge and 1 at the last one: where a value is in the picture's frame, and back.
+    double in_unit(double value) const;
+    double from_unit(double unit) const;
 
     /// gnuplot's commands for the scale, the range (first to last edge) and the tics of axis `letter`.
     std::string commands(char letter) const;

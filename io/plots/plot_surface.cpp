@@ -21,27 +21,18 @@ namespace {
 
 constexpr std::array<double, 3> contour_levels{0.05, 0.5, 0.95};
 
-/// A surface in the unit square: (0, 0) and (1, 1) are the corners of the picture's frame.
-struct UnitScale {
-    const PlotAxis& axis;
-    double from = axis.scaled(axis.edges.front());
-    double to = axis.scaled(axis.edges.back());
-    double in(double value) const { return (axis.scaled(value) - from) / (to - from); }
-    double out(double unit) const { return axis.unscaled(from + unit * (to - from)); }
-};
-
 /// The nodes of the contour grid along one axis: the cells' centres, and the frame, to which the outer cells reach.
-std::vector<double> contour_nodes(const UnitScale& scale)
+std::vector<double> contour_nodes(const PlotAxis& axis)
 {
     std::vector<double> nodes{0.0};
-    for (const double value : scale.axis.values)
-        nodes.push_back(scale.in(value));
+    for (const double value : axis.values)
+        nodes.push_back(axis.in_unit(value));
     nodes.push_back(1.0);
     return nodes;
 }
 
 /// The contour lines of one level in the unit square.
-std::vector<ContourLine> contours(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a, double level)
+std::vector<ContourLine> contours(const SurfaceTable& surface, const PlotAxis& f, const PlotAxis& a, double level)
 {
     const std::size_t nf = surface.frequency_hz.size();
     const std::size_t np = surface.pga_m_s2.size();
@@ -91,7 +82,7 @@ ContourPoint label_place(const std::vector<ContourLine>& own, const std::vector<
     return best;
 }
 
-std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a)
+std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const PlotAxis& f, const PlotAxis& a)
 {
     std::vector<SurfaceContour> all;
     for (const double level : contour_levels)
@@ -113,7 +104,7 @@ struct ContourCommands {
     std::string labels;
 };
 
-ContourCommands contour_commands(const SurfaceTable& surface, const UnitScale& f, const UnitScale& a)
+ContourCommands contour_commands(const SurfaceTable& surface, const PlotAxis& f, const PlotAxis& a)
 {
     ContourCommands commands;
     const std::vector<SurfaceContour> all = contours_on(surface, f, a);
@@ -121,14 +112,14 @@ ContourCommands contour_commands(const SurfaceTable& surface, const UnitScale& f
         commands.data += fmt::format("$contour{} << EOD\n", k);
         for (const ContourLine& line : all[k].lines) {
             for (const ContourPoint& p : line)
-                commands.data += fmt::format("{} {}\n", f.out(p.x), a.out(p.y));
+                commands.data += fmt::format("{} {}\n", f.from_unit(p.x), a.from_unit(p.y));
             commands.data += '\n';
         }
         commands.data += "EOD\n";
         if (!all[k].lines.empty())
             commands.labels +=
                 fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n",
-                            all[k].level, f.out(all[k].label.x), a.out(all[k].label.y));
+                            all[k].level, f.from_unit(all[k].label.x), a.from_unit(all[k].label.y));
     }
     return commands;
 }
@@ -149,7 +140,7 @@ std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface)
 {
     const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
     const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
-    return contours_on(surface, {frequency}, {pga});
+    return contours_on(surface, frequency, pga);
 }
 
 std::string describe_interval(const std::string& interval)
@@ -192,9 +183,7 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
     const std::string below_title = subtitle(surface);
     const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
     const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
-    const UnitScale f{frequency};
-    const UnitScale a{pga};
-    const ContourCommands contour = contour_commands(surface, f, a);
+    const ContourCommands contour = contour_commands(surface, frequency, pga);
 
     // Each cell reaches a pixel under its right and upper neighbours, drawn after it: no seams shine through.
     const double pixel = 1.0 / PictureSize{}.height;
@@ -209,8 +198,8 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
             continue;
         }
         cells += fmt::format("{} {} {} {} {} {} {}\n", frequency.values[i], pga.values[j], frequency.edges[i],
-                             f.out(f.in(frequency.edges[i + 1]) + pixel), pga.edges[j],
-                             a.out(a.in(pga.edges[j + 1]) + pixel), surface.probability[cell]);
+                             frequency.from_unit(frequency.in_unit(frequency.edges[i + 1]) + pixel), pga.edges[j],
+                             pga.from_unit(pga.in_unit(pga.edges[j + 1]) + pixel), surface.probability[cell]);
     }
     cells += "EOD\n";
 

@@ -1,6 +1,7 @@
 #include "io/store/result_labels.hpp"
 
 #include "io/files/hdf5_scales.hpp"
+#include "io/files/toml_key.hpp"
 #include "io/store/result_layout.hpp"
 
 #include <fmt/format.h>
@@ -200,15 +201,6 @@ std::optional<FullLabel> label_of(const std::string& path, std::size_t rank)
                 return of;
             }
     return std::nullopt;
-}
-
-/// Of a name that ends with its unit; the longest ending counts.
-std::string unit_in_name(const std::string& name)
-{
-    for (const auto& [ending, unit] : {std::pair{"_m_s2", "m/s2"}, {"_m_s", "m/s"}, {"_m", "m"}, {"_s", "s"}})
-        if (name.ends_with(ending))
-            return unit;
-    return {};
 }
 
 class Labels {

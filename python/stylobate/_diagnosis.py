@@ -4,7 +4,7 @@ import json
 import os
 
 from . import _core
-from ._study import Study, study_of
+from ._study import Study, study_of, whole_number
 
 
 class Diagnosis:
@@ -65,6 +65,8 @@ def diagnose(campaign, study=None, *, nulls=192, seed=1, threads=0, simd="auto",
     simulated.
     """
     start = None if study is None else study_of(study)._core
+    nulls, seed, threads = (whole_number(value, name) for value, name in
+                            ((nulls, "nulls"), (seed, "seed"), (threads, "threads")))
     found = _core.diagnose(os.fspath(campaign), start, nulls, seed, threads, simd,
                            "" if cache is None else os.fspath(cache), progress)
     return None if found is None else Diagnosis(found)

@@ -1,11 +1,10 @@
 """What became of the realizations of a study."""
 
-import operator
 import os
 
 from . import _core, _pictures
 from ._replay import Replay
-from ._study import Study, _settings
+from ._study import Study, _settings, whole_number
 
 STATES = ("stood", "rocked", "slid", "collapsed", "invalid")
 REASONS = ("none", "not_finite", "energy")
@@ -211,13 +210,7 @@ class Result:
 
         settings: only {"excitation.file": path}, the present place of the study's record.
         """
-        try:
-            number = operator.index(index)
-        except TypeError:
-            number = -1
-        if number < 0:
-            raise _core.InputError(f"realization {index!r}: an index is a whole number, from 0 on")
-        return Replay(_core.follow(self._core, number, _settings(settings)))
+        return Replay(_core.follow(self._core, whole_number(index, "index"), _settings(settings)))
 
     def plot(self, ax=None, limit_state="collapse"):
         """Draws a surface (probability over frequency and PGA) or fragility curves with Matplotlib; returns the axes."""

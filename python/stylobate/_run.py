@@ -5,7 +5,7 @@ import warnings
 
 from . import _core
 from ._result import Result, TooManyInvalid
-from ._study import study_of
+from ._study import study_of, whole_number
 
 
 def run(study, output=None, *, threads=0, simd="auto", progress=None, record=None):
@@ -28,8 +28,7 @@ def run(study, output=None, *, threads=0, simd="auto", progress=None, record=Non
     """
     if record is not None and not isinstance(record, _core.Record):
         raise _core.InputError(f"record is a {type(record).__name__}; Record.read(path) reads one")
-    if threads < 0:
-        raise _core.InputError(f"threads = {threads} is below 0. 0: as many as the process may use")
+    threads = whole_number(threads, "threads")
     core = study_of(study)._core
     experiment = _core.Experiment(core) if record is None else _core.Experiment(core, record)
     for warning in experiment.warnings():

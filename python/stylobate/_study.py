@@ -1,5 +1,6 @@
 """Studies."""
 
+import operator
 import os
 
 from . import _core, _toml
@@ -39,9 +40,10 @@ class Study:
 
     def describe(self):
         """What is run, in a few lines: kind, number of realizations, structure, contacts, excitation, what is drawn."""
-        lines = [("Kind", self.kind), ("Realizations", str(self.realizations)), ("Seed", str(self.seed))]
-        width = max(len(name) for name, _ in lines + self._core.summary())
-        return "\n".join(f"{name:<{width}}  {text}" for name, text in lines + self._core.summary())
+        lines = [("Kind", self.kind), ("Realizations", str(self.realizations)), ("Seed", str(self.seed)),
+                 *self._core.summary()]
+        width = max(len(name) for name, _ in lines)
+        return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
 
     @property
     def text(self):
@@ -85,6 +87,17 @@ def _from_text(text):
 def _settings(settings):
     """As the library takes them: "KEY=VALUE"."""
     return [f"{key}={_toml.value(value, key)}" for key, value in (settings or {}).items()]
+
+
+def whole_number(value, name):
+    """An int from Python's or NumPy's. `name` is for the message."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = -1
+    if number < 0:
+        raise _core.InputError(f"{name} = {value!r} is not a whole number, from 0 on")
+    return number
 
 
 def study_of(given):

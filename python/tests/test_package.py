@@ -110,6 +110,8 @@ def test_diagnosis_of_a_campaign(folder):
 
 def test_a_campaign_that_is_none_has_the_message_of_the_program(folder):
     said = program("diagnose", "nothing.h5", status=2)
+    with pytest.raises(stylobate.InputError, match="nulls = -1 is not a whole number"):
+        stylobate.diagnose("nothing.h5", nulls=-1)
     with pytest.raises(stylobate.InputError) as error:
         stylobate.diagnose("nothing.h5")
     assert f"stylobate: {error.value}\n" == said

@@ -176,17 +176,15 @@ Json form_json(const FormCalibration& form)
 
 void print_json(const Calibration& c, const std::string& results, const std::string& study)
 {
-    Json forms = Json::list(), notes = Json::list();
+    Json forms = Json::list();
     for (const FormCalibration& form : c.forms)
         forms.item(form_json(form));
-    for (const std::string& note : c.notes)
-        notes.item(note);
     Json json = Json::object();
     json.member("measured", c.measured)
         .member("evidence", c.from_outcomes ? "outcomes" : "histories")
         .member("best_form", form_name(c.forms[c.best].form))
         .member("forms", forms)
-        .member("notes", notes)
+        .member("notes", Json::list(c.notes))
         .member("parameter_sets", c.parameter_sets)
         .member("restored_sets", c.restored_sets)
         .member("simulations", c.simulations)

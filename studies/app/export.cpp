@@ -6,6 +6,7 @@
 #include "io/store/export_vtk.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/report/json.hpp"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -33,21 +35,28 @@ bool is_picture_format(std::string_view format)
     return format == "png" || format == "svg" || format == "pdf";
 }
 
-/// What is to be written: said by --to, or by the ending of the output.
-/// @throws InputError if nothing says it, or if the two contradict each other
-std::string format_of(const ExportOptions& wanted)
+/// The ending of the output, without its dot and in small letters.
+std::string ending_of(const ExportOptions& wanted)
 {
     std::string ending = fs::path(wanted.output).extension().string();
     ending.erase(0, ending.empty() ? 0 : 1);
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending;
+}
+
+/// What is to be written: said by --to, or by the ending of the output.
+/// @throws InputError if nothing says it, or if the two contradict each other
+std::string format_of(const ExportOptions& wanted)
+{
+    const std::string ending = ending_of(wanted);
     const std::string of_picture = "The file extension of a picture is .png, .svg or .pdf.";
     if (wanted.format.empty() && !is_picture_format(ending))
         throw InputError(
             wanted.output.empty()
                 ? "no output format is given: give --to png, svg, pdf, csv, nrml, json or vtk; html, gif, mp4 or "
                   "webm.\n  Or name a picture by -o: its file extension selects the format."
-                : fmt::format("-o {}: its file extension is not a known format.\n  {} Tables need --to csv, nrml or "
-                              "json; ParaView --to vtk.",
+                : fmt::format("-o {}: its file extension is not a known format.\n  {} Of a realization in motion it is "
+                              ".html, .gif, .mp4 or .webm. Tables need --to csv, nrml or json; ParaView --to vtk.",
                               wanted.output, of_picture));
     if (wanted.format.empty())
         return ending;
@@ -122,7 +131,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     if (asked.name == strip.name) {
         picture.name = fmt::format("strip_realization_{}", realization);
         picture.draw = [&](const std::string& title, const fs::path& to) {
-            strip_picture(results, options.isa(), realization, title, to);
+            strip_picture(results, followed_motion(results, options.isa(), realization), title, to);
         };
     } else if (asked.name == order.name) {
         picture.name = wanted.cell >= 0 ? fmt::format("order_cell_{}", wanted.cell) : "order";
@@ -223,8 +232,7 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
 /// @throws InputError if the two contradict each other
 std::string motion_format_of(const ExportOptions& wanted)
 {
-    std::string ending = fs::path(wanted.output).extension().string();
-    ending.erase(0, ending.empty() ? 0 : 1);
+    const std::string ending = ending_of(wanted);
     if (wanted.format.empty())
         return is_motion_format(ending) ? ending : "";
     if (!is_motion_format(wanted.format))
@@ -235,8 +243,9 @@ std::string motion_format_of(const ExportOptions& wanted)
     return wanted.format;
 }
 
-fs::path export_motion(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
-                       const std::string& format)
+/// @returns nothing if it was interrupted
+std::optional<fs::path> export_motion(const CommonOptions& options, const std::string& file,
+                                      const ExportOptions& wanted, const std::string& format)
 {
     const std::string of_picture = !wanted.limit.empty()         ? "--limit " + wanted.limit
                                    : !wanted.picture.empty()     ? "--picture " + wanted.picture
@@ -252,8 +261,11 @@ fs::path export_motion(const CommonOptions& options, const std::string& file, co
     const fs::path to = wanted.output.empty() ? beside(file, fmt::format("_realization_{}.{}", realization, format))
                                               : fs::path(wanted.output);
     check_output(file, to, options.force);
-    write_motion(results, options.isa(), realization, wanted.title, format, to);
-    return to;
+    Console console(options.quiet); // from here on an interrupt leaves no file
+    if (write_motion(results, options.isa(), realization, wanted.title, format, to, console))
+        return to;
+    console.warn(fmt::format("interrupted: '{}' was not written", to.string()));
+    return std::nullopt;
 }
 
 } // namespace
@@ -273,14 +285,17 @@ int export_command(const CommonOptions& options, const std::string& results, con
     check_not_input(results, wanted.output);
     const std::string motion = motion_format_of(wanted);
     const std::string format = motion.empty() ? format_of(wanted) : motion;
-    const fs::path written = !motion.empty()             ? export_motion(options, results, wanted, motion)
-                             : is_picture_format(format) ? export_picture(options, results, wanted, format)
-                             : format == "vtk"           ? export_vtk(options, results, wanted)
-                                                         : export_tables(options, results, wanted, format);
+    const std::optional<fs::path> written = !motion.empty() ? export_motion(options, results, wanted, motion)
+                                            : is_picture_format(format)
+                                                ? export_picture(options, results, wanted, format)
+                                            : format == "vtk" ? export_vtk(options, results, wanted)
+                                                              : export_tables(options, results, wanted, format);
+    if (!written)
+        return exit_interrupted;
     if (options.json)
-        fmt::print("{}\n", Json::object().member("written", written.string()).text());
+        fmt::print("{}\n", Json::object().member("written", written->string()).text());
     else if (!options.quiet)
-        fmt::print("{}\n", written.string());
+        fmt::print("{}\n", written->string());
     return exit_done;
 }
 

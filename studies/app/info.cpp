@@ -19,9 +19,6 @@ int info_command(const CommonOptions& options, const std::string& file)
     const std::vector<Isa> usable = usable_isas();
     const CudaDevices gpus = cuda_devices();
     if (options.json) {
-        Json devices = Json::list();
-        for (const std::string& name : gpus.names)
-            devices.item(name);
         Json sets = Json::list();
         for (const Isa isa : usable)
             sets.item(to_string(isa));
@@ -32,7 +29,7 @@ int info_command(const CommonOptions& options, const std::string& file)
                                .member("lanes", kernels(options.isa()).lanes)
                                .member("threads", options.thread_count())
                                .member("gpu", !gpus.names.empty())
-                               .member("gpus", devices)
+                               .member("gpus", Json::list(gpus.names))
                                .member("mpi", false)
                                .text());
         return exit_done;

@@ -81,16 +81,11 @@ public:
 
     void load(int lane, Realization realization, bool record)
     {
-        Place& place = places_[static_cast<std::size_t>(lane)];
-        place.steps = 0;
-        place.followed = {};
+        Trajectory trajectory;
         if (record)
-            begin(place.followed.trajectory, realization);
+            begin(trajectory, realization);
         lanes_.load(lane, std::move(realization));
-        place.recorder.reset();
-        if (record)
-            place.recorder.emplace(place.followed.trajectory, lanes_.motion(lane),
-                                   experiment_.study().output.trajectory_rate_hz, lanes_.realization(lane).step_s);
+        follow(lane, std::move(trajectory), record);
     }
 
     /// A chunk, from sample to sample of any of them: where the steps are parted changes no bit.
@@ -115,23 +110,45 @@ public:
 
     bool ended(int lane) const { return !lanes_.free(lane) && lanes_.done(lane); }
     /// Frees the lane of one that has ended. One that is handed over is followed to its end before.
-    FollowedRealization take(int lane)
+    /// @param go_on asked meanwhile; false: stop
+    /// @return nothing if it was stopped
+    std::optional<FollowedRealization> take(int lane, const std::function<bool()>& go_on)
     {
         Place& place = places_[static_cast<std::size_t>(lane)];
-        place.followed.realization = lanes_.realization(lane);
-        if (lanes_.handed(lane))
-            finish(*lanes_.handed(lane), place.recorder.has_value(), place.followed);
-        else
-            place.followed.outcome = *lanes_.outcome(lane);
+        FollowedRealization followed{lanes_.realization(lane), {}, std::move(place.trajectory)};
+        if (const std::optional<HandOver>& handed = lanes_.handed(lane)) {
+            Follower taker(experiment_, stepped_, isa_, compliant_form(handed->realization), 1);
+            taker.lanes_.load(0, *handed);
+            taker.follow(0, std::move(followed.trajectory), place.recorder.has_value());
+            std::optional<FollowedRealization> rest = taker.to_end(go_on);
+            if (!rest)
+                return std::nullopt;
+            followed.outcome = std::move(rest->outcome);
+            followed.trajectory = std::move(rest->trajectory);
+        } else {
+            followed.outcome = *lanes_.outcome(lane);
+        }
         place.recorder.reset();
         lanes_.clear(lane);
-        return std::move(place.followed);
+        return followed;
+    }
+
+    /// The one in the first lane alone. @return nothing if `go_on`, asked every 1024 steps, returned false
+    std::optional<FollowedRealization> to_end(const std::function<bool()>& go_on)
+    {
+        constexpr int chunks_between_questions = 1024 / chunk_steps;
+        for (int chunk = 0; !ended(0); ++chunk) {
+            if (chunk % chunks_between_questions == 0 && !go_on())
+                return std::nullopt;
+            advance();
+        }
+        return take(0, go_on);
     }
 
 private:
     struct Place {
-        FollowedRealization followed;
-        std::optional<Recorder> recorder; ///< of the trajectory that is recorded
+        Trajectory trajectory;
+        std::optional<Recorder> recorder; ///< of the trajectory, if it is recorded
         std::uint64_t steps = 0;          ///< of the realization, before this chunk
         bool due = false;                 ///< the next step has a sample
         Snapshot before;                  ///< and begins here
@@ -151,26 +168,16 @@ private:
         }
     }
 
-    void finish(const HandOver& handed, bool recorded, FollowedRealization& followed) const
+    /// Follows what has just been loaded.
+    void follow(int lane, Trajectory trajectory, bool record)
     {
-        constexpr int lane = 0;
-        LaneSet taker(stepped_, experiment_.record(), kernels(isa_), compliant_form(handed.realization));
-        taker.load(lane, handed);
-        Recorder recorder(followed.trajectory, taker.motion(lane), experiment_.study().output.trajectory_rate_hz,
-                          taker.realization(lane).step_s);
-        std::uint64_t now = taker.steps(lane);
-        for (int k = 0; !taker.outcome(lane); k %= chunk_steps) {
-            const auto left = static_cast<std::uint64_t>(chunk_steps - k);
-            const std::uint64_t wait = recorded ? recorder.next_due(now) - now : left;
-            const auto steps = static_cast<int>(std::clamp<std::uint64_t>(wait, 1, left));
-            const Snapshot before = wait == 0 ? taker.snapshot(lane) : Snapshot{};
-            taker.advance(k, k + steps);
-            if (wait == 0)
-                recorder.sample(now, before, taker.snapshot(lane));
-            k += steps;
-            now += static_cast<std::uint64_t>(steps);
-        }
-        followed.outcome = *taker.outcome(lane);
+        Place& place = places_[static_cast<std::size_t>(lane)];
+        place.steps = lanes_.steps(lane);
+        place.trajectory = std::move(trajectory);
+        place.recorder.reset();
+        if (record)
+            place.recorder.emplace(place.trajectory, lanes_.motion(lane), experiment_.study().output.trajectory_rate_hz,
+                                   lanes_.realization(lane).step_s);
     }
 
     /// How many steps may be done at once after the first `k` of the chunk: up to the step that has a sample, or that
@@ -226,10 +233,13 @@ public:
                 lanes.advance();
                 for (int lane = 0; lane < lanes.lanes(); ++lane)
                     if (lanes.ended(lane)) {
-                        deliver(number[static_cast<std::size_t>(lane)], lanes.take(lane));
+                        auto followed = lanes.take(lane, [&] { return go_on(lanes.lanes(), lanes.active()); });
+                        if (!followed)
+                            return;
+                        deliver(number[static_cast<std::size_t>(lane)], std::move(*followed));
                         refill(lane);
                     }
-                look(lanes.lanes(), lanes.active());
+                go_on(lanes.lanes(), lanes.active());
             }
         } catch (...) {
             const std::lock_guard lock(mutex_);
@@ -261,11 +271,12 @@ private:
         }
     }
 
-    void look(int lanes, int active)
+    bool go_on(int lanes, int active)
     {
         const std::unique_lock lock(mutex_, std::try_to_lock);
         if (lock.owns_lock() && plan_.stop && plan_.stop(static_cast<double>(active) / lanes))
             stopped_ = true;
+        return !stopped_;
     }
 
     const Experiment& experiment_;
@@ -288,13 +299,10 @@ FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Is
     const Study stepped = stepped_as(experiment.study(), index);
     Follower lanes(experiment, stepped, isa, r, 1);
     lanes.load(0, r, true);
-    constexpr int chunks_between_questions = 16;
-    for (int chunk = 0; !lanes.ended(0); ++chunk) {
-        if (go_on && chunk % chunks_between_questions == 0 && !go_on())
-            throw FollowStopped();
-        lanes.advance();
-    }
-    return lanes.take(0);
+    std::optional<FollowedRealization> followed = lanes.to_end([&] { return !go_on || go_on(); });
+    if (!followed)
+        throw FollowStopped();
+    return std::move(*followed);
 }
 
 bool follow_all(const Experiment& experiment, const RunOptions& options, const FollowPlan& plan)

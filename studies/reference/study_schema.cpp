@@ -15,14 +15,6 @@ namespace stylobate {
 
 namespace {
 
-Json words(const std::vector<std::string>& values)
-{
-    Json list = Json::list();
-    for (const std::string& value : values)
-        list.item(value);
-    return list;
-}
-
 Json number(const TomlKey& key, const char* type)
 {
     Json schema = Json::object();
@@ -49,7 +41,7 @@ Json any_of(const Json& one, const Json& other)
 Json one_of_words(const TomlKey& key)
 {
     Json schema = Json::object();
-    schema.member("type", "string").member("enum", words(key.words));
+    schema.member("type", "string").member("enum", Json::list(key.words));
     return schema;
 }
 
@@ -118,7 +110,7 @@ Json consequence_of(const Consequence& consequence)
     if (!consequence.unused.empty())
         then.member("properties", never(consequence.unused));
     if (!consequence.needed.empty())
-        then.member("required", words(consequence.needed));
+        then.member("required", Json::list(consequence.needed));
     return then;
 }
 
@@ -186,7 +178,7 @@ private:
             properties.member("claim", Json::object().member("description", "read by stylobate_claims"));
         schema.member("properties", properties).member("additionalProperties", false);
         if (!required.empty())
-            schema.member("required", words(required));
+            schema.member("required", Json::list(required));
         const Json conditions = path.empty() ? of_studies() : of_own_keys(table, path);
         if (conditions.text() != Json::list().text())
             schema.member("allOf", conditions);

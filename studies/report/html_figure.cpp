@@ -160,12 +160,6 @@ std::vector<std::size_t> thinned(const std::vector<double>& y, std::size_t most)
     return kept;
 }
 
-std::string svg_text(double x, double y, const char* anchor, const std::string& text, const std::string& more = "")
-{
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                       html_escaped(text));
-}
-
 std::string path(const std::string& data, const std::string& look)
 {
     return data.empty() ? "" : "<path d=\"" + data + "\" " + look + "/>\n";
@@ -250,11 +244,10 @@ public:
             const FigureSeries& s = figure_.series[i];
             const std::vector<std::size_t> kept = kept_of(s);
             const auto values = [&](const std::vector<double>& v) {
-                std::string text = "[";
+                std::vector<double> drawn;
                 for (std::size_t k = 0; k < kept.size() && v.size() == s.x.size(); ++k)
-                    text +=
-                        (k > 0 ? "," : "") + (std::isfinite(v[kept[k]]) ? fmt::format("{:.6g}", v[kept[k]]) : "null");
-                return text + "]";
+                    drawn.push_back(v[kept[k]]);
+                return Json::brief(drawn);
             };
             all.item(Json::object()
                          .member("name", s.name)
@@ -264,10 +257,10 @@ public:
                                          : s.kind == SeriesKind::bars ? "bars"
                                                                       : "values")
                          .member("colour", colour_number(i))
-                         .member_as_is("x", values(s.x))
-                         .member_as_is("y", values(s.kind == SeriesKind::band ? std::vector<double>{} : s.y))
-                         .member_as_is("low", values(s.low))
-                         .member_as_is("high", values(s.high)));
+                         .member("x", values(s.x))
+                         .member("y", values(s.kind == SeriesKind::band ? std::vector<double>{} : s.y))
+                         .member("low", values(s.low))
+                         .member("high", values(s.high)));
         }
         return Json::object()
             .member("x", axis_json(x_, figure_.x_label, figure_.x_ticks))
@@ -302,9 +295,6 @@ private:
 
     static Json axis_json(const Axis& axis, const std::string& label, const std::vector<std::string>& ticks)
     {
-        Json names = Json::list();
-        for (const std::string& tick : ticks)
-            names.item(tick);
         return Json::object()
             .member("from", axis.from)
             .member("to", axis.to)
@@ -312,7 +302,7 @@ private:
             .member("first", axis.first_px)
             .member("last", axis.last_px)
             .member("label", label)
-            .member("ticks", names);
+            .member("ticks", Json::list(ticks));
     }
 
     /// The samples that are drawn.
@@ -362,18 +352,14 @@ private:
     std::string axes(double top, double bottom)
     {
         std::string out;
-        const auto rule = [&](double x1, double y1, double x2, double y2, const char* kind) {
-            out += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1,
-                               x2, y2, kind);
-        };
         for (const double tic : y_.tics()) {
-            rule(left, y_.px(tic), right, y_.px(tic), "grid");
+            out += svg_rule(left, y_.px(tic), right, y_.px(tic), "grid");
             out += svg_text(left - 8, y_.px(tic) + 4.5, "end", fmt::format("{:.6g}", tic));
         }
         below_ = 30;
         if (figure_.x_ticks.empty()) {
             for (const double tic : x_.tics()) {
-                rule(x_.px(tic), bottom, x_.px(tic), bottom + 5, "axis");
+                out += svg_rule(x_.px(tic), bottom, x_.px(tic), bottom + 5, "axis");
                 out += svg_text(x_.px(tic), bottom + 20, "middle", fmt::format("{:.6g}", tic));
             }
         } else {
@@ -393,8 +379,8 @@ private:
             if (slanted)
                 below_ = 26 + 0.58 * longest;
         }
-        rule(left, bottom, right, bottom, "axis");
-        rule(left, top, left, bottom, "axis");
+        out += svg_rule(left, bottom, right, bottom, "axis");
+        out += svg_rule(left, top, left, bottom, "axis");
         if (!figure_.x_label.empty()) {
             below_ += 20;
             out += svg_text((left + right) / 2, bottom + below_ - 8, "middle", figure_.x_label);
@@ -540,6 +526,18 @@ private:
 };
 
 } // namespace
+
+std::string svg_text(double x, double y, const char* anchor, const std::string& text, const std::string& more)
+{
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                       html_escaped(text));
+}
+
+std::string svg_rule(double x1, double y1, double x2, double y2, const char* look)
+{
+    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
+                       look);
+}
 
 Html figure_svg(const Figure& figure, double height)
 {

@@ -1,6 +1,7 @@
 #include "studies/report/html_map.hpp"
 
 #include "io/plots/gnuplot.hpp"
+#include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
 
@@ -41,12 +42,6 @@ double px_y(double unit)
     return frame_top + (1 - unit) * frame_height;
 }
 
-std::string map_text(double x, double y, const char* anchor, const std::string& text, const std::string& more = "")
-{
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                       html_escaped(text));
-}
-
 std::string map_cells(const CellMap& map)
 {
     std::string out = "<g shape-rendering=\"crispEdges\">\n";
@@ -82,7 +77,7 @@ std::string map_lines(const CellMap& map)
                               "pointer-events=\"none\"/>\n",
                               x - 19, y - 9);
         labels +=
-            map_text(x, y + 4, "middle", one.label, " class=\"on-colour\" pointer-events=\"none\" font-size=\"12\"");
+            svg_text(x, y + 4, "middle", one.label, " class=\"on-colour\" pointer-events=\"none\" font-size=\"12\"");
     }
     return out + labels;
 }
@@ -97,9 +92,8 @@ std::string map_axes(const CellMap& map)
         if (x - last < 46)
             continue;
         last = x;
-        out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\" class=\"axis\"/>\n", x,
-                           px_y(0), px_y(0) + 5);
-        out += map_text(x, px_y(0) + 20, "middle", fmt::format("{:.3g}", map.x[i]));
+        out += svg_rule(x, px_y(0), x, px_y(0) + 5, "axis");
+        out += svg_text(x, px_y(0) + 20, "middle", fmt::format("{:.3g}", map.x[i]));
     }
     last = 1e9;
     for (std::size_t j = 0; j < map.y.size(); ++j) {
@@ -107,13 +101,12 @@ std::string map_axes(const CellMap& map)
         if (last - y < 22)
             continue;
         last = y;
-        out += fmt::format("<line x1=\"{1:.1f}\" x2=\"{2:.1f}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" class=\"axis\"/>\n", y,
-                           frame_left - 5, frame_left);
-        out += map_text(frame_left - 9, y + 4.5, "end", fmt::format("{:.3g}", map.y[j]));
+        out += svg_rule(frame_left - 5, y, frame_left, y, "axis");
+        out += svg_text(frame_left - 9, y + 4.5, "end", fmt::format("{:.3g}", map.y[j]));
     }
-    out += map_text(px_x(0.5), px_y(0) + 44, "middle", map.x_label);
+    out += svg_text(px_x(0.5), px_y(0) + 44, "middle", map.x_label);
     out +=
-        map_text(18, px_y(0.5), "middle", map.y_label, fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", px_y(0.5)));
+        svg_text(18, px_y(0.5), "middle", map.y_label, fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", px_y(0.5)));
     return out;
 }
 
@@ -126,8 +119,8 @@ std::string colour_scale(const CellMap& map)
                            px_y((k + 1.0) / steps), scale_width, frame_height / steps + 0.5,
                            viridis_colour((k + 0.5) / steps));
     for (int k = 0; k <= 5; ++k)
-        out += map_text(scale_left + scale_width + 6, px_y(0.2 * k) + 4.5, "start", fmt::format("{:.1f}", 0.2 * k));
-    return out + map_text(picture_width - 8, px_y(0.5), "middle", map.value_label,
+        out += svg_text(scale_left + scale_width + 6, px_y(0.2 * k) + 4.5, "start", fmt::format("{:.1f}", 0.2 * k));
+    return out + svg_text(picture_width - 8, px_y(0.5), "middle", map.value_label,
                           fmt::format(" transform=\"rotate(-90 {} {:.1f})\"", picture_width - 8, px_y(0.5)));
 }
 

@@ -9,6 +9,7 @@
 #include <concepts>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stylobate {
 
@@ -17,6 +18,29 @@ class Json {
 public:
     static Json object() { return Json('{', '}'); }
     static Json list() { return Json('[', ']'); }
+    /// A list of texts.
+    static Json list(const std::vector<std::string>& texts)
+    {
+        Json json = list();
+        for (const std::string& text : texts)
+            json.item(text);
+        return json;
+    }
+    /// Numbers for the script of a page, of which there are many: whole ones as they are, others with six significant
+    /// digits, null where one is not finite; no blanks.
+    template <class Number>
+    static Json brief(const std::vector<Number>& numbers)
+    {
+        Json json = list();
+        for (const Number number : numbers) {
+            json.body_ += json.body_.empty() ? "" : ",";
+            if constexpr (std::integral<Number>)
+                json.body_ += fmt::format("{}", number);
+            else
+                json.body_ += std::isfinite(number) ? fmt::format("{:.6g}", number) : "null";
+        }
+        return json;
+    }
 
     Json& member(std::string_view key, const Json& value) { return raw(key, value.text()); }
     Json& member(std::string_view key, std::string_view value) { return raw(key, quote(value)); }

@@ -8,27 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 namespace stylobate {
 namespace {
-
-/// With so many digits as a reader can use: exact for counts.
-template <class Value>
-std::string list_json(const std::vector<Value>& values)
-{
-    std::string text = "[";
-    for (const Value& value : values) {
-        if (text.size() > 1)
-            text += ",";
-        if (std::isfinite(static_cast<double>(value)))
-            text += fmt::format("{:.6g}", static_cast<double>(value));
-        else
-            text += "null";
-    }
-    return text + "]";
-}
 
 struct OfCell {
     std::array<std::uint64_t, 5> states{}; ///< in the order of `State`
@@ -49,7 +32,7 @@ void add_outcomes(Json& json, const std::vector<OfCell>& cells, const std::vecto
         for (const OfCell& cell : cells)
             counts.push_back(cell.states[static_cast<std::size_t>(state)]);
         if (state != State::invalid || std::ranges::any_of(counts, [](std::uint64_t n) { return n > 0; }))
-            outcomes.member_as_is(to_string(state), list_json(counts));
+            outcomes.member(to_string(state), Json::brief(counts));
     }
     json.member("outcomes", outcomes);
     Json first = Json::object(), times = Json::object();
@@ -62,10 +45,9 @@ void add_outcomes(Json& json, const std::vector<OfCell>& cells, const std::vecto
         for (const auto& [block, count] : cells[i].first)
             of_cell.item(Json::list().item(name_of(block, names)).item_as_is(fmt::format("{}", count)));
         first.member(fmt::format("{}", i), of_cell);
-        times.member_as_is(
-            fmt::format("{}", i),
-            list_json(std::vector<double>{sorted.front(), sorted_quantile(sorted, 0.5, QuantileDefinition::linear),
-                                          sorted.back()}));
+        times.member(fmt::format("{}", i),
+                     Json::brief(std::vector<double>{
+                         sorted.front(), sorted_quantile(sorted, 0.5, QuantileDefinition::linear), sorted.back()}));
     }
     json.member("first", first).member("times", times);
 }
@@ -76,14 +58,14 @@ std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& 
                        const std::vector<std::string>& block_names, const std::string& file)
 {
     Json json = Json::object();
-    json.member_as_is("frequency_hz", list_json(table.frequency_hz))
-        .member_as_is("pga_m_s2", list_json(table.pga_m_s2))
+    json.member("frequency_hz", Json::brief(table.frequency_hz))
+        .member("pga_m_s2", Json::brief(table.pga_m_s2))
         .member("interval", describe_interval(table.interval))
-        .member_as_is("trials", list_json(table.trials))
-        .member_as_is("collapses", list_json(table.collapses))
-        .member_as_is("probability", list_json(table.probability))
-        .member_as_is("lower", list_json(table.lower))
-        .member_as_is("upper", list_json(table.upper))
+        .member("trials", Json::brief(table.trials))
+        .member("collapses", Json::brief(table.collapses))
+        .member("probability", Json::brief(table.probability))
+        .member("lower", Json::brief(table.lower))
+        .member("upper", Json::brief(table.upper))
         .member("file", file);
     if (!table.method.empty()) {
         Json methods = Json::list();

@@ -23,9 +23,6 @@
 namespace stylobate {
 namespace {
 
-/// Without a choice by cells: so many of the first realizations, as on the page's pictures of the motion.
-constexpr std::uint64_t first_shown = 3;
-
 struct Choice {
     std::vector<std::uint64_t> indices; ///< in the order in which they are made
     std::size_t cells = 0;              ///< of a surface: in how many both fates occur; else 0
@@ -97,12 +94,9 @@ class Making {
 public:
     Making(const Results& results, Isa isa, const AnimationOptions& options, Observer& observer)
         : results_(results), isa_(isa), options_(options), observer_(observer),
-          stored_(results.reader().trajectory_indices())
+          stored_(results.reader().trajectory_indices()), stride_(animation_stride(results.study())),
+          kept_(animations_for(results.study()))
     {
-        const double rate = results.study().output.trajectory_rate_hz;
-        stride_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(rate / animation_rate_hz - 1e-9)));
-        kept_.rate_hz = rate / static_cast<double>(stride_);
-        kept_.stage = animation_stage(lay_out(results.study().structure).blocks);
     }
 
     KeptAnimations make(const Choice& choice)
@@ -221,7 +215,7 @@ private:
     const AnimationOptions& options_;
     Observer& observer_;
     const std::vector<std::uint64_t> stored_;
-    std::size_t stride_ = 1;
+    const std::size_t stride_;
     double mb_ = 0, last_mb_ = 0;
     KeptAnimations kept_;
 };
@@ -261,6 +255,20 @@ KeptAnimations keep_animations(const Results& results, Isa isa, const AnimationO
         none.warning = fmt::format("no animations: {}", error.what());
         return none;
     }
+}
+
+std::size_t animation_stride(const Study& study)
+{
+    return std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::ceil(study.output.trajectory_rate_hz / animation_rate_hz - 1e-9)));
+}
+
+KeptAnimations animations_for(const Study& study)
+{
+    KeptAnimations none;
+    none.stage = animation_stage(lay_out(study.structure).blocks);
+    none.rate_hz = study.output.trajectory_rate_hz / static_cast<double>(animation_stride(study));
+    return none;
 }
 
 std::string animations_json(const KeptAnimations& kept, const Study& study)

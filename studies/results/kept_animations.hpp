@@ -16,6 +16,9 @@ inline constexpr double usual_animation_mb = 3;        ///< of the animations of
 inline constexpr double usual_animation_seconds = 120; ///< for their realizations, which are run again
 inline constexpr double animation_rate_hz = 60;        ///< at most: the trajectories of a study may have more samples
 
+/// Of a study whose page draws its motion: so many of the first realizations, in pictures and in motion.
+inline constexpr std::uint64_t first_shown = 3;
+
 struct AnimationOptions {
     std::uint64_t each = 1; ///< so many that fell and so many that did not, of each cell that has both; 0: none at all
     double budget_mb = usual_animation_mb;    ///< 1e6 bytes of the page, > 0
@@ -41,6 +44,11 @@ struct KeptAnimations {
 /// @throws InputError if they are wanted and cannot be had: the study has no realizations that can be run again, the
 ///         results have no rows, the record is missing, or the budget is smaller than one animation
 KeptAnimations keep_animations(const Results& results, Isa isa, const AnimationOptions& options, Observer& observer);
+
+/// Without animations: the stage and the rate of those of a study.
+KeptAnimations animations_for(const Study& study);
+/// Every so many samples of a trajectory of the study an animation has one.
+std::size_t animation_stride(const Study& study);
 
 /// For the script of the page (player.js).
 std::string animations_json(const KeptAnimations& kept, const Study& study);

@@ -144,17 +144,21 @@ std::vector<std::string> ffmpeg_words(const Film& film, double rate_hz, const st
     return words;
 }
 
-void write_film(const FollowedMotion& motion, const Study& study, const std::string& format, const fs::path& file)
+bool write_film(const FollowedMotion& motion, const Study& study, const fs::path& ffmpeg, const std::string& format,
+                const fs::path& file, Observer& observer)
 {
-    const fs::path ffmpeg = find_tool("ffmpeg", "STYLOBATE_FFMPEG", "no film can be written", "ffmpeg");
     AtomicFile target(file); // refuses before any work is done
     const TemporaryFolder folder;
     const double rate_hz = format == "gif" ? 25 : 50; // hundredths of a second are the unit of time of a GIF
     const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
     const Film film(motion, blocks, rate_hz);
     std::size_t next = 0;
-    const int status = run_program(ffmpeg, ffmpeg_words(film, rate_hz, format), folder.path(), folder / "ffmpeg.log",
-                                   [&] { return next < film.frames() ? film.frame(next++).bytes() : std::string(); });
+    const int status =
+        run_program(ffmpeg, ffmpeg_words(film, rate_hz, format), folder.path(), folder / "ffmpeg.log", [&] {
+            return next < film.frames() && !observer.stop_requested() ? film.frame(next++).bytes() : std::string();
+        });
+    if (observer.stop_requested()) // a terminal interrupts ffmpeg too: its status says nothing then
+        return false;
     const std::string content = content_of(folder.path() / ("film." + format));
     if (status != 0 || content.empty()) {
         std::string said = content_of(folder / "ffmpeg.log").substr(0, 600);
@@ -165,18 +169,15 @@ void write_film(const FollowedMotion& motion, const Study& study, const std::str
     }
     target.write(content);
     target.commit();
+    return true;
 }
 
 /// The page of the player alone.
 std::string motion_page(const FollowedMotion& motion, const Results& results, std::uint64_t index,
                         const std::string& title)
 {
-    KeptAnimations kept;
-    kept.stage = animation_stage(lay_out(results.study().structure).blocks);
-    const double rate = results.study().output.trajectory_rate_hz;
-    const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(rate / animation_rate_hz - 1e-9)));
-    kept.rate_hz = rate / static_cast<double>(stride);
-    Animation animation = animation_of(motion.trajectory, kept.stage, stride);
+    KeptAnimations kept = animations_for(results.study());
+    Animation animation = animation_of(motion.trajectory, kept.stage, animation_stride(results.study()));
     animation.state = motion.state;
     animation.frequency_hz = motion.frequency_hz;
     animation.pga_m_s2 = motion.pga_m_s2;
@@ -196,21 +197,26 @@ bool is_motion_format(std::string_view format)
     return format == "html" || format == "gif" || format == "mp4" || format == "webm";
 }
 
-void write_motion(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
-                  const std::string& format, const fs::path& file)
+bool write_motion(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
+                  const std::string& format, const fs::path& file, Observer& observer)
 {
-    AtomicFile::check(file);
-    if (format != "html") // before the realization is run
-        (void)find_tool("ffmpeg", "STYLOBATE_FFMPEG", "no film can be written", "ffmpeg");
+    AtomicFile::check(file); // this and the search before the realization is run
+    const bool page = format == "html";
+    const fs::path ffmpeg =
+        page ? fs::path() : find_tool("ffmpeg", "STYLOBATE_FFMPEG", "no film can be written", "ffmpeg");
     const FollowedMotion motion = followed_motion(results, isa, index);
-    if (format == "html")
-        return write_whole(file, motion_page(motion, results, index, title));
+    if (observer.stop_requested())
+        return false;
+    if (page) {
+        write_whole(file, motion_page(motion, results, index, title));
+        return true;
+    }
     if (motion.trajectory.time_s.back() > longest_film_s)
         throw InputError(
             fmt::format("realization {} of {} lasts {:.0f} s; a film has at most {:.0f} s.\n  --to html has "
                         "no such limit.",
                         index, results.file(), motion.trajectory.time_s.back(), longest_film_s));
-    write_film(motion, results.study(), format, file);
+    return write_film(motion, results.study(), ffmpeg, format, file, observer);
 }
 
 } // namespace stylobate

@@ -1,6 +1,7 @@
 #pragma once
 /// One realization in motion, alone: as a page, or as a film by ffmpeg.
 
+#include "ensemble/model/observer.hpp"
 #include "kernels/isa.hpp"
 #include "studies/results/results.hpp"
 
@@ -18,11 +19,11 @@ bool is_motion_format(std::string_view format);
 /// no texts; it has 25 frames a second as GIF, else 50, and at most `longest_film_s` seconds.
 /// @param title of the page; empty: by the results and the realization
 /// @param file written whole or not at all
-/// @throws InputError if there is no such realization, if a film is asked for and ffmpeg is missing (or the program
-/// that
-///         STYLOBATE_FFMPEG names) or fails, if the realization is longer, and if the file cannot be written
-void write_motion(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
-                  const std::string& format, const std::filesystem::path& file);
+/// @returns false if the observer stopped it; there is no file then
+/// @throws InputError if there is no such realization, if a film is asked for and ffmpeg (or the program that
+///         STYLOBATE_FFMPEG names) is missing or fails, if the realization is longer, and if the file cannot be written
+bool write_motion(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
+                  const std::string& format, const std::filesystem::path& file, Observer& observer);
 
 inline constexpr double longest_film_s = 600;
 

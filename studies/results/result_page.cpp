@@ -238,13 +238,9 @@ private:
             page_.player();
         if (!animations_.words.empty())
             page_.note(animations_.words);
-        constexpr std::size_t most = 3;
-        const std::size_t shown = std::min(most, rows_.size());
-        for (std::size_t i = 0; i < shown; ++i) {
-            picture(fmt::format("Realization {}: {}.", rows_[i].index, to_string(rows_[i].outcome.state)),
-                    [&](const fs::path& png) { strip_picture(results_, isa_, rows_[i].index, "", png); });
-            history(rows_[i].index);
-        }
+        const std::size_t shown = std::min<std::size_t>(first_shown, rows_.size());
+        for (std::size_t i = 0; i < shown; ++i)
+            motion(rows_[i]);
         if (shown < rows_.size())
             page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
                                    "strip --realization I.",
@@ -379,13 +375,18 @@ private:
         page_.block(header_.study_toml);
     }
 
-    void history(std::uint64_t index)
+    /// Without its record a realization cannot be run again: the page says so and has all else.
+    void motion(const ResultRow& row)
     {
         try {
+            const FollowedMotion f = followed_motion(results_, isa_, row.index);
+            picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
+                    [&](const fs::path& png) { strip_picture(results_, f, "", png); });
             page_.figure(
-                figure_svg(history_figure(results_, isa_, index), 220),
-                fmt::format("Realization {}: displacement of the base, and of blocks against the base.", index));
-        } catch (const InputError&) { // the picture above has said why
+                figure_svg(history_figure(results_, f), 220),
+                fmt::format("Realization {}: displacement of the base, and of blocks against the base.", row.index));
+        } catch (const InputError& error) {
+            missing(fmt::format("Realization {}.", row.index), error);
         }
     }
 
@@ -396,9 +397,14 @@ private:
             draw(png);
             page_.figure(png_image(png, caption), caption);
         } catch (const InputError& error) {
-            warnings_.push_back(fmt::format("a picture is missing: {}", error.what()));
-            page_.note(fmt::format("{} This picture could not be drawn: {}", caption, error.what()));
+            missing(caption, error);
         }
+    }
+
+    void missing(const std::string& caption, const InputError& error)
+    {
+        warnings_.push_back(fmt::format("a picture is missing: {}", error.what()));
+        page_.note(fmt::format("{} This picture could not be drawn: {}", caption, error.what()));
     }
 
     const Results& results_;

@@ -68,11 +68,11 @@ FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t in
             f.realization.pga_m_s2};
 }
 
-Figure history_figure(const Results& results, Isa isa, std::uint64_t index)
+Figure history_figure(const Results& results, const FollowedMotion& motion)
 {
-    const Trajectory t = followed_motion(results, isa, index).trajectory;
+    const Trajectory& t = motion.trajectory;
     Figure figure;
-    figure.title = fmt::format("Displacements of realization {} over time", index);
+    figure.title = fmt::format("Displacements of realization {} over time", t.index);
     figure.x_label = "time [s]";
     figure.y_label = "displacement [m]";
     figure.series.push_back({"base", SeriesKind::line, t.time_s, t.base_x_m, {}, {}});
@@ -85,10 +85,10 @@ Figure history_figure(const Results& results, Isa isa, std::uint64_t index)
     return figure;
 }
 
-void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title, const fs::path& file)
+void strip_picture(const Results& results, const FollowedMotion& motion, const std::string& title, const fs::path& file)
 {
-    const FollowedMotion f = followed_motion(results, isa, index);
-    plot_strip(f.trajectory, f.fall_time_s, title.empty() ? strip_title(results, index) : title, file);
+    const Trajectory& t = motion.trajectory;
+    plot_strip(t, motion.fall_time_s, title.empty() ? strip_title(results, t.index) : title, file);
 }
 
 void order_picture(const Results& results, long long cell, const std::string& given_title, const fs::path& file)

@@ -1,5 +1,6 @@
 #pragma once
-/// The pictures that the results of every kind have: one realization over time, and the order of falls.
+/// One realization over time, for pictures, pages, films and other programs; and the pictures that the results of every
+/// kind have: that of a realization, and the order of falls.
 
 #include "kernels/isa.hpp"
 #include "studies/report/figure.hpp"
@@ -12,7 +13,7 @@
 
 namespace stylobate {
 
-/// A realization over time.
+/// A realization over time, wherever it comes from; its number is that of the trajectory.
 struct FollowedMotion {
     Trajectory trajectory;
     std::vector<double> fall_time_s; ///< (blocks)
@@ -23,16 +24,15 @@ struct FollowedMotion {
 /// @throws InputError if there is no such realization, or if none can be run again
 FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index);
 
-/// One realization over time: from the file's trajectory, or else run again.
+/// One realization over time.
 /// @param title empty: by the results, the realization and what became of it
-/// @throws InputError if there is no such realization, and as `plot_strip` does
-void strip_picture(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
+/// @throws InputError as `plot_strip` does
+void strip_picture(const Results& results, const FollowedMotion& motion, const std::string& title,
                    const std::filesystem::path& file);
 
 /// The same as curves of a page: displacement of the base, and of blocks against the base and their place in the
 /// reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as have colours.
-/// @throws InputError as `strip_picture` does, but for the drawing
-Figure history_figure(const Results& results, Isa isa, std::uint64_t index);
+Figure history_figure(const Results& results, const FollowedMotion& motion);
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations

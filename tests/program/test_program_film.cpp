@@ -97,6 +97,26 @@ TEST_F(FilmExport, ReportsWhatFfmpegReports)
     }
 }
 
+TEST_F(FilmExport, AnInterruptLeavesNothing)
+{
+    // the interrupt comes while the film is made; ffmpeg itself ends well
+    use("for last; do :; done\nkill -INT $PPID\ncat > /dev/null\necho film > \"$last\"\n");
+    const Words before = names();
+    const Ended ended = run({"export", "one.h5", "--to", "mp4"});
+    EXPECT_EQ(ended.status, 130) << testing::PrintToString(ended);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_NE(ended.err.find("interrupted: 'one_realization_0.mp4' was not written"), std::string::npos) << ended.err;
+    EXPECT_EQ(names(), before);
+}
+
+TEST_F(FilmExport, TheEndingMayBeInCapitals)
+{
+    use("for last; do :; done\ncat > /dev/null\necho film > \"$last\"\n");
+    EXPECT_EQ(run({"export", "one.h5", "-o", "one.MP4", "--quiet"}).status, 0);
+    EXPECT_EQ(read_bytes(folder / "one.MP4"), "film\n");
+    expect_refused({"export", "one.h5", "-o", "one.mov"}, {"one.mov", ".mp4", ".png"});
+}
+
 TEST_F(FilmExport, WithTheRealFfmpeg)
 {
     if (!find_program("ffmpeg"))

@@ -195,12 +195,7 @@ std::string collapse_json(const std::vector<CollapseScan>& scans, const std::vec
                                                                    .member("realizations_per_second", found->rate));
         rows.item(row.member("cells", of_cells));
     }
-    return Json::object()
-               .member("stylobate", code_version())
-               .member("processor", processor)
-               .member("results", rows)
-               .text() +
-           '\n';
+    return json_head(processor).member("results", rows).text() + '\n';
 }
 
 } // namespace stylobate::peers

@@ -85,18 +85,7 @@ private:
 
 Engine box2d_engine()
 {
-    Engine engine{"Box2D",
-                  STYLOBATE_BOX2D_VERSION,
-                  "planar by itself",
-                  1.0 / 60,
-                  0.5,
-                  {},
-                  [](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
-                      return std::make_unique<Box2dWorld>(scene, settings.at(setting), step_s);
-                  }};
-    for (const Setting& s : settings)
-        engine.settings.emplace_back(s.name);
-    return engine;
+    return engine_of<Box2dWorld>("Box2D", STYLOBATE_BOX2D_VERSION, "planar by itself", 1.0 / 60, 0.5, settings);
 }
 
 } // namespace stylobate::peers

@@ -97,18 +97,9 @@ private:
 
 Engine bullet_engine()
 {
-    Engine engine{"Bullet",
-                  std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100),
-                  "linear factor (1, 1, 0) and angular factor (0, 0, 1) of every body",
-                  1.0 / 60,
-                  0.5,
-                  {},
-                  [](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
-                      return std::make_unique<BulletWorld>(scene, settings.at(setting), step_s);
-                  }};
-    for (const Setting& s : settings)
-        engine.settings.emplace_back(s.name);
-    return engine;
+    return engine_of<BulletWorld>(
+        "Bullet", std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100),
+        "linear factor (1, 1, 0) and angular factor (0, 0, 1) of every body", 1.0 / 60, 0.5, settings);
 }
 
 } // namespace stylobate::peers

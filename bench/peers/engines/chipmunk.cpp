@@ -80,18 +80,7 @@ private:
 
 Engine chipmunk_engine()
 {
-    Engine engine{"Chipmunk",
-                  cpVersionString,
-                  "planar by itself",
-                  1.0 / 60,
-                  -0.5,
-                  {},
-                  [](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
-                      return std::make_unique<ChipmunkWorld>(scene, settings.at(setting), step_s);
-                  }};
-    for (const Setting& s : settings)
-        engine.settings.emplace_back(s.name);
-    return engine;
+    return engine_of<ChipmunkWorld>("Chipmunk", cpVersionString, "planar by itself", 1.0 / 60, -0.5, settings);
 }
 
 } // namespace stylobate::peers

@@ -107,18 +107,8 @@ private:
 
 Engine mujoco_engine()
 {
-    Engine engine{"MuJoCo",
-                  mj_versionString(),
-                  "two slides and one hinge for every body",
-                  0.002,
-                  0.5,
-                  {},
-                  [](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
-                      return std::make_unique<MujocoWorld>(scene, settings.at(setting), step_s);
-                  }};
-    for (const Setting& s : settings)
-        engine.settings.emplace_back(s.name);
-    return engine;
+    return engine_of<MujocoWorld>("MuJoCo", mj_versionString(), "two slides and one hinge for every body", 0.002, 0.5,
+                                  settings);
 }
 
 } // namespace stylobate::peers

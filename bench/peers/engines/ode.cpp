@@ -136,18 +136,8 @@ private:
 
 Engine ode_engine()
 {
-    Engine engine{"ODE",
-                  STYLOBATE_ODE_VERSION,
-                  "its planar joint (Plane2D) on every body",
-                  0.01,
-                  0.5,
-                  {},
-                  [](const Scene& scene, std::size_t setting, double step_s) -> std::unique_ptr<World> {
-                      return std::make_unique<OdeWorld>(scene, settings.at(setting), step_s);
-                  }};
-    for (const Setting& s : settings)
-        engine.settings.emplace_back(s.name);
-    return engine;
+    return engine_of<OdeWorld>("ODE", STYLOBATE_ODE_VERSION, "its planar joint (Plane2D) on every body", 0.01, 0.5,
+                               settings);
 }
 
 } // namespace stylobate::peers

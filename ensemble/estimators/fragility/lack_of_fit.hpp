@@ -21,7 +21,10 @@ struct LackOfFit {
     std::string says; ///< the finding in a sentence
 };
 
+/// Below this p-value a form is said not to hold, in words and in figures.
+inline constexpr double fit_significance = 0.05;
+
 /// @param significance at which the sentence states that the form does not hold
-LackOfFit lack_of_fit(const FittedCurve& curve, double significance = 0.05);
+LackOfFit lack_of_fit(const FittedCurve& curve, double significance = fit_significance);
 
 } // namespace stylobate

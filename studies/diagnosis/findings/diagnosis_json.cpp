@@ -14,14 +14,6 @@ double known(MaybeReal value)
     return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-Json texts(const std::vector<std::string>& list)
-{
-    Json json = Json::list();
-    for (const std::string& text : list)
-        json.item(text);
-    return json;
-}
-
 template <class T, class F>
 Json objects(const std::vector<T>& list, F object)
 {
@@ -105,7 +97,7 @@ Json gain(const ModelGain& g)
                     .member("error_after", known(g.error_after))
                     .member("low", known(g.low))
                     .member("high", known(g.high))
-                    .member("runs_left_out", texts(g.runs_left_out))
+                    .member("runs_left_out", Json::list(g.runs_left_out))
                     .member("unit", g.unit)
                     .member("floor", known(g.floor))
                     .member("text", g.text);
@@ -125,7 +117,7 @@ Json next_test(const NextTest& n)
 {
     return Json::object()
         .member("excitation", n.excitation)
-        .member("separates", texts(n.separates))
+        .member("separates", Json::list(n.separates))
         .member("text", n.text)
         .member("motions", objects(n.motions, [](const MotionChoice& m) {
                     return Json::object()
@@ -170,7 +162,7 @@ Json diagnosis_json(const Diagnosis& d)
     Json json = Json::object()
                     .member("verdict", to_string(d.verdict))
                     .member("causes", causes)
-                    .member("indistinguishable", texts(d.indistinguishable));
+                    .member("indistinguishable", Json::list(d.indistinguishable));
     add(json, "unexplained", d.unexplained, unexplained);
     json.member("wrong", objects(d.wrong, wrong));
     add(json, "gain", d.gain, gain);
@@ -188,8 +180,8 @@ Json diagnosis_json(const Diagnosis& d)
         .member("runs_used", d.runs_used)
         .member("code_version", d.code_version)
         .member("seed", d.seed)
-        .member("options", texts(d.options))
-        .member("data_findings", texts(d.data_findings))
+        .member("options", Json::list(d.options))
+        .member("data_findings", Json::list(d.data_findings))
         .member("base_tests", objects(d.base_tests, data_test))
         .member("sensor_tests", objects(d.sensor_tests, data_test))
         .member("baseline", objects(d.baseline, parameter))

@@ -49,7 +49,7 @@ FragilityFunction lognormal(const Fragility& f, const std::vector<const StateFra
     function.most = f.grid.back();
     for (const StateFragility* s : states) {
         function.states.push_back({value_of(s->curve.median), value_of(s->curve.dispersion), {}});
-        if (s->fit.p_value < 0.05)
+        if (s->fit.p_value < fit_significance)
             function.note += s->state.name + ": " + s->fit.says + " ";
     }
     return function;

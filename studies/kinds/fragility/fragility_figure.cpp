@@ -9,15 +9,12 @@ namespace stylobate {
 
 namespace {
 
-/// Below it the sentence of the test says that the lognormal form does not hold (`lack_of_fit`).
-constexpr double does_not_fit = 0.05;
-
 std::string legend_of(const StateFragility& s)
 {
     if (!has_curve(s))
         return s.state.describe + " (no curve)";
     return fmt::format("{} (lack of fit: p = {:.2g}{})", s.state.describe, s.fit.p_value,
-                       s.fit.p_value < does_not_fit ? ", does not fit" : "");
+                       s.fit.p_value < fit_significance ? ", does not fit" : "");
 }
 
 void add_state(const StateFragility& s, Figure& figure)
@@ -46,7 +43,7 @@ void add_state(const StateFragility& s, Figure& figure)
         monotone.y.push_back(stripe.monotone);
     }
     figure.series.push_back(std::move(shares));
-    if (!has_curve(s) || s.fit.p_value < does_not_fit)
+    if (!has_curve(s) || s.fit.p_value < fit_significance)
         figure.series.push_back(std::move(monotone));
 }
 

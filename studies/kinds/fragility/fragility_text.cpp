@@ -40,7 +40,7 @@ Json limits_json(const CurveEstimate& e)
 std::vector<std::string> remarks(const StateFragility& s)
 {
     std::vector<std::string> all = s.curve.says;
-    if (has_curve(s) && s.fit.p_value < 0.05)
+    if (has_curve(s) && s.fit.p_value < fit_significance)
         all.push_back(s.fit.says);
     if (s.stripes && s.stripes->p_monotone < 0.05)
         all.push_back(s.stripes->says);
@@ -137,10 +137,7 @@ Json state_json(const StateFragility& s)
                                   .member("upper", share.share_limits.upper));
         state.member("scatter", shares);
     }
-    Json says = Json::list();
-    for (const std::string& remark : remarks(s))
-        says.item(remark);
-    return state.member("says", says);
+    return state.member("says", Json::list(remarks(s)));
 }
 
 Json measure_json(const RankedMeasure& m)
@@ -174,9 +171,6 @@ Json fragility_json(const Fragility& f)
         states.item(state_json(s));
     for (const RankedMeasure& m : f.measures)
         measures.item(measure_json(m));
-    Json says = Json::list();
-    for (const std::string& line : f.says)
-        says.item(line);
     Json sequence = Json::list();
     for (const SequenceShare& s : f.sequence)
         sequence.item(Json::object()
@@ -192,7 +186,7 @@ Json fragility_json(const Fragility& f)
         .member("states", states)
         .member("measures", measures)
         .member("sequence", sequence)
-        .member("says", says);
+        .member("says", Json::list(f.says));
 }
 
 void fragility_section(const Fragility& f, HtmlPage& page)

@@ -202,9 +202,6 @@ Json sensitivity_json(const SensitivityTable& table)
         }
         outcomes.member(table.outcomes[o], outcome.member("factors", factors));
     }
-    Json remarks = Json::list();
-    for (const std::string& remark : sensitivity_remarks(table))
-        remarks.item(remark);
     return Json::object()
         .member("method", table.method)
         .member("interval", table.interval)
@@ -212,7 +209,7 @@ Json sensitivity_json(const SensitivityTable& table)
         .member("invalid_rows", table.invalid_rows)
         .member("inner", table.inner)
         .member("outcomes", outcomes)
-        .member("remarks", remarks);
+        .member("remarks", Json::list(sensitivity_remarks(table)));
 }
 
 Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome)

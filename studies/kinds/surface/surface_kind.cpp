@@ -63,10 +63,9 @@ HtmlTable cell_table(const SurfaceTable& surface)
 /// The edges of an axis' cells in the unit interval.
 std::vector<double> unit_edges(const PlotAxis& axis)
 {
-    const double from = axis.scaled(axis.edges.front()), to = axis.scaled(axis.edges.back());
     std::vector<double> edges;
     for (const double edge : axis.edges)
-        edges.push_back((axis.scaled(edge) - from) / (to - from));
+        edges.push_back(axis.in_unit(edge));
     return edges;
 }
 

@@ -1,7 +1,7 @@
 // The map of a surface: what is known of a cell under the pointer or under the keys; a click or Enter opens the cell.
-// Data: {frequency_hz, pga_m_s2, interval, trials, collapses, probability, lower, upper, [method], [outcomes: {state:
-// [counts]}, invalid, first: {cell: [[name, count]]}, times: {cell: [first, median, last]}], file, note}; arrays by cell,
-// frequency x PGAs + PGA.
+// Data: {frequency_hz, pga_m_s2, interval, trials, collapses, probability, lower, upper, file, [method], [outcomes:
+// {state: [counts]}, first: {cell: [[name, count]]}, times: {cell: [first, median, last]}]}; arrays by cell, frequency x
+// PGAs + PGA.
 
 class CellMap {
   constructor(drawing, data, store) {

@@ -1,6 +1,7 @@
 /// Empty lanes must not slow the realizations beside them: whatever a step does only where a realization asks for it,
 /// none of them asks for.
 
+#include "bench/counted.hpp"
 #include "bench/scenes.hpp"
 #include "ensemble/engine/lanes.hpp"
 #include "kernels/mechanisms/points.hpp"
@@ -12,95 +13,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 namespace stylobate {
-
-/// A number whose masks count how often a step asks whether a realization is meant by one, and it is.
-struct Asked {
-    static inline long yes = 0, subnormal = 0;
-    struct Mask {
-        bool v;
-        friend Mask operator&(Mask a, Mask b) { return {a.v && b.v}; }
-        friend Mask operator|(Mask a, Mask b) { return {a.v || b.v}; }
-        Mask operator!() const { return {!v}; }
-    };
-    double v = 0;
-    Asked() = default;
-    Asked(double value) : v(value) { subnormal += std::fpclassify(v) == FP_SUBNORMAL; }
-    friend Asked operator+(Asked a, Asked b) { return a.v + b.v; }
-    friend Asked operator-(Asked a, Asked b) { return a.v - b.v; }
-    friend Asked operator*(Asked a, Asked b) { return a.v * b.v; }
-    friend Asked operator/(Asked a, Asked b) { return a.v / b.v; }
-    friend Mask operator<(Asked a, Asked b) { return {a.v < b.v}; }
-    friend Mask operator>(Asked a, Asked b) { return {a.v > b.v}; }
-    friend Mask operator<=(Asked a, Asked b) { return {a.v <= b.v}; }
-    friend Mask operator>=(Asked a, Asked b) { return {a.v >= b.v}; }
-    friend Mask operator!=(Asked a, Asked b) { return {a.v != b.v}; }
-};
-
-template <>
-struct Lanes<Asked> {
-    using Number = double;
-    static constexpr int count = 1;
-    static Asked load(const double* from) { return *from; }
-    static void store(double* to, Asked value) { *to = value.v; }
-};
-
-inline bool any(Asked::Mask mask)
-{
-    Asked::yes += mask.v;
-    return mask.v;
-}
-inline Asked fma(Asked a, Asked b, Asked c)
-{
-    return fma(a.v, b.v, c.v);
-}
-inline Asked fnma(Asked a, Asked b, Asked c)
-{
-    return fnma(a.v, b.v, c.v);
-}
-inline Asked fms(Asked a, Asked b, Asked c)
-{
-    return fms(a.v, b.v, c.v);
-}
-inline Asked select(Asked::Mask mask, Asked yes, Asked no)
-{
-    return mask.v ? yes : no;
-}
-inline Asked min_of(Asked a, Asked b)
-{
-    return min_of(a.v, b.v);
-}
-inline Asked max_of(Asked a, Asked b)
-{
-    return max_of(a.v, b.v);
-}
-inline Asked abs_of(Asked a)
-{
-    return abs_of(a.v);
-}
-inline Asked sqrt_of(Asked a)
-{
-    return sqrt_of(a.v);
-}
-inline Asked round_of(Asked a)
-{
-    return round_of(a.v);
-}
-inline Asked turn_sign(Asked a, Asked sign)
-{
-    return turn_sign(a.v, sign.v);
-}
-inline Asked power_of_two(Asked k)
-{
-    return power_of_two(k.v);
-}
-inline Asked exponent_of(Asked a)
-{
-    return exponent_of(a.v);
-}
 
 namespace {
 
@@ -111,11 +26,11 @@ template <ContactForm form>
 void run_form(const Topology& topology, const Bundle& bundle)
 {
     if constexpr (form == ContactForm::rigid)
-        run_rigid<Asked, Here>(topology, bundle, 0, chunk_steps);
+        run_rigid<Counted, Here>(topology, bundle, 0, chunk_steps);
     else if (topology.model.mechanisms)
-        run_steps<Asked, Extended<form>>(topology, bundle, 0, chunk_steps);
+        run_steps<Counted, Extended<form>>(topology, bundle, 0, chunk_steps);
     else
-        run_steps<Asked, Plain<form>>(topology, bundle, 0, chunk_steps);
+        run_steps<Counted, Plain<form>>(topology, bundle, 0, chunk_steps);
 }
 
 /// An empty lane of a study is stepped for two chunks. @param used whether there was a realization in it before
@@ -138,7 +53,7 @@ void expect_nothing_asked(const Study& study, bool extended, bool used)
     lanes.advance();
     lanes.advance();
     lanes.clear(0);
-    Asked::yes = Asked::subnormal = 0;
+    counted = {};
     for (int chunk = 0; chunk < 2; ++chunk)
         switch (topology.model.form) {
         case ContactForm::area:
@@ -154,8 +69,8 @@ void expect_nothing_asked(const Study& study, bool extended, bool used)
             run_form<ContactForm::rigid>(topology, bundle);
             break;
         }
-    EXPECT_EQ(Asked::yes, 0);
-    EXPECT_EQ(Asked::subnormal, 0); // which some processors are slow with
+    EXPECT_EQ(counted.meant, 0);
+    EXPECT_EQ(counted.subnormal, 0); // which some processors are slow with
 }
 
 TEST(EmptyLanes, AskForNothingInAnyModelAndStructure)

@@ -2,6 +2,7 @@
 
 #include "bench/scenes.hpp"
 #include "ensemble/engine/lanes.hpp"
+#include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/trajectory.hpp"
 
 #include <gtest/gtest.h>
@@ -12,27 +13,38 @@
 namespace stylobate {
 namespace {
 
-/// Step by step in one lane: the position at every step, and between two steps on the straight line.
+/// Step by step in one lane: the position at every step, and between two steps on the straight line. One that is handed
+/// over goes on in another set.
 std::vector<double> positions_alone(const Study& study, const Realization& r, Outcome& outcome)
 {
-    LaneSet lane(study, nullptr, kernels(Isa::scalar), r);
-    lane.load(0, r);
     std::vector<double> x_m;
     const double rate_hz = study.output.trajectory_rate_hz;
-    const std::size_t blocks = static_cast<std::size_t>(r.drums);
     std::size_t samples = 0;
-    for (std::uint64_t n = 0; !lane.outcome(0); ++n) {
-        const Snapshot before = lane.snapshot(0);
-        const int k = static_cast<int>(n % chunk_steps);
-        lane.advance(k, k + 1);
-        const Snapshot after = lane.snapshot(0);
-        for (; static_cast<double>(samples) / rate_hz <= static_cast<double>(n + 1) * r.step_s; ++samples) {
-            const double share = static_cast<double>(samples) / rate_hz / r.step_s - static_cast<double>(n);
-            for (std::size_t i = 0; i < blocks; ++i)
-                x_m.push_back(before.x_m[i] + share * (after.x_m[i] - before.x_m[i]));
+    const auto to_end = [&](LaneSet& lane) {
+        const double step_s = lane.realization(0).step_s;
+        std::uint64_t n = lane.steps(0);
+        for (int k = 0; !lane.done(0); k = (k + 1) % chunk_steps, ++n) {
+            const Snapshot before = lane.snapshot(0);
+            lane.advance(k, k + 1);
+            const Snapshot after = lane.snapshot(0);
+            for (; static_cast<double>(samples) / rate_hz <= static_cast<double>(n + 1) * step_s; ++samples) {
+                const double share = static_cast<double>(samples) / rate_hz / step_s - static_cast<double>(n);
+                for (std::size_t i = 0; i < static_cast<std::size_t>(r.drums); ++i)
+                    x_m.push_back(before.x_m[i] + share * (after.x_m[i] - before.x_m[i]));
+            }
         }
+    };
+    LaneSet lane(study, nullptr, kernels(Isa::scalar), r);
+    lane.load(0, r);
+    to_end(lane);
+    if (const auto& handed = lane.handed(0)) {
+        LaneSet taker(study, nullptr, kernels(Isa::scalar), compliant_form(handed->realization));
+        taker.load(0, *handed);
+        to_end(taker);
+        outcome = *taker.outcome(0);
+    } else {
+        outcome = *lane.outcome(0);
     }
-    outcome = *lane.outcome(0);
     return x_m;
 }
 
@@ -96,6 +108,45 @@ TEST(FollowAll, InSinglePrecision)
     Study study = shaken(rocking_column(4), 5);
     study.run.precision = Precision::single;
     expect_as_alone(study, 11);
+}
+
+/// Rigid blocks that fall and are followed to rest.
+Study handed_over()
+{
+    Study study = shaken(formed_column(ContactForm::rigid), 20);
+    study.contact.normal_stiffness_n_m2 = study.contact.tangential_stiffness_n_m = 0;
+    study.outcome.follow = Follow::rest;
+    study.excitation.frequency_hz = 1;
+    return study;
+}
+
+TEST(FollowAll, WhatIsHandedOver)
+{
+    expect_as_alone(handed_over(), 5);
+}
+
+TEST(FollowAll, WhatIsHandedOverCanBeStopped)
+{
+    const Experiment experiment(handed_over());
+    const Realization r = experiment.sampler().realization(0);
+    LaneSet rigid(experiment.study(), nullptr, kernels(Isa::scalar), r);
+    rigid.load(0, r);
+    while (!rigid.done(0))
+        rigid.advance();
+    ASSERT_TRUE(rigid.handed(0));
+    std::uint64_t asked = 0;
+    const FollowedRealization whole = follow(experiment, 0, Isa::scalar, [&] { return ++asked > 0; });
+    EXPECT_GT(1024 * asked, whole.outcome.steps);
+    const std::uint64_t of_rigid = rigid.steps(0) / 1024 + 1;
+    ASSERT_GT(asked, of_rigid + 1);
+    asked = 0;
+    EXPECT_THROW(follow(experiment, 0, Isa::scalar, [&] { return ++asked <= of_rigid + 1; }), FollowStopped);
+    FollowPlan plan;
+    plan.indices = {0};
+    plan.sink = [](const FollowedRealization&) { ADD_FAILURE() << "it had not ended"; };
+    asked = 0;
+    plan.stop = [&](double) { return ++asked > rigid.steps(0) / chunk_steps + 1; };
+    EXPECT_FALSE(follow_all(experiment, {Isa::scalar, 1}, plan));
 }
 
 TEST(FollowAll, StopsAndDeliversWhatHasEnded)

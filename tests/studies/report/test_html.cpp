@@ -9,6 +9,7 @@
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
+#include "studies/report/json.hpp"
 #include "studies/results/study_facts.hpp"
 #include "tests/program/json.hpp"
 #include "tests/studies/calibration/calibration_sample.hpp"
@@ -516,6 +517,15 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
     for (const char* part : {"These data determine the fitted parameter.", "was not tested on held-out",
                              "--form all compares them", "All data could be used"})
         EXPECT_NE(plain.find(part), std::string::npos) << part;
+}
+
+TEST(Json, BriefNumbersHaveSixDigitsAndCountsAll)
+{
+    const double nan = std::nan("");
+    EXPECT_EQ(Json::brief(std::vector<double>{0.123456789, nan, -2}).text(), "[0.123457,null,-2]");
+    EXPECT_EQ(Json::brief(std::vector<std::uint64_t>{12345678, 0}).text(), "[12345678,0]");
+    EXPECT_EQ(Json::brief(std::vector<double>{}).text(), "[]");
+    EXPECT_EQ(Json::list({"a \"word\"", "<b>"}).text(), "[\"a \\\"word\\\"\", \"<b>\"]");
 }
 
 } // namespace
