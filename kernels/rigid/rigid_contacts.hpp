@@ -54,7 +54,7 @@ protected:
     using Equations::put;
     using Equations::put_next;
     using Equations::rates;
-    using Equations::RigidEquations;
+    using Equations::Equations;
     using Equations::solve_equations;
     using Equations::store_three;
     using Equations::topology_;
