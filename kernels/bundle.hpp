@@ -207,17 +207,21 @@ struct OfRigidJoint {
         right_goal,   ///< [m]
         sliding_goal, ///< [m]
 
-        next_left,             ///< what the next increments add to the gap [m]
-        next_right,            ///< [m]
-        next_sliding,          ///< [m]
-        own,                   ///< response of the three rows to their own forces (6: 00 01 02 11 12 22) [m/N]
-        inverse = own + 6,     ///< of the pivot (9)
-        pivot = inverse + 9,   ///< while it is made (9)
-        force = pivot + 9,     ///< at the left and right end and, on the upper block, along the face (3) [N]
-        before = force + 3,    ///< the same of the last step (3) [N]; step
-        relaxed = before + 3,  ///< of the relaxation: forces, and left, right and slips (6)
-        closing = relaxed + 6, ///< the forces of what closes the gaps (3) [N]
-        count = closing + 3
+        next_left,            ///< what the next increments add to the gap [m]
+        next_right,           ///< [m]
+        next_sliding,         ///< [m]
+        own,                  ///< response of the three rows to their own forces (6: 00 01 02 11 12 22) [m/N]
+        inverse = own + 6,    ///< of the pivot (9)
+        pivot = inverse + 9,  ///< while it is made (9)
+        force = pivot + 9,    ///< at the left and right end and, on the upper block, along the face (3) [N]
+        before = force + 3,   ///< the same of the last step (3) [N]; step
+        closing = before + 3, ///< the forces of what closes the gaps (3) [N]
+        // in frames, the friction at its limit is slope * N + rest:
+        slope = closing + 3, ///< mu, or 0 while friction is held to a bound
+        rest,                ///< of the expansion, or the bound [N]
+        bound,               ///< mu N of forces that were found before [N]
+        reached,             ///< mu N of those found with it [N]
+        count
     };
 };
 

@@ -2,10 +2,12 @@
 /// Which ends of the beds carry and which slip, and the forces with that: the solution of the rigid form's conditions.
 ///
 /// In a stack the equations are block-tridiagonal. They are solved directly, and again with other ends that carry or
-/// slip, until every condition holds (own: in lockstep). In a frame a relaxation comes first. `THEORY.md` section 10
-/// says why.
+/// slip, until every condition holds (own: in lockstep). In a frame friction is held to bounds first. `THEORY.md`
+/// section 10 says why.
 
 #include "kernels/rigid/rigid_equations.hpp"
+
+#include <utility>
 
 namespace stylobate {
 
@@ -17,13 +19,9 @@ namespace detail {
 inline constexpr int passes_of_all = 8, passes_of_one = 40;
 /// Rounds of solutions, each of which is followed by a relaxation of what has not been found, and its sweeps.
 inline constexpr int rounds = 3, relaxation_sweeps = 10;
-/// Sweeps in frames, before each of which but the first the equations are solved, and the change of a rate at which
-/// they end, as a part of what gravity adds in a step.
-inline constexpr int frame_stages = 3;
-constexpr int frame_sweeps(int stage)
-{
-    return stage == 0 ? 15 : stage == 1 ? 35 : 150;
-}
+/// In frames: bounds of the friction, one after the other, and sweeps where that has not found the contacts.
+inline constexpr int frame_rounds = 8, frame_sweeps = 150;
+/// A relaxation ends when no rate changes by more than this part of what gravity adds in a step.
 template <class Number>
 inline constexpr Number settled_rate = 1e-6;
 template <>
@@ -43,6 +41,7 @@ class RigidContacts : protected RigidEquations<Real, Layout> {
 protected:
     using Equations = RigidEquations<Real, Layout>;
     using Equations::bed;
+    using Equations::Equations;
     using Equations::free;
     using Equations::get;
     using Equations::is_free;
@@ -54,7 +53,6 @@ protected:
     using Equations::put;
     using Equations::put_next;
     using Equations::rates;
-    using Equations::Equations;
     using Equations::solve_equations;
     using Equations::store_three;
     using Equations::topology_;
@@ -62,11 +60,11 @@ protected:
     using J = OfRigidJoint;
     using typename Equations::Pull;
     using V = Vector3<Real>;
+    using Mask = decltype(std::declval<Real>() < std::declval<Real>());
 
     /// The forces of the beds, and the increments with them.
     STYLOBATE_INLINE void solve() const
     {
-        const Real half(0.5);
         for (int j = 0; j < topology_.beds(); ++j)
             store_three(J::before, j, load_three(J::force, j));
         if (!topology_.stack) {
@@ -74,116 +72,123 @@ protected:
             return;
         }
         for (int round = 0; round < detail::rounds; ++round) {
-            const Real open = find_contacts(round + 1 == detail::rounds);
-            if (!any(open > half))
+            const Mask open = find_contacts(round + 1 == detail::rounds);
+            if (!any(open))
                 return;
-            relax(open > half, detail::relaxation_sweeps, false);
+            relax(open, detail::relaxation_sweeps);
         }
     }
 
-    /// Slower ones are rounding: negative.
+    /// Slower rates are rounding, or in frames what the softness of the equations makes: negative.
     STYLOBATE_INLINE Real still() const
     {
-        return Real(0.0) - abs_of(get(OfRealization::gravity_dy)) * Real(detail::still_rate<NumberOf<Real>>);
+        using Number = NumberOf<Real>;
+        const Number rate = topology_.stack ? detail::still_rate<Number> : 10 * detail::softness<Number>;
+        return Real(0.0) - abs_of(get(OfRealization::gravity_dy)) * Real(rate);
     }
 
 private:
-    /// Of frames: friction in their loops admits solutions with large forces that no motion has caused. So the
-    /// relaxation comes first, which goes on from the forces of the last step; where it has not ended, the equations
-    /// are solved for the ends that it has found, and the solution is taken if nothing moves faster with it.
+    /// Of frames: friction in their loops admits solutions with large forces that no motion has caused. So friction is
+    /// held to the limit of forces that were found before, at first those of the last step, and the limit is found
+    /// anew, until friction of the limit itself contradicts nothing with the same ends that carry and slip. Where
+    /// nothing slips there is no such solution.
     STYLOBATE_INLINE void solve_frame() const
     {
-        const Real half(0.5), zero(0.0), one(1.0);
-        auto busy = half > zero;
-        Real solved(0.0); // 1 where the equations' solution is taken
-        for (int stage = 0; stage < detail::frame_stages; ++stage) {
-            busy = relax(busy, detail::frame_sweeps(stage), stage > 0);
+        const Real half(0.5), zero(0.0);
+        const Mask none = half < zero;
+        couple_friction(!none);
+        Mask busy = solve_once(none, false);
+        for (int j = 0; j < topology_.beds(); ++j)
+            busy = busy | (abs_of(get(J::slips, j)) > half);
+        for (int round = 0; round < detail::frame_rounds && any(busy); ++round) {
+            for (int j = 0; j < topology_.beds(); ++j)
+                put_chosen(busy, J::bound, j, limit_of(j, load_three(round == 0 ? J::before : J::force, j)));
+            bound_friction(busy);
+            Mask wrong = busy;
+            for (int pass = 0; pass < detail::passes_of_all + detail::passes_of_one && any(wrong); ++pass)
+                wrong = wrong & solve_once(wrong, pass >= detail::passes_of_all);
+            for (int j = 0; j < topology_.beds(); ++j)
+                put_chosen(busy, J::reached, j, limit_of(j, load_three(J::force, j)));
+            couple_friction(busy);
+            const Mask contradicts = solve_once(none, false);
+            busy = busy & (contradicts | !comes_nearer());
             if (!any(busy))
-                break;
-            keep_relaxed();
-            const Real most = kinetic() + slow();
-            const Real open = find_contacts(false);
-            const auto taken = busy & (open < half) & (kinetic() < most);
-            put_relaxed(taken);
-            apply_forces();
-            solved = select(taken, one, solved);
-            busy = busy & (solved < half);
+                return;
+            bound_friction(busy);
+            solve_once(none, false);
         }
-        for (int j = 0; j < topology_.beds(); ++j)
-            for (int k = 0; k < 3; ++k)
-                put(J::closing, j, zero, k);
-        if (!any(solved > half))
-            return apply_forces();
-        // what closes the gaps of those, which the others' solutions have overwritten
-        keep_relaxed();
-        solve_equations();
-        put_relaxed(solved > half);
-        for (int j = 0; j < topology_.beds(); ++j)
-            for (int k = 0; k < 3; ++k)
-                put(J::closing, j, select(solved > half, get(J::closing, j, k), zero), k);
-        apply_forces();
+        if (any(busy))
+            relax(busy, detail::frame_sweeps);
     }
-    /// Keeps forces and ends, and puts them back but for some realizations.
-    STYLOBATE_INLINE void keep_relaxed() const
+    /// Friction at its limit is mu N.
+    STYLOBATE_INLINE void couple_friction(Mask which) const
     {
-        for (int j = 0; j < topology_.beds(); ++j)
-            for (int k = 0; k < 6; ++k)
-                put(J::relaxed, j, k < 3 ? get(J::force, j, k) : get(flag(k - 3), j), k);
-    }
-    template <class Mask>
-    STYLOBATE_INLINE void put_relaxed(Mask but_for) const
-    {
-        for (int j = 0; j < topology_.beds(); ++j)
-            for (int k = 0; k < 6; ++k) {
-                const Real relaxed = get(J::relaxed, j, k);
-                if (k < 3)
-                    put(J::force, j, select(but_for, get(J::force, j, k), relaxed), k);
-                else
-                    put(flag(k - 3), j, select(but_for, get(flag(k - 3), j), relaxed));
-            }
-    }
-    STYLOBATE_INLINE static J::Field flag(int k) { return k == 0 ? J::left : k == 1 ? J::right : J::slips; }
-    /// Of the increments with the forces found, twice.
-    STYLOBATE_INLINE Real kinetic() const
-    {
-        Real sum(0.0);
-        for (int i = topology_.fixed; i < topology_.blocks; ++i) {
-            const Planar<Real> d = next(i);
-            sum = fma(get(OfBlock::mass, i), fma(d.x, d.x, d.y * d.y),
-                      fma(get(OfBlock::inertia, i), d.theta * d.theta, sum));
+        for (int j = 0; j < topology_.beds(); ++j) {
+            const Real mu = get(OfJoint::mu, j), back = get(J::left_back, j) + get(J::right_back, j);
+            put_chosen(which, J::slope, j, mu);
+            put_chosen(which, J::rest, j, mu * back);
+            const auto parted = get(J::left, j) + get(J::right, j) + back <= Real(0.0);
+            put_chosen(which & parted, J::slips, j, Real(0.0));
         }
-        return sum;
     }
-    /// The same of blocks that move by 1e-4 of what gravity adds in a step.
-    STYLOBATE_INLINE Real slow() const
+    /// Friction at its limit is that of the bound.
+    STYLOBATE_INLINE void bound_friction(Mask which) const
     {
-        const Real rate = get(OfRealization::gravity_dy) * Real(NumberOf<Real>(1e-4));
-        Real sum(0.0);
-        for (int i = topology_.fixed; i < topology_.blocks; ++i)
-            sum = fma(get(OfBlock::mass, i), rate * rate, sum);
-        return sum;
+        for (int j = 0; j < topology_.beds(); ++j) {
+            put_chosen(which, J::slope, j, Real(0.0));
+            put_chosen(which, J::rest, j, get(J::bound, j));
+        }
+    }
+    /// Whether the limits of the forces with a bound are nearer to those of the solution than the bound was. Else the
+    /// solution is none that a sequence of bounds comes to: friction holds itself there.
+    STYLOBATE_INLINE Mask comes_nearer() const
+    {
+        const Real zero(0.0), half(0.5);
+        Real from(0.0), to(0.0);
+        for (int j = 0; j < topology_.beds(); ++j) {
+            const Real limit = limit_of(j, load_three(J::force, j));
+            const Real per_force = select(abs_of(get(J::slips, j)) > half, get(J::own, j, 5), zero);
+            from = fma(per_force, abs_of(limit - get(J::bound, j)), from);
+            to = fma(per_force, abs_of(limit - get(J::reached, j)), to);
+        }
+        return (to < from) | (to < settled());
+    }
+    STYLOBATE_INLINE void put_chosen(Mask which, J::Field f, int j, Real value) const
+    {
+        put(f, j, select(which, value, get(f, j)));
     }
 
+    /// Not inlined: frames need it in several places.
+    STYLOBATE_APART Mask solve_once(Mask change, bool one_at_a_time) const { return attempt(change, one_at_a_time); }
+
     /// Solutions with other ends that carry, until none contradicts itself.
-    /// @param patient goes on with one condition at a time   @return 1 where they have not been found
-    STYLOBATE_INLINE Real find_contacts(bool patient) const
+    /// @param patient goes on with one condition at a time   @return where they have not been found
+    STYLOBATE_INLINE Mask find_contacts(bool patient) const
     {
-        const Real zero(0.0), half(0.5), one(1.0);
-        const Real still = this->still();
-        Real open(1.0);
+        const Real zero(0.0), one(1.0);
+        Mask open = zero < one;
         for (int pass = 0; pass < detail::passes_of_all + (patient ? detail::passes_of_one : 0); ++pass) {
-            solve_equations();
-            apply_forces();
-            const bool one_at_a_time = pass >= detail::passes_of_all;
-            open = zero;
-            for (int j = 0; j < topology_.beds(); ++j) {
-                const auto may = one_at_a_time ? open < half : zero < one;
-                open = select(reconsider(j, still, may, one_at_a_time), one, open);
-            }
-            if (!any(open > half))
+            open = attempt(zero < one, pass >= detail::passes_of_all);
+            if (!any(open))
                 break;
         }
         return open;
+    }
+    /// One solution.
+    /// @param change where conditions that contradict themselves are changed
+    /// @return where there are some
+    STYLOBATE_INLINE Mask attempt(Mask change, bool one_at_a_time) const
+    {
+        const Real half(0.5), one(1.0);
+        const Real still = this->still();
+        solve_equations();
+        apply_forces();
+        Real open(0.0);
+        for (int j = 0; j < topology_.beds(); ++j) {
+            const Mask may = one_at_a_time ? change & (open < half) : change;
+            open = select(reconsider(j, still, may, one_at_a_time), one, open);
+        }
+        return open > half;
     }
 
     /// The forces found, and the increments with them.
@@ -207,8 +212,7 @@ private:
 
     /// Changes what contradicts itself: an end that pulls, an open one that enters, friction beyond its limit or along
     /// the sliding.
-    /// @return where something has changed
-    template <class Mask>
+    /// @param may where it may   @return where something contradicts itself, or would
     STYLOBATE_INLINE Mask reconsider(int j, Real still, Mask may, bool one_at_a_time) const
     {
         const Real zero(0.0), half(0.5), one(1.0);
@@ -227,54 +231,58 @@ private:
         const Real new_left = select(left > half, select(f1 > zero, one, zero), meets_left);
         Real new_right = select(right > half, select(f2 > zero, one, zero), meets_right);
         const Real back = get(J::left_back, j) + get(J::right_back, j);
-        const Real limit = get(OfJoint::mu, j) * (f1 + f2 + back);
-        const Real along = get(J::next_sliding, j) * slips;
+        const auto rule = this->rule(j);
+        Real limit = rule.slope * (f1 + f2) + rule.rest, sliding = get(J::next_sliding, j);
+        if (!topology_.stack) { // what yields: else friction that just holds would change on and on
+            const Real softness(detail::softness<NumberOf<Real>>);
+            limit = fma(softness, limit, limit);
+            sliding = fma(softness * get(J::own, j, 5), shear, sliding + get(J::bend_sliding, j));
+        }
+        const Real along = sliding * slips;
         const Real slipping = select(shear > zero, one, zero - one);
         Real new_slips = select(abs_of(slips) > half, select(along > zero - still, zero, slips),
                                 select(abs_of(shear) > limit, slipping, zero));
-        new_slips = select(new_left + new_right + back > zero, new_slips, zero); // what has parted holds when it meets
-        new_slips = select(left + right + back > zero, new_slips, zero);
+        const auto bounded = rule.slope <= zero;
+        new_slips =
+            select((new_left + new_right + back > zero) | bounded, new_slips, zero); // parted: holds when it meets
+        new_slips = select((left + right + back > zero) | bounded, new_slips, zero);
         if (one_at_a_time) {
             new_right = select(new_left != left, right, new_right);
             new_slips = select((new_left != left) | (new_right != right), slips, new_slips);
         }
-        const auto changes = may & ((new_left != left) | (new_right != right) | (new_slips != slips));
+        const auto wrong = (new_left != left) | (new_right != right) | (new_slips != slips);
+        const auto changes = may & wrong;
         put(J::left, j, select(changes, new_left, left));
         put(J::right, j, select(changes, new_right, right));
         put(J::slips, j, select(changes, new_slips, slips));
-        return changes;
+        return wrong;
     }
 
-    /// Projected Gauss and Seidel, bed by bed, up and down in turn, from the forces of the last step: of frames, and of
-    /// the stacks whose contacts have not been found. A realization ends when no rate changes any more. Not inlined, as
-    /// it is rare in stacks.
-    /// @return where it has not ended
-    template <class Mask>
-    STYLOBATE_APART Mask relax(Mask which, int sweeps, bool goes_on) const
+    /// Projected Gauss and Seidel, bed by bed, up and down in turn, of what has not been found. A realization ends when
+    /// no rate changes any more. Not inlined, as it is rare.
+    STYLOBATE_APART void relax(Mask which, int sweeps) const
     {
         const Real zero(0.0);
-        if (!goes_on)
-            for (int j = 0; j < topology_.beds(); ++j)
-                put_first_forces(j, which);
+        for (int j = 0; j < topology_.beds(); ++j)
+            put_first_forces(j, which);
         apply_forces();
-        const Real settled = abs_of(get(OfRealization::gravity_dy)) * Real(detail::settled_rate<NumberOf<Real>>);
         Mask busy = which;
         for (int sweep = 0; sweep < sweeps && any(busy); ++sweep) {
             Real most(0.0);
             for (int i = 0; i < topology_.beds(); ++i)
                 most = max_of(most, relax_bed(sweep % 2 == 0 ? i : topology_.beds() - 1 - i, busy));
-            busy = busy & (most > settled);
+            busy = busy & (most > settled());
         }
         for (int j = 0; j < topology_.beds(); ++j) {
             put_next_rates(j);
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < 3; ++k)
                 put(J::closing, j, select(which, zero, get(J::closing, j, k)), k);
         }
-        return busy;
     }
-    /// What a relaxation begins with: in frames the forces of the last step, in stacks what may be of the solution that
-    /// contradicts itself.
-    template <class Mask>
+    STYLOBATE_INLINE Real settled() const
+    {
+        return abs_of(get(OfRealization::gravity_dy)) * Real(detail::settled_rate<NumberOf<Real>>);
+    }
     STYLOBATE_INLINE void put_first_forces(int j, Mask which) const
     {
         const Real zero(0.0);
@@ -282,7 +290,7 @@ private:
         V first = topology_.stack ? solved : load_three(J::before, j);
         first.v[0] = select(may_carry(j, J::left_gap), max_of(first.v[0], zero), zero);
         first.v[1] = select(may_carry(j, J::right_gap), max_of(first.v[1], zero), zero);
-        const Real limit = friction_limit(j, first);
+        const Real limit = limit_of(j, first);
         first.v[2] = clamp(first.v[2], zero - limit, limit);
         for (int k = 0; k < 3; ++k)
             put(J::force, j, select(which, first.v[k], solved.v[k]), k);
@@ -293,12 +301,12 @@ private:
             abs_of(get(OfRealization::gravity_dy)) + abs_of(get(J::left_rate, j)) + abs_of(get(J::right_rate, j));
         return (get(J::usable, j) > Real(0.5)) & (get(gap, j) < reach);
     }
-    STYLOBATE_INLINE Real friction_limit(int j, const V& force) const
+    /// mu N.
+    STYLOBATE_INLINE Real limit_of(int j, const V& force) const
     {
         return get(OfJoint::mu, j) * (force.v[0] + force.v[1] + get(J::left_back, j) + get(J::right_back, j));
     }
     /// @return largest change of a rate
-    template <class Mask>
     STYLOBATE_INLINE Real relax_bed(int j, Mask which) const
     {
         const Real zero(0.0), one(1.0);
@@ -318,13 +326,13 @@ private:
             most = max_of(most, abs_of(change.v[row]) * own(row));
             const Pull p = pull(b, change);
             if (is_free(b.lower))
-                put_chosen(which, b.lower, moved_by(b.lower, next(b.lower), p.lower));
-            put_chosen(which, b.upper, moved_by(b.upper, next(b.upper), p.upper));
+                put_next_chosen(which, b.lower, moved_by(b.lower, next(b.lower), p.lower));
+            put_next_chosen(which, b.upper, moved_by(b.upper, next(b.upper), p.upper));
             force.v[row] = now;
         };
         take(0, select(may_carry(j, J::left_gap), max_of(wanted(0, get(J::left_goal, j)), zero), zero));
         take(1, select(may_carry(j, J::right_gap), max_of(wanted(1, get(J::right_goal, j)), zero), zero));
-        const Real limit = friction_limit(j, force);
+        const Real limit = limit_of(j, force);
         take(2, clamp(wanted(2, get(J::sliding_goal, j)), zero - limit, limit));
         for (int k = 0; k < 3; ++k)
             put(J::force, j, select(which, force.v[k], before.v[k]), k);
@@ -335,8 +343,7 @@ private:
         put(J::slips, j, select(which, select(slips, way, zero), get(J::slips, j)));
         return most;
     }
-    template <class Mask>
-    STYLOBATE_INLINE void put_chosen(Mask which, int i, const Planar<Real>& d) const
+    STYLOBATE_INLINE void put_next_chosen(Mask which, int i, const Planar<Real>& d) const
     {
         const Planar<Real> old = next(i);
         put_next(i, {select(which, d.x, old.x), select(which, d.y, old.y), select(which, d.theta, old.theta)});

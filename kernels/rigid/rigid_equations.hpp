@@ -113,18 +113,27 @@ protected:
 
     // ---- the system of equations ----
 
-    /// Which rows of a bed say what.
+    /// Which rows of a bed say what. Friction at its limit is slope * N + rest.
     struct Rule {
-        Real left, right, slips, mu;
+        Real left, right, slips, slope, rest;
         Real back; ///< normal force of the expansion
-        /// Whether friction acts.
-        STYLOBATE_INLINE auto touches() const { return left + right + back > Real(0.0); }
-        STYLOBATE_INLINE auto holds() const { return (abs_of(slips) < Real(0.5)) & touches(); }
+        /// A limit that does not depend on the normal force acts at an open bed, too.
+        STYLOBATE_INLINE auto acts() const
+        {
+            const Real zero(0.0);
+            return ((slope > zero) & (left + right + back > zero)) | ((slope <= zero) & (rest > zero));
+        }
+        STYLOBATE_INLINE auto holds() const { return (abs_of(slips) < Real(0.5)) & acts(); }
     };
     STYLOBATE_INLINE Rule rule(int j) const
     {
-        return {get(J::left, j), get(J::right, j), get(J::slips, j), get(OfJoint::mu, j),
-                get(J::left_back, j) + get(J::right_back, j)};
+        const Real back = get(J::left_back, j) + get(J::right_back, j), mu = get(OfJoint::mu, j);
+        return {get(J::left, j),
+                get(J::right, j),
+                get(J::slips, j),
+                topology_.stack ? mu : get(J::slope, j),
+                topology_.stack ? mu * back : get(J::rest, j),
+                back};
     }
     /// Rows of conditions that do not hold are 0.
     STYLOBATE_INLINE static void keep_rows(const Rule& r, M& m)
@@ -149,7 +158,7 @@ protected:
         const auto holds = r.holds();
         m.m[0][0] = select(r.left > half, m.m[0][0], a00);
         m.m[1][1] = select(r.right > half, m.m[1][1], a11);
-        const Real limit = zero - r.slips * r.mu * a22;
+        const Real limit = zero - r.slips * r.slope * a22;
         m.m[2][0] = select(holds, m.m[2][0], limit);
         m.m[2][1] = select(holds, m.m[2][1], limit);
         m.m[2][2] = select(holds, m.m[2][2], a22);
@@ -189,7 +198,7 @@ protected:
         const Rule r = rule(j);
         store(J::pivot, j, own_rows(j, r));
         const auto left = r.left > half, right = r.right > half;
-        const Real friction = r.slips * r.mu * get(J::own, j, 5) * r.back; // of the expansion
+        const Real friction = r.slips * get(J::own, j, 5) * r.rest;
         store_three(J::force, j,
                     V{{select(left, get(J::left_goal, j), zero), select(right, get(J::right_goal, j), zero),
                        select(r.holds(), get(J::sliding_goal, j), friction)}});
