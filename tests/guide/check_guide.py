@@ -13,9 +13,11 @@ Exit status 77, with a reason, where a package that a page's Python script impor
 
 import argparse
 import ast
+import base64
 import importlib.util
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -74,13 +76,33 @@ def check_pictures(page, folder, images, long):
             wrong.append(f"images/{name} is missing: check_guide.py --write")
         elif stored.stat().st_size > MOST_BYTES:
             wrong.append(f"images/{name} has {stored.stat().st_size} bytes, more than {MOST_BYTES}")
-        if not pathlib.Path(folder, name).exists() and (long or not page.has_long):
+        source = {made: html for made, _, html in page.figures}.get(name, name)
+        if not pathlib.Path(folder, source).exists() and (long or not page.has_long):
             wrong.append(f"images/{name} is made by no command of the page")
     return wrong
 
 
+def draw_figures(page, folder):
+    """The figures of HTML pages as pictures, in a browser."""
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "browser"))
+    from browser import Browser, find_chromium
+    for name, number, html in page.figures:
+        if pathlib.Path(folder, html).exists():
+            with Browser(find_chromium()) as browser:
+                browser.size(1000, 800)
+                browser.open(os.path.join(folder, html))
+                x, y, width, height = browser.js(
+                    f"(() => {{ const r = document.querySelectorAll('figure')[{number - 1}].getBoundingClientRect();"
+                    " return [r.x + scrollX, r.y + scrollY, r.width, r.height]; })()")
+                clip = {"x": x - 8, "y": y - 8, "width": width + 16, "height": height + 16, "scale": 1}
+                answer = browser.send("Page.captureScreenshot",
+                                      {"format": "png", "captureBeyondViewport": True, "clip": clip})
+                pathlib.Path(folder, name).write_bytes(base64.b64decode(answer["data"]))
+
+
 def write_pictures(page, folder, images):
     from PIL import Image
+    draw_figures(page, folder)
     images.mkdir(exist_ok=True)
     for name in page.pictures:
         made = pathlib.Path(folder, name)
@@ -100,8 +122,17 @@ def main():
     parser.add_argument("--long", action="store_true")
     parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
-    environment = {**os.environ, "PATH": arguments.path + ":" + os.environ["PATH"], "PYTHONPATH": arguments.python,
-                   "MPLBACKEND": "Agg", "COLUMNS": "100"}
+    programs = tempfile.mkdtemp()  # `python3` is the one that runs this
+    os.symlink(sys.executable, os.path.join(programs, "python3"))
+    environment = {**os.environ, "PATH": ":".join([programs, arguments.path, os.environ["PATH"]]),
+                   "PYTHONPATH": arguments.python, "MPLBACKEND": "Agg"}
+    try:
+        return check_pages(arguments, environment)
+    finally:
+        shutil.rmtree(programs)
+
+
+def check_pages(arguments, environment):
     failures = []
     for path in arguments.pages:
         try:

@@ -6,8 +6,9 @@
                                     prints what it likes
     $ COMMAND    # exit status 2    must end with this status instead of 0
     ```toml title="NAME"            (any language): the reader writes this file
-    <!-- long -->                   above a block: minutes; run with --long only, with all blocks below it
+    <!-- long -->                   above a block: minutes; run with --long only
     <!-- not run: REASON -->        above a block: nobody runs it
+    <!-- picture NAME.png: figure N of PAGE.html -->    the N-th figure (from 1) of a page that the commands have made
 
 Any other code block is an error: no command of the guide is unproved.
 """
@@ -19,6 +20,7 @@ FENCE = re.compile(r"^```\s*(?P<language>\w*)\s*(?P<rest>.*)$")
 TITLE = re.compile(r'^title="(?P<name>[\w.-]+)"$')
 STATUS = re.compile(r"\s+# exit status (?P<status>\d+)$")
 PICTURE = re.compile(r"!\[(?P<alt>[^\]]*)\]\(images/(?P<name>[\w.-]+)\)")
+FIGURE = re.compile(r"^<!-- picture (?P<name>[\w.-]+): figure (?P<number>\d+) of (?P<page>[\w.-]+) -->$", re.M)
 PROGRESS = re.compile(r"^\d+( of( about)? \d+)? realizations(,.*)?$")
 
 
@@ -47,6 +49,7 @@ class File:
 class Page:
     steps: list
     pictures: list  # names, in order
+    figures: list  # (name of the picture, number of the figure, name of the HTML page)
     has_long: bool
 
 
@@ -71,7 +74,7 @@ def commands_of(first, lines, long):
 
 
 def read_page(text):
-    steps, long, mark, inside = [], False, None, None
+    steps, mark, inside = [], None, None
     for number, line in enumerate(text.splitlines(), 1):
         fence = FENCE.match(line)
         if inside is None and fence:
@@ -83,7 +86,7 @@ def read_page(text):
         else:
             first, language, rest, lines = inside
             inside = None
-            long = long or mark == "<!-- long -->"
+            long = mark == "<!-- long -->"
             title = TITLE.match(rest)
             if mark and mark.startswith("<!-- not run: "):
                 pass
@@ -97,7 +100,9 @@ def read_page(text):
             mark = None
     if inside:
         raise PageError(f"line {inside[0]}: the block does not end")
-    return Page(steps, [m["name"] for m in PICTURE.finditer(text)], long)
+    return Page(steps, [m["name"] for m in PICTURE.finditer(text)],
+                [(m["name"], int(m["number"]), m["page"]) for m in FIGURE.finditer(text)],
+                any(step.long for step in steps))
 
 
 def difference(expected, printed):
