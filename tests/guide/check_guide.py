@@ -110,7 +110,7 @@ def write_pictures(page, folder, images):
             picture = Image.open(made).convert("RGB")
             if picture.width > WIDTH:
                 picture = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.LANCZOS)
-            picture.quantize(64, dither=Image.Dither.NONE).save(images / name, optimize=True)
+            picture.quantize(256, dither=Image.Dither.NONE).save(images / name, optimize=True)
             print(f"wrote {images / name}: {(images / name).stat().st_size} bytes")
 
 
