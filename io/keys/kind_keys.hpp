@@ -33,7 +33,7 @@ inline const BooleanKey pooled{"borrow", AdaptiveSpec{}.borrow, "use the counts 
 namespace surface_keys {
 
 inline const AxisKey frequency{
-    "frequency_hz", "frequency of the motion, nf values", frequency_range, {"0.5", "5.0", "8", "\"log\""}};
+    "frequency_hz", "frequency of the motion, nf values", frequency_range, {"0.5", "2.0", "8", "\"log\""}};
 inline const AxisKey pga{
     "pga_m_s2", "PGA of the motion, np values", acceleration_range, {"1.0", "8.0", "8", "\"linear\""}};
 inline const TableKey adaptive{

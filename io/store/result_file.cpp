@@ -207,7 +207,7 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
     if (other.empty() && found.motions != asked.motions)
         other = "its motions differ";
     if (!other.empty())
-        refuse("holds the results of another study: " + other + ". Choose another output.");
+        refuse("holds the results of another study: " + other + ". Choose another output file (-o).");
     if (found.code_version != asked.code_version)
         refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
                ", whose results may differ bitwise. " +

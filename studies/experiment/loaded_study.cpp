@@ -16,6 +16,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -51,6 +52,15 @@ std::string fingerprints(const Motions& motions)
     return text;
 }
 
+/// Refuses a record that is not there with the key that names it: a study just begun has a name to be replaced.
+void check_record_is_there(const std::string& file)
+{
+    if (!std::filesystem::exists(file))
+        throw InputError(file, 0,
+                         "no such file. It is excitation.file of the study: give the path of your ground-motion "
+                         "record there, or by --set excitation.file=PATH.");
+}
+
 Experiment with_motions(Study study)
 {
     Motions motions = motions_of(study);
@@ -65,11 +75,13 @@ Motions motions_of(const Study& study, const Record* record)
     const ExcitationSpec& excitation = study.excitation;
     if (study.fragility)
         motions.drawn = std::make_shared<const MotionSet>(load_motions(study));
-    else if (excitation.kind == ExcitationKind::record)
+    else if (excitation.kind == ExcitationKind::record) {
+        if (!record)
+            check_record_is_there(excitation.file);
         motions.record =
             make_motion(record ? *record : read_record(excitation.file, excitation.component, excitation.unit),
                         excitation.baseline, excitation.band_pass);
-    else if (excitation.kind == ExcitationKind::table)
+    } else if (excitation.kind == ExcitationKind::table)
         motions.record = read_base_table(excitation.file, excitation.run);
     if (const std::optional<VerticalSpec>& spec = study.vertical)
         motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);

@@ -73,10 +73,11 @@ std::string contact_text(const ContactSpec& contact)
                        : fmt::format(", tangential damping ratio {:.3g}", contact.tangential_damping_ratio));
 }
 
+/// `unit` with a blank before it, or nothing.
 std::string axis_text(const Axis& axis, const char* unit)
 {
-    return axis.count == 1 ? fmt::format("{:.4g} {}", axis.from, unit)
-                           : fmt::format("{} from {:.4g} to {:.4g} {}", axis.count, axis.from, axis.to, unit);
+    return axis.count == 1 ? fmt::format("{:.4g}{}", axis.from, unit)
+                           : fmt::format("{} from {:.4g} to {:.4g}{}", axis.count, axis.from, axis.to, unit);
 }
 
 const char* excitation_name(ExcitationKind kind)
@@ -138,8 +139,8 @@ std::string excitation_text(const Study& study, const ResultRow* one)
         return e.kind == ExcitationKind::none ? text : text + fmt::format(", PGA {:.4g} m/s²", one->pga_m_s2);
     }
     if (study.surface)
-        text += "; frequency: " + axis_text(study.surface->frequency_hz, "Hz") +
-                "; PGA: " + axis_text(study.surface->pga_m_s2, "m/s²");
+        text += "; frequency: " + axis_text(study.surface->frequency_hz, " Hz") +
+                "; PGA: " + axis_text(study.surface->pga_m_s2, " m/s²");
     if (study.surface && study.surface->adaptive)
         text += fmt::format("; adaptive, ± {} with at most {} realizations", study.surface->adaptive->half_width,
                             study.surface->adaptive->budget);

@@ -230,7 +230,7 @@ TEST_F(Faults, RecordsThatCannotBeRead)
     }
     expect_refused({"record", "nowhere.at2"}, {"nowhere.at2", "no such file"});
     expect_refused({"record", "folder"}, {"folder"});
-    expect_refused(under("nowhere.at2"), {"nowhere.at2", "no such file"});
+    expect_refused(under("nowhere.at2"), {"nowhere.at2", "no such file", "--set excitation.file=PATH"});
     expect_refused(under("folder"), {"folder"});
     // one bad file among good ones: its message and nothing else
     write_bytes(folder / "good.at2", good);

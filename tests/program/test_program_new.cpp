@@ -13,7 +13,7 @@ TEST_F(NewStudy, RunsAsItStands)
     const std::map<std::string, Words> kinds = {
         {"single", {}},
         {"surface",
-         {"study.realizations=1", "surface.frequency_hz.count=1", "surface.frequency_hz.from=5",
+         {"study.realizations=1", "surface.frequency_hz.count=1", "surface.frequency_hz.from=2",
           "surface.pga_m_s2.count=1", "surface.pga_m_s2.from=8"}},
         {"fragility", {"study.realizations=1", "fragility.motions=8", "fragility.intensity.count=2"}},
         {"sensitivity", {"sensitivity.samples=2"}},
@@ -47,6 +47,34 @@ TEST_F(NewStudy, RefusesWhatIsNoKind)
     expect_refused({"new", "single", "--structure", "temple"}, {"temple", "colonnade"});
     expect_refused({"new", "rare", "--excitation", "noise"}, {"\"rare\" cannot have excitation.kind = \"noise\""});
     expect_refused({"new", "single", "-o", "no_such_folder/a.toml"}, {"no_such_folder"});
+}
+
+TEST_F(NewStudy, NamesTheKeyOfTheRecordThatIsMissing)
+{
+    ASSERT_EQ(run({"new", "single", "--excitation", "record", "--quiet"}).status, 0);
+    expect_refused({"run", "single.toml"}, {"record.at2", "no such file", "excitation.file"});
+}
+
+TEST_F(NewStudy, IsToldWithoutBlanksAtTheEndsOfLines)
+{
+    for (const char* kind : {"single", "surface", "fragility"}) {
+        ASSERT_EQ(run({"new", kind, "--quiet"}).status, 0);
+        const Ended told = run({"info", std::string(kind) + ".toml"});
+        EXPECT_EQ(told.out.find(" \n"), std::string::npos) << told.out;
+    }
+}
+
+/// The frequencies to begin with are those between which the column's fate changes: half of them leave it standing.
+TEST_F(NewStudy, ASurfaceShowsWhereTheColumnFalls)
+{
+    ASSERT_EQ(run({"new", "surface", "--quiet"}).status, 0);
+    const Ended ended = run(run_words("surface.toml", {"study.realizations=2"}, {"-o", "s.h5"}));
+    EXPECT_NE(ended.out.find("128 of 128 realizations"), std::string::npos) << testing::PrintToString(ended);
+    const double collapsed =
+        json_of(run({"run", "surface.toml", "--set", "study.realizations=2", "-o", "s.h5", "--json"}))["collapsed"]
+            .number;
+    EXPECT_GT(collapsed, 128 / 4);
+    EXPECT_LT(collapsed, 128 / 2);
 }
 
 TEST_F(NewStudy, TheSchemaIsOneJsonObject)
