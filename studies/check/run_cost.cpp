@@ -1,0 +1,182 @@
+#include "studies/check/run_cost.hpp"
+
+#include "ensemble/replicas/twins.hpp"
+#include "io/store/result_layout.hpp"
+#include "studies/check/trial_order.hpp"
+#include "studies/experiment/duration.hpp"
+#include "studies/kinds/single/kept_trajectories.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+
+namespace {
+
+/// Attributes, groups and names of a results file beside the study's text [bytes], and of each of its data sets:
+/// measured on the files of the ready studies.
+constexpr double file_frame_bytes = 30e3, column_bytes = 500;
+/// What a result costs while its file is written and finished: processor time over bytes [s], measured.
+constexpr double write_s_per_byte = 1.2e-8;
+
+/// Memory for each realization [bytes]: what the store and the kind keep of it until the end (`RowNumbers`,
+/// `Kind::take`), with the spare room of arrays that grow, and copies at the end. Measured on runs of two sizes each
+/// (docs/check.md).
+double row_memory(const Study& study, const ResultHeader& header, double blocks)
+{
+    if (!header.has_rows())
+        return 0;
+    const double outcome = sizeof(Outcome) + 8 * blocks + 32;
+    if (study.fragility)
+        return 4.5 * outcome;
+    if (study.rare)
+        return outcome + 200;
+    if (study.sensitivity)
+        return 100;
+    if (study.twins)
+        return 100;
+    return header.selected ? 150 : 12;
+}
+
+double file_bytes(const Study& study, const ResultHeader& header)
+{
+    const auto text = static_cast<double>(header.study_toml.size());
+    if (!header.has_rows()) { // counts, cell by cell
+        const double numbers = static_cast<double>(header.limit_states.size() + header.block_names.size() + 3 + 7);
+        return file_frame_bytes + text + 8 * numbers * static_cast<double>(study.cells());
+    }
+    const ResultLayout layout(header);
+    return file_frame_bytes + text + column_bytes * static_cast<double>(layout.columns().size()) +
+           static_cast<double>(layout.row_bytes()) * static_cast<double>(header.total);
+}
+
+/// The longest of the trial over its mean.
+double longest_over_mean(const TrialPart& part)
+{
+    double sum = 0, most = 0;
+    for (const TrialRealization& r : part.run) {
+        sum += static_cast<double>(r.steps);
+        most = std::max(most, static_cast<double>(r.steps));
+    }
+    return sum > 0 ? most * static_cast<double>(part.run.size()) / sum : 1;
+}
+
+/// Samples of a trajectory, in the mean over the trial; without one, of the longest.
+double samples_of(const Study& study, const Trial* trial, double longest_s)
+{
+    double seconds = 0, runs = 0;
+    if (trial)
+        for (const TrialPart& part : trial->parts)
+            for (const TrialRealization& r : part.run) {
+                seconds += r.end_s;
+                ++runs;
+            }
+    return std::ceil((runs > 0 ? seconds / runs : longest_s) * study.output.trajectory_rate_hz) + 1;
+}
+
+/// Replicas that are followed beside their originals, once more.
+double followed_again(const Study& study)
+{
+    if (!study.twins)
+        return 0;
+    const auto moves = static_cast<double>(study.twins->kinds.size());
+    return static_cast<double>(followed_originals(study)) * (1 + moves);
+}
+
+} // namespace
+
+RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const Trial* trial)
+{
+    const Study& study = loaded.study();
+    const ResultHeader header = loaded.result_header();
+    RunSize size;
+    size.realizations = most_realizations(study);
+    size.at_most = header.selected;
+    size.cells = study.cells();
+    size.blocks = static_cast<int>(header.block_names.size());
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        size.free_blocks += !block.fixed;
+    constexpr std::uint64_t looked_at = 64;
+    TrialOrder order(study, 0, study.rare ? study.rare->samples : study.originals());
+    size.step_s.low = size.longest_steps.low = std::numeric_limits<double>::infinity();
+    double sum = 0, longest = 0;
+    const std::vector<std::uint64_t> sample = order.next(looked_at);
+    for (const std::uint64_t index : sample) {
+        const Realization r = loaded.sampler().realization(index);
+        const double end_s = longest_s(loaded.experiment(), r), steps = end_s / r.step_s;
+        longest = std::max(longest, end_s);
+        sum += steps;
+        size.step_s = {std::min(size.step_s.low, r.step_s), std::max(size.step_s.high, r.step_s)};
+        size.longest_steps = {std::min(size.longest_steps.low, steps), std::max(size.longest_steps.high, steps)};
+    }
+    size.most_block_steps = sum / static_cast<double>(sample.size()) * static_cast<double>(size.realizations) *
+                            static_cast<double>(size.free_blocks);
+    size.trajectory_bytes = static_cast<double>(trajectories) * samples_of(study, trial, longest) *
+                            static_cast<double>(trajectory_bytes(1, static_cast<std::uint64_t>(size.blocks)));
+    size.file_bytes = file_bytes(study, header) + size.trajectory_bytes;
+    size.row_bytes = row_memory(study, header, size.blocks);
+    return size;
+}
+
+RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize& size)
+{
+    const Study& study = loaded.study();
+    RunTime time;
+    time.threads = trial.threads;
+    time.at_most = size.at_most;
+    time.steps.low = std::numeric_limits<double>::infinity();
+    double variance = 0, mean_steps = 0;
+    for (const TrialPart& part : trial.parts) {
+        const double longest = longest_over_mean(part);
+        const double n = size.at_most ? static_cast<double>(size.realizations) : static_cast<double>(part.total);
+        time.processor_s += n * part.processor_s;
+        variance += n * part.processor_sd * n * part.processor_sd;
+        double steps = 0;
+        for (const TrialRealization& r : part.run) {
+            steps += static_cast<double>(r.steps);
+            time.steps.low = std::min(time.steps.low, static_cast<double>(r.steps));
+            time.steps.high = std::max(time.steps.high, static_cast<double>(r.steps));
+        }
+        mean_steps = steps / static_cast<double>(std::max<std::size_t>(part.run.size(), 1));
+        time.block_steps += n * mean_steps * size.free_blocks;
+        if (size.at_most) { // those that it will choose may all be long
+            time.processor_s *= longest;
+            time.block_steps *= longest;
+        }
+    }
+    if (!trial.parts.empty())
+        time.processor_s += followed_again(study) * trial.parts.front().processor_s;
+    // the last realizations of every thread leave lanes empty: half a realization in a full register of each
+    double drain = 0;
+    if (!trial.whole())
+        for (const TrialPart& part : trial.parts)
+            drain += part.processor_s * 0.5 * static_cast<double>(trial.threads) * 8;
+    time.processor_s += drain + size.file_bytes * write_s_per_byte;
+    const double sd = std::sqrt(variance);
+    // what the scatter of the trial leaves open, and what a machine changes from one minute to the next
+    constexpr double slower = 0.25;
+    time.processor_range_s = {std::max(0.0, (time.processor_s - 2 * sd) * (1 - slower)),
+                              (time.processor_s + 2 * sd) * (1 + slower) + drain};
+    return time;
+}
+
+double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
+{
+    const double rows = size.row_bytes * static_cast<double>(size.realizations);
+    // trajectories wait for those before them, and are read once more when the file is finished
+    constexpr double copies = 2.5;
+    constexpr double writer = 6e6; // the library of the files, which a check does not use
+    return peak_bytes + writer + rows + (study.kind == StudyKind::single ? copies * size.trajectory_bytes : 0);
+}
+
+double peak_memory_bytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024 * static_cast<double>(usage.ru_maxrss);
+}
+
+} // namespace stylobate
