@@ -92,7 +92,7 @@ void DrawingSheet::along(double at_x, double y0, double y1, std::string_view wor
     if (turned)
         text(words, at_x - 20, middle, dimension_font, TextAt::center, dimension_colour, true);
     else
-        text(words, at_x - 14, middle, std::clamp((y0 > y1 ? y0 - y1 : y1 - y0) / 1.5, least_font, dimension_font),
+        text(words, at_x - 14, middle, std::clamp((y0 > y1 ? y0 - y1 : y1 - y0) / 1.3, least_font, dimension_font),
              TextAt::right, dimension_colour);
 }
 

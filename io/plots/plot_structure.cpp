@@ -14,7 +14,7 @@ namespace stylobate {
 namespace {
 
 constexpr double picture_width = 1800, left_room = 310, right_room = 60, list_room = 640, heading = 175;
-constexpr double slab = 16, row = 75; ///< of the ground; between dimension lines
+constexpr double slab = 28, row = 75; ///< of the ground; between dimension lines
 constexpr char bed_colour[] = "#c0271b";
 
 /// Equal within what a drawing can show.
@@ -48,21 +48,21 @@ struct Drawing {
 
 std::string mass(double kg)
 {
-    return kg < 1000 ? fmt::format("{:.4g} kg", kg) : fmt::format("{:.0f} kg", kg);
+    return kg < 1000 ? fmt::format("{:.4g} kg", kg) : fmt::format("{:.4g} t", kg / 1000);
 }
 
 /// What of a bed is not that of [contact]; empty: nothing.
 std::string bed_words(const BedSpec& bed)
 {
     std::string words;
-    const auto add = [&](const char* name, const std::optional<double>& value) {
+    const auto add = [&](const char* name, const std::optional<double>& value, const char* unit) {
         if (value)
-            words += fmt::format("{}{} {:.3g}", words.empty() ? "" : ", ", name, *value);
+            words += fmt::format("{}{} {:.3g}{}", words.empty() ? "" : ", ", name, *value, unit);
     };
-    add("friction", bed.friction);
-    add("K_N", bed.normal_stiffness_n_m2);
-    add("K_T", bed.tangential_stiffness_n_m);
-    add("restitution", bed.restitution);
+    add("friction", bed.friction, "");
+    add("K_N", bed.normal_stiffness_n_m2, " N/m2");
+    add("K_T", bed.tangential_stiffness_n_m, " N/m");
+    add("restitution", bed.restitution, "");
     return words;
 }
 
@@ -134,7 +134,7 @@ PictureSize scale(Drawing& d)
     const double above = heading + 110;
     const double high = std::max(least_height, d.top_m * d.per_metre);
     d.ground = above + high;
-    return {static_cast<int>(picture_width), static_cast<int>(d.ground + slab + row * rows_below(d) + 90)};
+    return {static_cast<int>(picture_width), static_cast<int>(d.ground + slab + row * rows_below(d) + 50)};
 }
 
 void draw_blocks(const Drawing& d, DrawingSheet& sheet)
@@ -208,7 +208,7 @@ void draw_heights(const Drawing& d, DrawingSheet& sheet)
 /// Below the ground: feet and gaps, axes, the whole length.
 void draw_plan(const Drawing& d, DrawingSheet& sheet)
 {
-    double y = d.ground + slab + 28;
+    double y = d.ground + slab + 26;
     for (std::size_t c = 0; c < d.columns.size(); ++c) {
         const PlacedBlock& foot = d.block(d.columns[c].front());
         sheet.across(d.x(foot.left()), d.x(foot.right()), y, d.length(foot.width_m));
@@ -224,8 +224,8 @@ void draw_plan(const Drawing& d, DrawingSheet& sheet)
     for (std::size_t c = 0; c + 1 < d.columns.size(); ++c)
         sheet.across(d.x(axis(c)), d.x(axis(c + 1)), y, d.length(axis(c + 1) - axis(c)));
     for (std::size_t c = 0; c < d.columns.size(); ++c)
-        sheet.text(fmt::format("{}{}", c == 0 ? "column " : "", c), d.x(axis(c)), d.ground + slab + 2 * row + 10, 15,
-                   TextAt::center, "#505050");
+        sheet.text(fmt::format("{}{}", c == 0 ? "column " : "", c), d.x(axis(c)), d.ground + slab / 2, 14,
+                   TextAt::center, "#ffffff");
     y += row;
     sheet.across(d.x(d.left_m), d.x(d.right_m), y, d.length(d.right_m - d.left_m));
 }

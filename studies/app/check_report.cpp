@@ -34,7 +34,7 @@ std::string seconds_text(double seconds)
 
 std::string bytes_text(double bytes)
 {
-    return bytes < 1e6   ? fmt::format("{:.2g} kB", bytes / 1e3)
+    return bytes < 1e6   ? fmt::format("{:.0f} kB", bytes / 1e3)
            : bytes < 1e9 ? fmt::format("{:.3g} MB", bytes / 1e6)
                          : fmt::format("{:.3g} GB", bytes / 1e9);
 }
@@ -79,8 +79,8 @@ void print_trial(const CheckReport& r)
 {
     const Trial& trial = *r.trial;
     const Shares shares = shares_of(trial);
-    fmt::print("trial: {} realizations in {:.2g} s with {} threads of {}", trial.count(), trial.seconds, r.run.threads,
-               to_string(r.run.isa));
+    fmt::print("trial: {} realization{} in {:.2g} s with {} threads of {}", trial.count(),
+               trial.count() == 1 ? "" : "s", trial.seconds, r.run.threads, to_string(r.run.isa));
     if (shares.valid > 0)
         fmt::print("; {:.3g} of them collapsed",
                    static_cast<double>(shares.collapsed) / static_cast<double>(shares.valid));
@@ -93,9 +93,9 @@ void print_trial(const CheckReport& r)
     fmt::print("; {} steps each\n", between_text(time.steps, "{:.0f}"));
     const Between range = time.range_s();
     if (time.at_most)
-        fmt::print("time: at most about {}, if all {} realizations are run and all are as long as the longest of the "
-                   "trial; {:.2g} block-steps\n",
-                   seconds_text(range.high), r.size.realizations, time.block_steps);
+        fmt::print("time: at most about {}; {} if all {} realizations are run and take as long as those of the trial. "
+                   "Which ones are run depends on what they do, and the run ends when it knows enough.\n",
+                   seconds_text(range.high), seconds_text(time.seconds()), r.size.realizations);
     else
         fmt::print("time: about {} ({} to {}), {:.2g} block-steps\n", seconds_text(time.seconds()),
                    seconds_text(range.low), seconds_text(range.high), time.block_steps);
@@ -130,8 +130,9 @@ void print_text(const CheckReport& r)
                word_for(contact_form_names, study.contact.form));
     if (!r.picture.empty())
         fmt::print("picture: {}\n", r.picture);
-    fmt::print("run: {}{} realizations{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
-               r.size.realizations, cells_text(study), r.size.blocks, r.size.free_blocks);
+    fmt::print("run: {}{} realization{}{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
+               r.size.realizations, r.size.realizations == 1 ? "" : "s", cells_text(study), r.size.blocks,
+               r.size.free_blocks);
     fmt::print(
         "steps: of {} s; about {} in a realization that neither falls nor comes to rest before its time is over; at "
         "most {:.2g} block-steps\n",

@@ -1,5 +1,6 @@
 #include "studies/check/run_cost.hpp"
 
+#include "ensemble/model/time_counts.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "io/store/result_layout.hpp"
 #include "studies/check/trial_order.hpp"
@@ -16,11 +17,16 @@ namespace stylobate {
 
 namespace {
 
-/// Attributes, groups and names of a results file beside the study's text [bytes], and of each of its data sets:
-/// measured on the files of the ready studies.
-constexpr double file_frame_bytes = 30e3, column_bytes = 500;
-/// What a result costs while its file is written and finished: processor time over bytes [s], measured.
-constexpr double write_s_per_byte = 1.2e-8;
+/// What a results file has beside its rows [bytes], measured on those of the ready studies: groups, attributes and
+/// names, with cells and without; of each data set, each trajectory, each cell of a fragility study, each replica that
+/// is followed.
+constexpr double frame_bytes = 20e3, cells_frame_bytes = 37e3, column_bytes = 500, trajectory_frame_bytes = 10e3,
+                 fragility_cell_bytes = 300, followed_bytes = 60;
+/// Counts instead of rows: the frame, and each time of collapse with its count.
+constexpr double counts_frame_bytes = 55e3, time_bytes = 16;
+/// What a result costs while its file is written and finished: processor time over bytes [s], measured; of rows, of
+/// trajectories.
+constexpr double row_s_per_byte = 1.6e-8, trajectory_s_per_byte = 3.5e-8;
 
 /// Memory for each realization [bytes]: what the store and the kind keep of it until the end (`RowNumbers`,
 /// `Kind::take`), with the spare room of arrays that grow, and copies at the end. Measured on runs of two sizes each
@@ -35,33 +41,82 @@ double row_memory(const Study& study, const ResultHeader& header, double blocks)
     if (study.rare)
         return outcome + 200;
     if (study.sensitivity)
-        return 100;
+        return 80;
     if (study.twins)
-        return 100;
+        return 200;
     return header.selected ? 150 : 12;
 }
 
-double file_bytes(const Study& study, const ResultHeader& header)
+/// Kinds of replicas that are followed.
+double moves_of(const TwinsSpec& twins)
 {
-    const auto text = static_cast<double>(header.study_toml.size());
-    if (!header.has_rows()) { // counts, cell by cell
-        const double numbers = static_cast<double>(header.limit_states.size() + header.block_names.size() + 3 + 7);
-        return file_frame_bytes + text + 8 * numbers * static_cast<double>(study.cells());
-    }
-    const ResultLayout layout(header);
-    return file_frame_bytes + text + column_bytes * static_cast<double>(layout.columns().size()) +
-           static_cast<double>(layout.row_bytes()) * static_cast<double>(header.total);
+    return static_cast<double>(std::count_if(twins.kinds.begin(), twins.kinds.end(),
+                                             [](const Twin& twin) { return twin.by == TwinBy::move; }));
 }
 
-/// The longest of the trial over its mean.
-double longest_over_mean(const TrialPart& part)
+/// Of the trial; without one, all.
+double collapsed_share(const Trial* trial)
+{
+    if (!trial || trial->count() == 0)
+        return 1;
+    double collapsed = 0;
+    for (const TrialPart& part : trial->parts)
+        collapsed += static_cast<double>(std::count_if(
+            part.run.begin(), part.run.end(), [](const TrialRealization& r) { return r.state == State::collapsed; }));
+    return collapsed / static_cast<double>(trial->count());
+}
+
+double file_bytes(const Study& study, const ResultHeader& header, const Trial* trial)
+{
+    const auto text = static_cast<double>(header.study_toml.size());
+    const auto cells = static_cast<double>(study.cells());
+    if (!header.has_rows()) {
+        const auto numbers = static_cast<double>(header.limit_states.size() + header.block_names.size() + 8);
+        constexpr double octaves = 4; // of times, each rounded to one of so many (`TimeCounts`)
+        const double times = std::min(octaves * static_cast<double>(TimeCounts::most_exact),
+                                      collapsed_share(trial) * static_cast<double>(header.total));
+        return counts_frame_bytes + text + 8 * numbers * cells +
+               time_bytes * times * (study.outcome.follow == Follow::rest ? 2 : 1);
+    }
+    const ResultLayout layout(header);
+    double bytes = (study.cells() > 1 ? cells_frame_bytes : frame_bytes) + text +
+                   column_bytes * static_cast<double>(layout.columns().size()) +
+                   static_cast<double>(layout.row_bytes()) * static_cast<double>(header.total);
+    if (study.fragility)
+        bytes += fragility_cell_bytes * cells;
+    if (study.twins)
+        bytes += followed_bytes * static_cast<double>(followed_originals(study)) * moves_of(*study.twins);
+    return bytes;
+}
+
+/// The most that realizations can cost which are chosen by what others did, over the mean of the trial. Of rare events
+/// the longest of the trial: any may be chosen. Of an adaptive surface the dearest cells, each as often as it can be
+/// asked for, until the budget is spent.
+double dearest_over_mean(const Study& study, const TrialPart& part, std::uint64_t budget)
 {
     double sum = 0, most = 0;
+    std::vector<double> of_cell(study.cells()), runs(study.cells());
     for (const TrialRealization& r : part.run) {
-        sum += static_cast<double>(r.steps);
-        most = std::max(most, static_cast<double>(r.steps));
+        const auto steps = static_cast<double>(r.steps);
+        sum += steps;
+        most = std::max(most, steps);
+        of_cell[r.cell] += steps;
+        ++runs[r.cell];
     }
-    return sum > 0 ? most * static_cast<double>(part.run.size()) / sum : 1;
+    const double mean = sum / static_cast<double>(part.run.size());
+    if (!study.surface || mean == 0)
+        return mean > 0 ? most / mean : 1;
+    for (std::size_t cell = 0; cell < of_cell.size(); ++cell)
+        of_cell[cell] = runs[cell] > 0 ? of_cell[cell] / runs[cell] : most;
+    std::sort(of_cell.rbegin(), of_cell.rend());
+    auto left = static_cast<double>(budget);
+    double spent = 0;
+    for (std::size_t cell = 0; cell < of_cell.size() && left > 0; ++cell) {
+        const double here = std::min(left, static_cast<double>(study.realizations));
+        spent += here * of_cell[cell];
+        left -= here;
+    }
+    return spent / (mean * static_cast<double>(budget));
 }
 
 /// Samples of a trajectory, in the mean over the trial; without one, of the longest.
@@ -82,8 +137,7 @@ double followed_again(const Study& study)
 {
     if (!study.twins)
         return 0;
-    const auto moves = static_cast<double>(study.twins->kinds.size());
-    return static_cast<double>(followed_originals(study)) * (1 + moves);
+    return static_cast<double>(followed_originals(study)) * (1 + moves_of(*study.twins));
 }
 
 } // namespace
@@ -116,7 +170,8 @@ RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const
                             static_cast<double>(size.free_blocks);
     size.trajectory_bytes = static_cast<double>(trajectories) * samples_of(study, trial, longest) *
                             static_cast<double>(trajectory_bytes(1, static_cast<std::uint64_t>(size.blocks)));
-    size.file_bytes = file_bytes(study, header) + size.trajectory_bytes;
+    size.file_bytes = file_bytes(study, header, trial) + size.trajectory_bytes +
+                      trajectory_frame_bytes * static_cast<double>(trajectories);
     size.row_bytes = row_memory(study, header, size.blocks);
     return size;
 }
@@ -130,7 +185,6 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
     time.steps.low = std::numeric_limits<double>::infinity();
     double variance = 0, mean_steps = 0;
     for (const TrialPart& part : trial.parts) {
-        const double longest = longest_over_mean(part);
         const double n = size.at_most ? static_cast<double>(size.realizations) : static_cast<double>(part.total);
         time.processor_s += n * part.processor_s;
         variance += n * part.processor_sd * n * part.processor_sd;
@@ -142,10 +196,6 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
         }
         mean_steps = steps / static_cast<double>(std::max<std::size_t>(part.run.size(), 1));
         time.block_steps += n * mean_steps * size.free_blocks;
-        if (size.at_most) { // those that it will choose may all be long
-            time.processor_s *= longest;
-            time.block_steps *= longest;
-        }
     }
     if (!trial.parts.empty())
         time.processor_s += followed_again(study) * trial.parts.front().processor_s;
@@ -154,12 +204,16 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
     if (!trial.whole())
         for (const TrialPart& part : trial.parts)
             drain += part.processor_s * 0.5 * static_cast<double>(trial.threads) * 8;
-    time.processor_s += drain + size.file_bytes * write_s_per_byte;
+    time.processor_s += drain + (size.file_bytes - size.trajectory_bytes) * row_s_per_byte +
+                        size.trajectory_bytes * trajectory_s_per_byte;
     const double sd = std::sqrt(variance);
     // what the scatter of the trial leaves open, and what a machine changes from one minute to the next
     constexpr double slower = 0.25;
     time.processor_range_s = {std::max(0.0, (time.processor_s - 2 * sd) * (1 - slower)),
                               (time.processor_s + 2 * sd) * (1 + slower) + drain};
+    if (size.at_most && !trial.parts.empty())
+        time.processor_range_s = {0, time.processor_range_s.high *
+                                         dearest_over_mean(study, trial.parts.front(), size.realizations)};
     return time;
 }
 

@@ -33,15 +33,17 @@ RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const
 
 /// What the trial makes of it.
 struct RunTime {
-    Between steps;             ///< of the realizations of the trial
-    double block_steps = 0;    ///< of the whole run
-    double processor_s = 0;    ///< of all threads together, files included
+    Between steps;          ///< of the realizations of the trial
+    double block_steps = 0; ///< of the whole run
+    /// Of all threads together, files included [s]; of a run whose realizations are at most so many, if all are run and
+    /// are as long as those of the trial in the mean.
+    double processor_s = 0;
     Between processor_range_s; ///< in which the time lies (docs/check.md)
     /// Elapsed [s], if the threads have the machine for themselves.
     double seconds() const { return processor_s / threads; }
     Between range_s() const { return {processor_range_s.low / threads, processor_range_s.high / threads}; }
     int threads = 1;
-    bool at_most = false; ///< only the upper end means something
+    bool at_most = false; ///< only the upper end of the range means something
 };
 
 /// @pre the trial has run something
