@@ -88,7 +88,9 @@ int check_command(const CommonOptions& options, const std::string& file, const C
     const fs::path picture = picture_path(file, wanted);
     if (!picture.empty())
         check_output(file, picture, options.force);
+    const double before_s = processor_seconds();
     check_realizations(loaded.sampler(), *kind);
+    const double drawing_s = processor_seconds() - before_s;
 
     Console console(options.quiet);
     for (const std::string& warning : report.warnings)
@@ -103,7 +105,7 @@ int check_command(const CommonOptions& options, const std::string& file, const C
     if (!console.stop_requested()) {
         report.size = size_of_run(loaded, kept.count, trial);
         if (trial && !trial->unfinished)
-            report.time = time_of_run(loaded, *trial, report.size);
+            report.time = time_of_run(loaded, *trial, report.size, drawing_s);
         report.memory_bytes = memory_of_run(study, report.size, peak_memory_bytes());
         report.weak = weak_spots(loaded, loaded.doubts(), trial);
         if (report.why_no_pilot.empty())

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 namespace stylobate {
@@ -176,7 +177,7 @@ RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const
     return size;
 }
 
-RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize& size)
+RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize& size, double drawing_s)
 {
     const Study& study = loaded.study();
     RunTime time;
@@ -204,7 +205,7 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
     if (!trial.whole())
         for (const TrialPart& part : trial.parts)
             drain += part.processor_s * 0.5 * static_cast<double>(trial.threads) * 8;
-    time.processor_s += drain + (size.file_bytes - size.trajectory_bytes) * row_s_per_byte +
+    time.processor_s += drawing_s + drain + (size.file_bytes - size.trajectory_bytes) * row_s_per_byte +
                         size.trajectory_bytes * trajectory_s_per_byte;
     const double sd = std::sqrt(variance);
     // what the scatter of the trial leaves open, and what a machine changes from one minute to the next
@@ -224,6 +225,11 @@ double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
     constexpr double copies = 2.5;
     constexpr double writer = 6e6; // the library of the files, which a check does not use
     return peak_bytes + writer + rows + (study.kind == StudyKind::single ? copies * size.trajectory_bytes : 0);
+}
+
+double processor_seconds()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 double peak_memory_bytes()

@@ -46,13 +46,17 @@ struct RunTime {
     bool at_most = false; ///< only the upper end of the range means something
 };
 
+/// @param drawing_s processor time in which the realizations are drawn once before the run (`check_realizations`)
 /// @pre the trial has run something
-RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize& size);
+RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize& size, double drawing_s);
 
 /// Resident memory of the run [bytes]: what this process holds now, which has read the same study, and what the run
 /// adds for each realization.
 /// @param peak_bytes the most that this process has held
 double memory_of_run(const Study& study, const RunSize& size, double peak_bytes);
+
+/// Processor time of this process so far, of all threads [s].
+double processor_seconds();
 
 /// The most memory that this process has held so far [bytes].
 double peak_memory_bytes();

@@ -2,6 +2,7 @@
 
 #include "ensemble/replicas/twins.hpp"
 #include "ensemble/statics/scales.hpp"
+#include "studies/check/run_cost.hpp"
 #include "studies/check/trial_order.hpp"
 #include "studies/experiment/duration.hpp"
 #include "studies/experiment/trajectory.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <numeric>
 
 namespace stylobate {
@@ -21,12 +21,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin)
 {
     return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-/// Of all threads of this process.
-double processor_seconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 /// Stops a trial that takes far too long, or that the user stops.
