@@ -1,14 +1,13 @@
 /// `stylobate check`.
 
 #include "ensemble/model/input_error.hpp"
+#include "io/drawing/plot_structure.hpp"
 #include "io/keys/words.hpp"
-#include "io/plots/plot_structure.hpp"
-#include "studies/app/check_report.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
-#include "studies/kinds/single/kept_trajectories.hpp"
+#include "studies/check/check_report.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_study.hpp"
 
@@ -82,9 +81,7 @@ int check_command(const CommonOptions& options, const std::string& file, const C
     const ResultHeader header = loaded.result_header();
     const std::unique_ptr<Kind> kind = make_kind(study, header);
     report.notice = kind->prepare(loaded.experiment(), file);
-    KeptTrajectories kept;
-    if (study.kind == StudyKind::single)
-        kept = plan_trajectories(loaded.experiment(), file);
+    const std::uint64_t trajectories = trajectories_of_run(loaded, file);
     const fs::path picture = picture_path(file, wanted);
     if (!picture.empty())
         check_output(file, picture, options.force);
@@ -100,10 +97,10 @@ int check_command(const CommonOptions& options, const std::string& file, const C
         report.picture = picture.string();
     }
     if (wanted.trial_seconds > 0)
-        report.trial = try_study(loaded.experiment(), report.run, wanted.trial_seconds, kept.count, console);
+        report.trial = try_study(loaded.experiment(), report.run, wanted.trial_seconds, trajectories, console);
     const Trial* trial = report.trial ? &*report.trial : nullptr;
     if (!console.stop_requested()) {
-        report.size = size_of_run(loaded, kept.count, trial);
+        report.size = size_of_run(loaded, trajectories, trial);
         if (trial && !trial->unfinished)
             report.time = time_of_run(loaded, *trial, report.size, drawing_s);
         report.memory_bytes = memory_of_run(study, report.size, peak_memory_bytes());

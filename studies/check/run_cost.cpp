@@ -24,7 +24,7 @@ namespace {
 constexpr double frame_bytes = 20e3, cells_frame_bytes = 37e3, column_bytes = 500, trajectory_frame_bytes = 10e3,
                  fragility_cell_bytes = 300, followed_bytes = 60;
 /// Counts instead of rows: the frame, and each time of collapse with its count.
-constexpr double counts_frame_bytes = 55e3, time_bytes = 16;
+constexpr double counts_frame_bytes = 37e3, time_bytes = 16;
 /// What a result costs while its file is written and finished: processor time over bytes [s], measured; of rows, of
 /// trajectories.
 constexpr double row_s_per_byte = 1.6e-8, trajectory_s_per_byte = 3.5e-8;
@@ -72,7 +72,7 @@ double file_bytes(const Study& study, const ResultHeader& header, const Trial* t
     const auto text = static_cast<double>(header.study_toml.size());
     const auto cells = static_cast<double>(study.cells());
     if (!header.has_rows()) {
-        const auto numbers = static_cast<double>(header.limit_states.size() + header.block_names.size() + 8);
+        const auto numbers = static_cast<double>(header.limit_states.size() + header.block_names.size() + 16);
         constexpr double octaves = 4; // of times, each rounded to one of so many (`TimeCounts`)
         const double times = std::min(octaves * static_cast<double>(TimeCounts::most_exact),
                                       collapsed_share(trial) * static_cast<double>(header.total));
@@ -143,6 +143,11 @@ double followed_again(const Study& study)
 
 } // namespace
 
+std::uint64_t trajectories_of_run(const LoadedStudy& loaded, const std::string& file)
+{
+    return loaded.study().kind == StudyKind::single ? plan_trajectories(loaded.experiment(), file).count : 0;
+}
+
 RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const Trial* trial)
 {
     const Study& study = loaded.study();
@@ -169,6 +174,7 @@ RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const
     }
     size.most_block_steps = sum / static_cast<double>(sample.size()) * static_cast<double>(size.realizations) *
                             static_cast<double>(size.free_blocks);
+    size.trajectories = trajectories;
     size.trajectory_bytes = static_cast<double>(trajectories) * samples_of(study, trial, longest) *
                             static_cast<double>(trajectory_bytes(1, static_cast<std::uint64_t>(size.blocks)));
     size.file_bytes = file_bytes(study, header, trial) + size.trajectory_bytes +
@@ -220,11 +226,12 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
 
 double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
 {
-    const double rows = size.row_bytes * static_cast<double>(size.realizations);
-    // trajectories wait for those before them, and are read once more when the file is finished
-    constexpr double copies = 2.5;
     constexpr double writer = 6e6; // the library of the files, which a check does not use
-    return peak_bytes + writer + rows + (study.kind == StudyKind::single ? copies * size.trajectory_bytes : 0);
+    const double rows = size.row_bytes * static_cast<double>(size.realizations);
+    // what that library keeps of data sets: measured from 100 trajectories to 6400, short ones and long ones
+    constexpr double each = 33e3, cached = 165e3, cache = 50e6;
+    const auto n = static_cast<double>(study.kind == StudyKind::single ? size.trajectories : 0);
+    return peak_bytes + writer + rows + each * n + std::min(cache, cached * n);
 }
 
 double processor_seconds()

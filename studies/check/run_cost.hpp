@@ -5,6 +5,7 @@
 #include "studies/experiment/loaded_study.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace stylobate {
 
@@ -23,9 +24,14 @@ struct RunSize {
     Between longest_steps;           ///< of a realization that neither falls nor comes to rest
     double most_block_steps = 0;     ///< of all, if none falls or comes to rest: the mean of the sample
     double file_bytes = 0;           ///< of the complete file; while the run is finished it is there twice
-    double trajectory_bytes = 0;     ///< of these, in trajectories
-    double row_bytes = 0;            ///< of memory for each realization
+    std::uint64_t trajectories = 0;
+    double trajectory_bytes = 0; ///< of the file, in trajectories
+    double row_bytes = 0;        ///< of memory for each realization
 };
+
+/// How many trajectories a run keeps. @param file of the study, for messages   @throws InputError as
+/// `plan_trajectories`
+std::uint64_t trajectories_of_run(const LoadedStudy& loaded, const std::string& file);
 
 /// @param trajectories so many are kept
 /// @param trial whose realizations tell how long trajectories are; null: as long as they can be

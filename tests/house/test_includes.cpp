@@ -53,6 +53,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"io/study", {"io/files", "io/keys", "io/records"}},
     {"io/store", {"io/files", "io/tables"}},
     {"io/plots", {"io/files", "io/store", "io/tables"}},
+    {"io/drawing", {"io/plots"}},
 
     {"studies", {}},
     {"studies/report", {"studies"}},
@@ -66,7 +67,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"studies/kinds/sensitivity", {"studies/kinds", "studies/report"}},
     {"studies/kinds/rare", {"studies/kinds", "studies/report"}},
     {"studies/kinds/replicas", {"studies/kinds", "studies/kinds/surface", "studies/report"}},
-    {"studies/check", {"studies/experiment", "studies/kinds", "studies/kinds/single"}},
+    {"studies/check", {"studies/experiment", "studies/kinds", "studies/kinds/single", "studies/report"}},
     {"studies/results",
      {"studies/experiment", "studies/kinds", "studies/kinds/adaptive", "studies/kinds/fragility", "studies/kinds/rare",
       "studies/kinds/replicas", "studies/kinds/sensitivity", "studies/kinds/single", "studies/kinds/surface",

@@ -1,4 +1,4 @@
-#include "studies/app/check_report.hpp"
+#include "studies/check/check_report.hpp"
 
 #include "io/keys/words.hpp"
 #include "studies/report/json.hpp"

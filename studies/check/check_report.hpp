@@ -1,7 +1,6 @@
 #pragma once
 /// What `stylobate check` reports.
 
-#include "studies/app/command.hpp"
 #include "studies/check/run_cost.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "studies/experiment/numerics.hpp"
