@@ -78,7 +78,8 @@ void DrawingSheet::across(double x0, double x1, double at_y, std::string_view wo
         return text(words, (x0 + x1) / 2, at_y + (above ? -distance : distance), font, TextAt::center,
                     dimension_colour);
     // upright, away from the line
-    const double turned = std::clamp((x1 - x0) / 1.5, least_font, dimension_font);
+    constexpr double room = 58; // to the next line
+    const double turned = std::max(least_font, std::min((x1 - x0) / 1.5, fitting(words, room, dimension_font)));
     text(words, (x0 + x1) / 2, at_y + (above ? -10 : 10), turned, above ? TextAt::left : TextAt::right,
          dimension_colour, true);
 }

@@ -322,33 +322,49 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
     }
 }
 
+/// Lines of text in a block.
+using BlockText = std::vector<std::pair<std::string, const char*>>;
+
+/// What may stand in a block, what says most first.
+std::vector<BlockText> block_texts(const Drawing& d, std::size_t i)
+{
+    constexpr char black[] = "#000000";
+    const PlacedBlock& b = d.block(i);
+    const std::pair<std::string, const char*> name{short_name(b), black}, size{d.size(b), black};
+    if (d.alike) // the list has the rest
+        return {{name}};
+    const BedSpec* bed = bed_under(d, i);
+    const std::string of_bed = bed ? bed_words(*bed) : "";
+    std::vector<BlockText> texts;
+    if (!of_bed.empty())
+        texts = {{name, size, {of_bed, bed_colour}}, {size, {of_bed, bed_colour}}};
+    texts.push_back({name, size});
+    texts.push_back({size});
+    texts.push_back({{d.number(b.width_m) + " ×", black}, {d.number(b.height_m), black}});
+    return texts;
+}
+
 /// What stands in the blocks: names and sizes as far as there is room.
 void draw_in_blocks(const Drawing& d, DrawingSheet& sheet)
 {
-    constexpr double most = 17, least = 8;
+    constexpr double most = 17, least = 7.5, line = 1.6; // fonts; pixels of a line for each
     for (std::size_t i = 0; i < d.layout.blocks.size(); ++i) {
         const PlacedBlock& b = d.block(i);
         if (d.alike && b.role == BlockRole::drum)
-            continue; // the list has them
+            continue;
         const double width = b.width_m * d.per_metre - 8, height = b.height_m * d.per_metre;
-        const double x = d.x(b.x_m()), y = d.y(b.y_m);
-        const BedSpec* bed = bed_under(d, i);
-        std::vector<std::pair<std::string, const char*>> lines{{short_name(b), "#000000"}};
-        if (!d.alike) {
-            lines.emplace_back(d.size(b), "#000000");
-            if (bed && !bed_words(*bed).empty())
-                lines.emplace_back(bed_words(*bed), bed_colour);
-        }
-        for (; !lines.empty(); lines.erase(lines.begin())) { // the name goes first
-            double font = std::min(most, height / (1.6 * static_cast<double>(lines.size())));
-            for (const auto& [words, colour] : lines)
+        for (const BlockText& text : block_texts(d, i)) {
+            const auto lines = static_cast<double>(text.size());
+            double font = std::min(most, height / ((line + 0.2) * lines));
+            for (const auto& [words, colour] : text)
                 font = std::min(font, DrawingSheet::fitting(words, width, most));
             if (font < least)
                 continue;
-            for (std::size_t k = 0; k < lines.size(); ++k)
-                sheet.text(lines[k].first, x,
-                           y + 1.6 * font * (static_cast<double>(k) - (static_cast<double>(lines.size()) - 1) / 2),
-                           font, TextAt::center, lines[k].second);
+            double y = d.y(b.y_m) - line * font * (lines - 1) / 2;
+            for (const auto& [words, colour] : text) {
+                sheet.text(words, d.x(b.x_m()), y, font, TextAt::center, colour);
+                y += line * font;
+            }
             break;
         }
     }
