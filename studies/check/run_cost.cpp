@@ -227,7 +227,8 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
 double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
 {
     constexpr double writer = 6e6; // the library of the files, which a check does not use
-    const double rows = size.row_bytes * static_cast<double>(size.realizations);
+    const double counts = study.kept == KeptRealizations::none ? 4.5e6 : 0; // times of collapse, and the file anew
+    const double rows = size.row_bytes * static_cast<double>(size.realizations) + counts;
     // what that library keeps of data sets: measured from 100 trajectories to 6400, short ones and long ones
     constexpr double each = 33e3, cached = 165e3, cache = 50e6;
     const auto n = static_cast<double>(study.kind == StudyKind::single ? size.trajectories : 0);

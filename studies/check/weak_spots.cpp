@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace stylobate {
 
@@ -23,6 +24,7 @@ struct Subject {
     const LoadedStudy& loaded;
     const std::vector<Doubt>& doubts;
     const Trial* trial;
+    std::optional<StaticLimit> limit; ///< of the nominal structure
     const Study& study() const { return loaded.study(); }
     bool doubts_of(std::string_view check) const
     {
@@ -77,7 +79,7 @@ Found below_limit(const Subject& s)
     if (study.excitation.kind == ExcitationKind::none || study.initial.tilt_rad != 0 || !study.mechanisms.empty() ||
         study.vertical || study.rare)
         return std::nullopt;
-    const std::optional<StaticLimit> limit = static_limit(study);
+    const std::optional<StaticLimit>& limit = s.limit;
     const double pga = strongest_m_s2(s);
     if (!limit || pga >= limit->limit_m_s2)
         return std::nullopt;
@@ -90,7 +92,7 @@ Found below_limit(const Subject& s)
 
 Found slides_first(const Subject& s)
 {
-    const std::optional<StaticLimit> limit = static_limit(s.study());
+    const std::optional<StaticLimit>& limit = s.limit;
     if (!limit || !s.study().mechanisms.empty() || limit->limit_m_s2 > 0.98 * limit->rocking_m_s2)
         return std::nullopt;
     return spot(fmt::format("Blocks slide at {:.4g} m/s2, before they can rock at {:.4g} m/s2 (friction below B / H; "
@@ -346,9 +348,10 @@ std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Do
 {
     if (trial && (trial->parts.empty() || trial->unfinished)) // those that have ended are the short ones
         trial = nullptr;
+    const Subject subject{loaded, doubts, trial, static_limit(loaded.study())};
     std::vector<WeakSpot> all;
     for (const Look& look : looks)
-        if (Found found = look.find({loaded, doubts, trial})) {
+        if (Found found = look.find(subject)) {
             found->name = look.name;
             all.push_back(std::move(*found));
         }
@@ -362,11 +365,15 @@ std::optional<StaticLimit> static_limit(const Study& study)
     if (std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& b) { return !b.fixed; }) > most_blocks)
         return std::nullopt;
     StaticLimit limit;
-    limit.limit_m_s2 = limit_acceleration(r).acceleration_m_s2;
-    constexpr double no_sliding = 1e3;
-    for (Joint& joint : r.joints)
-        joint.friction = no_sliding;
-    limit.rocking_m_s2 = limit_acceleration(r).acceleration_m_s2;
+    try {
+        limit.limit_m_s2 = limit_acceleration(r).acceleration_m_s2;
+        constexpr double no_sliding = 1e3;
+        for (Joint& joint : r.joints)
+            joint.friction = no_sliding;
+        limit.rocking_m_s2 = limit_acceleration(r).acceleration_m_s2;
+    } catch (const std::runtime_error&) { // rigid blocks do not rest so: nothing is known
+        return std::nullopt;
+    }
     return limit;
 }
 

@@ -31,7 +31,8 @@ struct StaticLimit {
     double rocking_m_s2 = 0; ///< if no bed could slide
     double limit_m_s2 = 0;   ///< with the friction of the study
 };
-/// Nothing for more than 60 free blocks: the linear programme is dense. @throws InputError as `lay_out`
+/// Nothing for more than 60 free blocks, for which the dense linear programme is slow, and where rigid blocks cannot
+/// rest. @throws InputError as `lay_out`
 std::optional<StaticLimit> static_limit(const Study& study);
 
 /// Part of its static capacity that a monolith of the height and weight of a column loses on a bed of the study's K_N,
