@@ -13,6 +13,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <numeric>
 
 namespace stylobate {
 
@@ -44,7 +45,7 @@ double row_memory(const Study& study, const ResultHeader& header, double blocks)
     if (study.sensitivity)
         return 80;
     if (study.twins)
-        return 200;
+        return 50;
     return header.selected ? 150 : 12;
 }
 
@@ -107,8 +108,13 @@ double dearest_over_mean(const Study& study, const TrialPart& part, std::uint64_
     const double mean = sum / static_cast<double>(part.run.size());
     if (!study.surface || mean == 0)
         return mean > 0 ? most / mean : 1;
-    for (std::size_t cell = 0; cell < of_cell.size(); ++cell)
-        of_cell[cell] = runs[cell] > 0 ? of_cell[cell] / runs[cell] : most;
+    // what the trial has not met is like the others of its frequency, which decides how long a realization lasts
+    const auto columns = static_cast<std::ptrdiff_t>(study.surface->pga_m_s2.count);
+    for (auto row = of_cell.begin(), n = runs.begin(); row != of_cell.end(); row += columns, n += columns) {
+        const double steps = std::accumulate(row, row + columns, 0.0), all = std::accumulate(n, n + columns, 0.0);
+        for (std::ptrdiff_t k = 0; k < columns; ++k)
+            row[k] = n[k] > 0 ? row[k] / n[k] : all > 0 ? steps / all : most;
+    }
     std::sort(of_cell.rbegin(), of_cell.rend());
     auto left = static_cast<double>(budget);
     double spent = 0;
@@ -232,7 +238,9 @@ double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
     // what that library keeps of data sets: measured from 100 trajectories to 6400, short ones and long ones
     constexpr double each = 33e3, cached = 165e3, cache = 50e6;
     const auto n = static_cast<double>(study.kind == StudyKind::single ? size.trajectories : 0);
-    return peak_bytes + writer + rows + each * n + std::min(cache, cached * n);
+    const auto followed = static_cast<double>(study.twins ? followed_originals(study) : 0);
+    const double pairs = followed > 0 ? 6e6 + 7.6e3 * followed : 0; // measured with 0, 512 and 2048 of them
+    return peak_bytes + writer + rows + pairs + each * n + std::min(cache, cached * n);
 }
 
 double processor_seconds()
