@@ -146,6 +146,9 @@ void print_text(const CheckReport& r)
                bytes_text(r.size.file_bytes));
     if (!r.notice.empty())
         fmt::print("{}\n", r.notice);
+    if (const std::optional<std::uint64_t> n = counted_trials(study))
+        fmt::print("interval: a probability near 1/2 that is counted of {} is open by ±{:.2g} (95 %)\n", *n,
+                   worst_half_width(*n));
     for (const WeakSpot& spot : r.weak)
         fmt::print("weak: {}: {}\n  {}\n", spot.name, spot.text, spot.todo);
     if (r.weak.empty())
@@ -186,6 +189,8 @@ void print_json(const CheckReport& r)
         .member("file_bytes", r.size.file_bytes)
         .member("threads", r.run.threads)
         .member("simd", to_string(r.run.isa));
+    if (const std::optional<std::uint64_t> n = counted_trials(study))
+        json.member("counted_trials", *n).member("worst_half_width", worst_half_width(*n));
     if (!r.picture.empty())
         json.member("picture", r.picture);
     if (!r.notice.empty())

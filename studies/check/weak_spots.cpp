@@ -166,23 +166,17 @@ Found wide_interval(const Subject& s)
 {
     const Study& study = s.study();
     constexpr double wide = 0.2, wanted = 0.1;
-    std::uint64_t n = study.realizations;
-    std::string of = "realizations in each cell", key = "study.realizations";
-    if (study.fragility) {
-        n = static_cast<std::uint64_t>(study.fragility->motions);
-        of = "motions";
-        key = "fragility.motions (or more records)";
-    } else if (study.kind == StudyKind::single) {
-        of = "realizations";
-    } else if (!study.surface || study.surface->adaptive) {
+    const std::optional<std::uint64_t> n = counted_trials(study);
+    if (!n || worst_half_width(*n) <= wide)
         return std::nullopt;
-    }
-    if (n < 2 || worst_half_width(n) <= wide)
-        return std::nullopt;
-    return spot(
-        fmt::format("{} {} leave a probability near 1/2 open by ±{:.2f} (95 %, Jeffreys).", n, of, worst_half_width(n)),
-        fmt::format("For ±{} give {} = {:.0f}; the width falls with the square root of the number.", wanted, key,
-                    std::ceil(0.25 * std::pow(1.96 / wanted, 2))));
+    return spot(fmt::format("{} {} leave a probability near 1/2 open by ±{:.2f} (95 %, Jeffreys).", *n,
+                            study.fragility ? "motions"
+                            : study.surface ? "realizations in each cell"
+                                            : "realizations",
+                            worst_half_width(*n)),
+                fmt::format("For ±{} give {} = {:.0f}; the width falls with the square root of the number.", wanted,
+                            study.fragility ? "fragility.motions (or more records)" : "study.realizations",
+                            std::ceil(0.25 * std::pow(1.96 / wanted, 2))));
 }
 
 Found same_realizations(const Subject& s)
@@ -404,6 +398,16 @@ double capacity_lost(const Study& study)
         worst = std::max(worst, 3 * std::pow(std::sqrt(2 * weight / K_N) / (6 * h), 2.0 / 3) * h / b);
     }
     return worst;
+}
+
+std::optional<std::uint64_t> counted_trials(const Study& study)
+{
+    if (study.fragility)
+        return static_cast<std::uint64_t>(study.fragility->motions);
+    const bool cells = study.surface && !study.surface->adaptive;
+    if (!cells && (study.kind != StudyKind::single || study.realizations < 2))
+        return std::nullopt;
+    return study.realizations;
 }
 
 double worst_half_width(std::uint64_t realizations)

@@ -40,6 +40,10 @@ std::optional<StaticLimit> static_limit(const Study& study);
 /// weight on the bed (own derivation, compared with runs in docs/verification.md). The largest over the columns.
 double capacity_lost(const Study& study);
 
+/// Of how many independent trials a study counts each probability: the realizations of a cell, of a single study all,
+/// of a fragility study the motions. Nothing where it does not count so.
+std::optional<std::uint64_t> counted_trials(const Study& study);
+
 /// Half the width of the 95 % interval (Jeffreys) of a probability near 1/2 that is counted of so many.
 double worst_half_width(std::uint64_t realizations);
 

@@ -59,6 +59,8 @@ TEST_F(Check, TellsWhatWillBeRun)
     EXPECT_EQ(surface["free_blocks"].number, 6);
     EXPECT_LT(surface["step_s"]["low"].number, surface["step_s"]["high"].number);
     EXPECT_FALSE(surface["realizations_at_most"].boolean);
+    EXPECT_EQ(surface["counted_trials"].number, 256);
+    EXPECT_NEAR(surface["worst_half_width"].number, 0.061, 5e-4); // as README.md states of this grid
     EXPECT_FALSE(surface.has("trial"));
     EXPECT_FALSE(surface.has("time"));
     EXPECT_FALSE(surface.has("pilot"));
