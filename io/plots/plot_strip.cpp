@@ -212,7 +212,7 @@ struct Extent {
 };
 
 /// Where the snapshots are, on one scale; lengths in metres of the structure, (0, 0) at the strip's lower left.
-struct Layout {
+struct StripLayout {
     struct Cell {
         double left = 0;    ///< of the base beneath it
         double right = 0;   ///< of the base
@@ -230,13 +230,13 @@ struct Layout {
 };
 
 /// Puts the snapshots into so many rows, as large as they fit.
-Layout layout_in_rows(const std::vector<Extent>& extents, double overhang, double pixels_x, std::size_t rows)
+StripLayout layout_in_rows(const std::vector<Extent>& extents, double overhang, double pixels_x, std::size_t rows)
 {
     const std::size_t count = extents.size();
     const std::size_t in_row = (count + rows - 1) / rows;
     rows = (count + in_row - 1) / in_row; // none is left empty
     const double least_gap = 0.5 * overhang;
-    Layout layout;
+    StripLayout layout;
     std::vector<double> needed(rows);
     std::vector<double> members(rows);
     std::vector<double> low(rows);
@@ -284,7 +284,8 @@ Layout layout_in_rows(const std::vector<Extent>& extents, double overhang, doubl
     return layout;
 }
 
-Layout make_layout(const Trajectory& t, const Drawn& drawn, const std::vector<std::size_t>& chosen, double pixels_x)
+StripLayout make_layout(const Trajectory& t, const Drawn& drawn, const std::vector<std::size_t>& chosen,
+                        double pixels_x)
 {
     std::vector<Extent> extents(chosen.size());
     double widest = 0;
@@ -303,9 +304,9 @@ Layout make_layout(const Trajectory& t, const Drawn& drawn, const std::vector<st
     }
     const double overhang = std::clamp(0.15 * widest, 0.02 * tallest, 0.1 * tallest);
     // A column's snapshots stand in one row; those of what is wide would be tiny there.
-    Layout best = layout_in_rows(extents, overhang, pixels_x, 1);
+    StripLayout best = layout_in_rows(extents, overhang, pixels_x, 1);
     for (std::size_t rows = 2; rows <= chosen.size(); ++rows) {
-        Layout other = layout_in_rows(extents, overhang, pixels_x, rows);
+        StripLayout other = layout_in_rows(extents, overhang, pixels_x, rows);
         if (other.pixels_per_m > (best.row_height.size() == 1 ? 1.4 : 1.05) * best.pixels_per_m)
             best = std::move(other);
     }
@@ -341,7 +342,7 @@ bool has_fallen(const std::vector<double>& fall_time_s, std::size_t block, doubl
 
 /// Script of the strip: the snapshots side by side, one scale for both axes.
 std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vector<double>& fall_time_s,
-                         const std::vector<std::size_t>& chosen, const Layout& layout, const Page& page)
+                         const std::vector<std::size_t>& chosen, const StripLayout& layout, const Page& page)
 {
     const double tallest = *std::max_element(layout.row_height.begin(), layout.row_height.end());
     const Unit unit = unit_for(tallest);
@@ -364,7 +365,7 @@ std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vec
     const double label_font = std::min(21.0, 1.4 * narrowest * layout.pixels_per_m / (decimals + 5));
     std::string labels;
     for (std::size_t n = 0; n < chosen.size(); ++n) {
-        const Layout::Cell& cell = layout.cells[n];
+        const StripLayout::Cell& cell = layout.cells[n];
         const double time = t.time_s[chosen[n]];
         for (std::size_t d = 0; d < drawn.blocks.size(); ++d) {
             const std::size_t block = drawn.blocks[d];
@@ -550,7 +551,7 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     const std::vector<std::size_t> falls = falls_in_order(drawn, fall_time_s, last_s);
 
     Page page;
-    const Layout layout =
+    const StripLayout layout =
         make_layout(trajectory, drawn, chosen, (right_edge - left_edge) * static_cast<double>(page.size.width));
     const double first_panel = heading_pixels + layout.pixels + label_pixels + 30;
     const double panels = falls.empty() ? 2 : 3;

@@ -17,11 +17,9 @@ namespace stylobate {
 
 namespace {
 
-/// Two corners reach this: between a stiffness of `sinkage_part` and ten times that, collapse probabilities of eleven
-/// studies differ by less. They do not go to a limit evenly, so that no stiffness is known for a smaller error.
+/// Two corners reach this: between a stiffness of `two_corner_sinkage` and ten times that, collapse probabilities of
+/// eleven studies differ by less. They do not go to a limit evenly, so that no stiffness is known for a smaller error.
 constexpr double two_corner_accuracy = 0.1;
-/// The weight on a bed over K_N B, as a part of the smaller side of the block above.
-constexpr double sinkage_part = 1e-5;
 /// The usual part of the safe step reaches this, half of it what is smaller.
 constexpr double usual_step_accuracy = 0.02;
 /// Single precision, and the step bound of the structure, change collapse probabilities by less than this.
@@ -35,18 +33,12 @@ void choose(Study& study, const TableKey& table, const TomlKey& key, std::string
     study.chosen.push_back({table.name + "." + key.name, std::move(value), std::move(reason)});
 }
 
-/// K_N with which the beds of a structure are pressed in by `sinkage_part`, up to two digits.
+/// K_N with which the beds of a structure are pressed in by `two_corner_sinkage`, up to two digits.
 double stiff_enough_n_m2(Study study)
 {
     study.contact.normal_stiffness_n_m2 = 1;
-    const Layout layout = lay_out(study.structure);
-    const std::vector<double> sinkage = static_sinkage_m(study);
-    double largest = 0;
-    for (std::size_t i = 0; i < sinkage.size(); ++i) {
-        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(layout.beds[i].upper)];
-        largest = std::max(largest, sinkage[i] / std::min(upper.width_m, upper.height_m));
-    }
-    const double K_n = largest / sinkage_part, digit = std::pow(10, std::floor(std::log10(K_n)) - 1);
+    const double K_n = largest_sinkage_part(study) / two_corner_sinkage;
+    const double digit = std::pow(10, std::floor(std::log10(K_n)) - 1);
     return std::ceil(K_n / digit - 1e-9) * digit;
 }
 
@@ -73,6 +65,18 @@ void refuse_compliance(const KeyReader& top, const std::string& why)
 
 } // namespace
 
+double largest_sinkage_part(const Study& study)
+{
+    const Layout layout = lay_out(study.structure);
+    const std::vector<double> sinkage = static_sinkage_m(study);
+    double largest = 0;
+    for (std::size_t i = 0; i < sinkage.size(); ++i) {
+        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(layout.beds[i].upper)];
+        largest = std::max(largest, sinkage[i] / std::min(upper.width_m, upper.height_m));
+    }
+    return largest;
+}
+
 ChosenContact choose_contact(const KeyReader& top, Study& study)
 {
     using namespace contact_keys;
@@ -96,7 +100,7 @@ ChosenContact choose_contact(const KeyReader& top, Study& study)
         choose(study, table, form, "\"two_corner\"", why);
     const double K_n = stiff_enough_n_m2(study);
     choose(study, table, normal_stiffness, fmt::format("{:g}", K_n),
-           fmt::format("presses blocks into their beds by at most {:g} of their size", sinkage_part));
+           fmt::format("presses blocks into their beds by at most {:g} of their size", two_corner_sinkage));
     return {ContactForm::two_corner, K_n};
 }
 

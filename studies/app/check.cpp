@@ -1,115 +1,119 @@
 /// `stylobate check`.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/interval.hpp"
+#include "io/drawing/plot_structure.hpp"
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
-#include "studies/experiment/loaded_study.hpp"
-#include "studies/experiment/numerics.hpp"
-#include "studies/report/json.hpp"
+#include "studies/app/file_kind.hpp"
+#include "studies/app/output_path.hpp"
+#include "studies/check/check_report.hpp"
+#include "studies/results/kinds.hpp"
+#include "studies/results/run_study.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <filesystem>
 
 namespace stylobate {
 
 namespace {
 
-/// Whether a realization is drawn by its index alone.
-bool has_pilot(const Study& study)
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t usual_pilot = 1024, least_pilot = 16, most_pilot = 10'000'000;
+
+/// Why a part of the study cannot be run twice; empty: it can.
+std::string no_pilot(const Study& study)
 {
-    return study.kind == StudyKind::single || study.kind == StudyKind::fragility ||
-           (study.kind == StudyKind::surface && !study.surface->adaptive);
+    if (study.kind == StudyKind::single || study.kind == StudyKind::fragility ||
+        (study.kind == StudyKind::surface && !study.surface->adaptive))
+        return {}; // a realization is drawn by its index alone
+    return fmt::format("the realizations of study.kind = \"{}\"{} are chosen by what others did. Check the same "
+                       "structure and shaking as a surface.",
+                       word_for(study_kind_names, study.kind), study.surface ? " with surface.adaptive" : "");
 }
 
-std::string numerics_text(const Study& study, double step_s)
+/// Where the drawing goes; empty: none is asked for.
+/// @throws InputError for an unknown format, or one that the file's extension contradicts
+fs::path picture_path(const std::string& study, const CheckOptions& wanted)
 {
-    return fmt::format("contact.form = \"{}\", steps of {:.3g} s (1/{:.0f})",
-                       word_for(contact_form_names, study.contact.form), step_s, 1 / step_s);
+    constexpr std::array formats{"png", "svg", "pdf"};
+    if (wanted.output.empty())
+        return wanted.format.empty() ? fs::path()
+                                     : fs::path(fs::path(study).stem().string() + "_structure." + wanted.format);
+    std::string ending = fs::path(wanted.output).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (!wanted.format.empty() && ending != "." + wanted.format)
+        throw InputError(
+            fmt::format("--to {0} and -o {1}: the file extension is not .{0}", wanted.format, wanted.output));
+    if (std::none_of(formats.begin(), formats.end(),
+                     [&](const char* format) { return ending == "." + std::string(format); }))
+        throw InputError(
+            fmt::format("-o {}: the drawing of the structure is a .png, .svg or .pdf file", wanted.output));
+    return wanted.output;
 }
 
-/// What the second run of the pilot is.
-std::string finer_text(const Study& study)
+std::uint64_t pilot_of(const CheckOptions& wanted, const Study& study, const std::string& file)
 {
-    std::string text = study.contact.form == ContactForm::rigid ? "steps a quarter as long" : "steps half as long";
-    if (study.chose("run.precision"))
-        text += ", in double precision";
-    if (study.chose("run.step_bound"))
-        text += ", by the bound of the blocks";
-    if (study.chose("contact.normal_stiffness_n_m2"))
-        text += ", ten times the stiffness";
-    return text;
-}
-
-Json choices_of(const Study& study)
-{
-    Json all = Json::list();
-    for (const NumericsChoice& choice : study.chosen)
-        all.item(
-            Json::object().member("key", choice.key).member("value", choice.value).member("reason", choice.reason));
-    return all;
+    const std::uint64_t pilot = wanted.pilot.value_or(usual_pilot);
+    if (pilot != 0 && (pilot < least_pilot || pilot > most_pilot))
+        throw InputError(
+            fmt::format("--pilot {}: a pilot has {} to {} realizations; 0: none", pilot, least_pilot, most_pilot));
+    if (const std::string why = no_pilot(study); wanted.pilot && pilot > 0 && !why.empty())
+        throw InputError(fmt::format("{}: --pilot runs a part of a study twice: {}", file, why));
+    return pilot;
 }
 
 } // namespace
 
-int check_command(const CommonOptions& options, const std::string& file, std::uint64_t pilot)
+int check_command(const CommonOptions& options, const std::string& file, const CheckOptions& wanted)
 {
+    check_kind(file, "check");
     const LoadedStudy loaded = LoadedStudy::from_file(file, options.set);
     const Study& study = loaded.study();
-    const std::vector<std::string> warnings = loaded.warnings(file);
-    if (!has_pilot(study))
-        throw InputError(fmt::format("{}: `check` runs a part of a study twice, and those of study.kind = \"{}\"{} are "
-                                     "chosen by what others did.\n  Check the same structure and shaking as a surface.",
-                                     file, word_for(study_kind_names, study.kind),
-                                     study.kind == StudyKind::surface ? " with surface.adaptive" : ""));
+    CheckReport report{
+        .file = file, .study = study, .run = options.run_options(), .warnings = loaded.warnings(file), .notice = {}};
+    const std::uint64_t pilot = pilot_of(wanted, study, file);
+    report.why_no_pilot = pilot == 0 ? "--pilot 0." : no_pilot(study);
+    const ResultHeader header = loaded.result_header();
+    const std::unique_ptr<Kind> kind = make_kind(study, header);
+    report.notice = kind->prepare(loaded.experiment(), file);
+    const std::uint64_t trajectories = trajectories_of_run(loaded, file);
+    const fs::path picture = picture_path(file, wanted);
+    if (!picture.empty())
+        check_output(file, picture, options.force);
+    const double before_s = processor_seconds();
+    check_realizations(loaded.sampler(), *kind);
+    const double drawing_s = processor_seconds() - before_s;
+
     Console console(options.quiet);
-    for (const std::string& warning : warnings)
+    for (const std::string& warning : report.warnings)
         console.warn(warning);
-    const NumericsCheck check = check_numerics(loaded.experiment(), options.run_options(), pilot, console);
+    if (!picture.empty()) {
+        plot_structure(study, study.title.empty() ? fs::path(file).stem().string() : study.title, picture);
+        report.picture = picture.string();
+    }
+    if (wanted.trial_seconds > 0)
+        report.trial = try_study(loaded.experiment(), report.run, wanted.trial_seconds, trajectories, console);
+    const Trial* trial = report.trial ? &*report.trial : nullptr;
+    if (!console.stop_requested()) {
+        report.size = size_of_run(loaded, trajectories, trial);
+        if (trial && !trial->unfinished)
+            report.time = time_of_run(loaded, *trial, report.size, drawing_s);
+        report.memory_bytes = memory_of_run(study, report.size, peak_memory_bytes());
+        report.weak = weak_spots(loaded, loaded.doubts(), trial);
+        if (report.why_no_pilot.empty())
+            report.pilot = check_numerics(loaded.experiment(), report.run, pilot, console);
+    }
     if (console.stop_requested()) {
-        fmt::print(stderr, "Interrupted; nothing is known of the numerics.\n");
+        fmt::print(stderr, "Interrupted; the study is not checked.\n");
         return exit_interrupted;
     }
-    const auto n = static_cast<double>(check.realizations);
-    const double share = n > 0 ? static_cast<double>(check.collapsed) / n : 0;
-    const double per_s = check.seconds > 0 ? n / check.seconds : 0;
-    const double wanted = study.run.accuracy.value_or(0);
-    // the error is shown to be too large, or not
-    const bool missed = wanted > 0 && std::fabs(check.difference) - 2 * check.sd > wanted;
-    if (options.json) {
-        fmt::print("{}\n", Json::object()
-                               .member("form", word_for(contact_form_names, study.contact.form))
-                               .member("mean_step_s", check.step_s)
-                               .member("chosen", choices_of(study))
-                               .member("realizations", study.total())
-                               .member("pilot", check.realizations)
-                               .member("collapse_probability", share)
-                               .member("error_of_the_numerics", check.difference)
-                               .member("its_standard_error", check.sd)
-                               .member("realizations_per_second", per_s)
-                               .member("accuracy_missed", missed)
-                               .text());
-        return missed ? exit_invalid : exit_done;
-    }
-    fmt::print("{}: {} realizations; {}\n", file, study.total(), numerics_text(study, check.step_s));
-    for (const NumericsChoice& choice : study.chosen)
-        fmt::print("chosen: {} = {}: {}\n", choice.key, choice.value, choice.reason);
-    fmt::print("pilot: {} of them, {:.3g} of these collapsed; with {} {:.3g}\n", check.realizations, share,
-               finer_text(study), n > 0 ? static_cast<double>(check.finer) / n : 0);
-    fmt::print("error of the numerics: {:+.4f} ± {:.4f} of the collapse probability (difference of the two, and its "
-               "standard error)\n",
-               check.difference, check.sd);
-    if (per_s > 0)
-        fmt::print("about {:.3g} s for all realizations with these threads; the finer ones {:.2g} times that\n",
-                   static_cast<double>(study.total()) / per_s, check.finer_seconds / check.seconds);
-    if (missed)
-        fmt::print("run.accuracy = {:g} is not reached: give a smaller one.\n", wanted);
-    else if (wanted > 0 && check.sd > wanted)
-        fmt::print("The pilot is too small to see an error of {:g}: --pilot {:.0f} would.\n", wanted,
-                   n * std::pow(check.sd / wanted, 2) * 4);
-    return missed ? exit_invalid : exit_done;
+    print_check(report, options.json);
+    return report.missed() ? exit_invalid : exit_done;
 }
 
 } // namespace stylobate

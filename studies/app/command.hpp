@@ -44,6 +44,14 @@ struct ExportOptions {
     std::string title;               ///< of the picture, instead of the study's or the file's name
 };
 
+/// What `check` is asked for.
+struct CheckOptions {
+    std::optional<std::uint64_t> pilot; ///< realizations that are run twice; 0: none
+    double trial_seconds = 2;           ///< of the trial; 0: none
+    std::string format;                 ///< of the drawing: "png", "svg", "pdf"; empty: by `output`
+    std::string output;                 ///< the drawing; empty and no format: none
+};
+
 /// What `report` is asked for.
 struct ReportOptions {
     std::string output;                    ///< the page; empty: beside the file, with .html
@@ -77,8 +85,7 @@ struct NewStudyOptions {
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 int run_command(const CommonOptions& options, const std::string& study, std::string results);
-/// @param pilot realizations of the check of the numerics
-int check_command(const CommonOptions& options, const std::string& study, std::uint64_t pilot);
+int check_command(const CommonOptions& options, const std::string& study, const CheckOptions& wanted);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory);
 /// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none

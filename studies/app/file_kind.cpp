@@ -54,6 +54,8 @@ struct Use {
     const char* purpose;
 };
 constexpr Use uses[] = {
+    {FileKind::study, "check", "stylobate check {}",
+     "before a run: its time, memory and file, and where the study is weak; --to png: draws the structure"},
     {FileKind::study, "run", "stylobate run {}", "runs it, or continues an unfinished result of it"},
     {FileKind::results, "export", "stylobate export {} --to png", "draws it; --to csv: its tables"},
     {FileKind::results, "report", "stylobate report {}", "writes a page of it"},

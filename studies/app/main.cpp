@@ -115,14 +115,29 @@ private:
     void add_check()
     {
         auto* check = app_.add_subcommand(
-            "check", "say how a study would be run, and what its numerics change in its collapse probability");
+            "check", "before a run: what will be run, its time, memory and file; where the study is weak; what its "
+                     "numerics change in its collapse probability; a drawing of the structure");
         check->add_option("STUDY", file_, "study file (TOML)")->required();
-        check->add_option("--pilot", pilot_, "realizations that are run twice, the second time with finer numerics")
-            ->check(CLI::Range(16, 10'000'000))
+        check
+            ->add_option("--trial-seconds", check_.trial_seconds,
+                         "seconds to spend on running a fair sample of the realizations, for the time of the run and "
+                         "what it would show (0: no trial)")
+            ->check(CLI::Range(0.0, 3600.0))
             ->capture_default_str();
+        check->add_option("--pilot", check_.pilot,
+                          "realizations that are run twice, the second time with finer numerics (default: 1024; 0: "
+                          "none)");
+        check
+            ->add_option("--to", check_.format,
+                         "draw the structure to scale with its dimensions: png, svg or pdf (default: by the file "
+                         "extension of -o)")
+            ->check(CLI::IsMember({"png", "svg", "pdf"}));
+        check->add_option("-o,--output", check_.output,
+                          "the drawing (default: the study's name with _structure and the format, here)");
+        add_force(*check, options_);
         add_set(*check, options_);
         add_common(*check, options_);
-        check->callback([this] { status_ = check_command(options_, file_, pilot_); });
+        check->callback([this] { status_ = check_command(options_, file_, check_); });
     }
 
     void add_run()
@@ -363,7 +378,7 @@ private:
 
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
     CommonOptions options_;
-    std::uint64_t pilot_ = 1024;
+    CheckOptions check_;
     int status_ = exit_done;
 
     std::string file_, study_, output_; // what a verb reads, besides, and writes

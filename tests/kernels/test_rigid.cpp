@@ -1,8 +1,8 @@
 /// The rigid form against oracles that share no code with it: Housner's block, sliding under a pulse, limit analysis.
 
 #include "ensemble/engine/rigid_order.hpp"
+#include "ensemble/statics/limit_analysis.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
-#include "studies/evidence/verification/limit_analysis.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 #include "studies/evidence/verification/rigid_slider.hpp"
@@ -134,7 +134,7 @@ TEST(Rigid, StacksMoveFromTheAccelerationOnThatLimitAnalysisGives)
             bed.mu = mu;
             const Realization r =
                 rigid(model::stack(random_stones(17 + static_cast<unsigned>(stack), 2 + stack), bed, 1e-3, 0.2), 1e-3);
-            const double limit = verification::limit_acceleration(r).acceleration_m_s2;
+            const double limit = limit_acceleration(r).acceleration_m_s2;
             EXPECT_LT(moved_under(r, 0.999 * limit), 1e-6) << mu << ' ' << stack;
             EXPECT_GT(moved_under(r, 1.01 * limit), 1e-3) << mu << ' ' << stack;
         }
@@ -160,7 +160,7 @@ TEST(Rigid, FramesMoveFromTheAccelerationOnThatLimitAnalysisGives)
                     model::Bed bed;
                     bed.mu = mu;
                     const Realization r = rigid(model::colonnade(c, bed, 1e-3, false), 1e-3);
-                    const double limit = verification::limit_acceleration(r).acceleration_m_s2;
+                    const double limit = limit_acceleration(r).acceleration_m_s2;
                     for (const double part : {0.3, 0.5, 0.6, 0.8, 0.9, 0.95, 0.99})
                         EXPECT_LT(moved_under(r, part * limit), part < 0.99 ? 1e-4 : 1e-3)
                             << mu << ' ' << columns << ' ' << drums << ' ' << whole << ' ' << part;

@@ -50,7 +50,7 @@ struct Sample {
     std::set<std::string> verbs;
 };
 const Sample samples[] = {
-    {"study.toml", "is a study file", "study", {"run"}},
+    {"study.toml", "is a study file", "study", {"check", "run"}},
     {"results.h5", "is the results of a study of kind 'single'", "results", {"export", "report", "replay"}},
     {"replay.h5", "is one realization that was run again", "results", {"export", "report", "replay"}},
     {"diagnosis.h5", "is a diagnosis", "diagnosis", {"report"}},

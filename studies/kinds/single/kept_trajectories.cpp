@@ -1,7 +1,7 @@
 #include "studies/kinds/single/kept_trajectories.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/motion/base_motion.hpp"
+#include "studies/experiment/duration.hpp"
 
 #include <fmt/format.h>
 
@@ -9,21 +9,6 @@
 #include <cmath>
 
 namespace stylobate {
-namespace {
-
-/// When a realization ends at the latest.
-double longest_s(const Experiment& experiment, const Realization& r)
-{
-    const ExcitationSpec& excitation = experiment.study().excitation;
-    double end = BaseMotion(excitation, r, experiment.record()).duration_s();
-    if (r.vertical != nullptr)
-        end = std::max(end, BaseMotion::along(r.vertical, r.step_s, r.change.offset_s).duration_s());
-    if (excitation.kind != ExcitationKind::none)
-        end += excitation.tail_s.value_or(tail_after_shaking(r));
-    return end;
-}
-
-} // namespace
 
 std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks)
 {

@@ -1,11 +1,11 @@
 /// Two columns that carry a cap: the rigid rocking frame, and the static limit.
 
+#include "ensemble/statics/limit_analysis.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/held_load.hpp"
-#include "studies/evidence/verification/limit_analysis.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 
 #include <fmt/format.h>
@@ -96,7 +96,7 @@ Finding static_limit()
             f.equals(fmt::format("linear programme against its reference value: mu = {}, {} drum{} a column [m/s2]", mu,
                                  drums, drums > 1 ? "s" : ""),
                      digits, limit_acceleration(paper_frame(drums, 1e8, mu)).acceleration_m_s2, 1e-6);
-    const LimitState limit = limit_acceleration(paper_frame(1, 1e8, 0.6));
+    const LimitLoad limit = limit_acceleration(paper_frame(1, 1e8, 0.6));
     f.equals("linear programme, mu = 0.6: force on the seat of the trailing column [N]", 0, limit.pressure_n[3], 1e-9);
 
     const std::vector<double> stiffness{1e8, 1e9, 1e10};

@@ -1,10 +1,10 @@
 /// Loads that are as good as static: where joints open, where a block topples, how much the column bends.
 
+#include "ensemble/statics/limit_analysis.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/held_load.hpp"
-#include "studies/evidence/verification/limit_analysis.hpp"
 #include "studies/evidence/verification/model.hpp"
 
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
-#include "studies/evidence/verification/limit_analysis.hpp"
+#include "ensemble/statics/limit_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-namespace stylobate::verification {
+namespace stylobate {
 
 namespace {
 
@@ -123,7 +123,7 @@ std::vector<Real> maximise(std::vector<Real> a, std::vector<Real> b, const std::
     return x;
 }
 
-LimitState limit_acceleration(const Realization& r)
+LimitLoad limit_acceleration(const Realization& r)
 {
     // Unknowns: of each bed N1, N2, T+, T-, and what is left of its cone; then the acceleration. Forces in weights of
     // the structure, accelerations in g.
@@ -180,7 +180,7 @@ LimitState limit_acceleration(const Realization& r)
     }
     c[columns - 1] = 1;
     const std::vector<Real> x = maximise(std::move(a), std::move(b), c);
-    LimitState state;
+    LimitLoad state;
     state.acceleration_m_s2 = static_cast<double>(x.back() * r.gravity_m_s2);
     for (std::size_t j = 0; j < beds; ++j) {
         const Real* f = &x[5 * j];
@@ -193,4 +193,4 @@ LimitState limit_acceleration(const Realization& r)
     return state;
 }
 
-} // namespace stylobate::verification
+} // namespace stylobate

@@ -11,9 +11,9 @@
 
 #include <vector>
 
-namespace stylobate::verification {
+namespace stylobate {
 
-struct LimitState {
+struct LimitLoad {
     double acceleration_m_s2 = 0;
     std::vector<double> pressure_n; ///< (beds) N1 + N2
     std::vector<double> shear_n;    ///< (beds) T on the upper block, towards +x
@@ -22,7 +22,7 @@ struct LimitState {
 
 /// @throws std::runtime_error if the structure cannot stand even without shaking
 /// @pre the beds are horizontal in the reference state; watched pairs carry nothing
-LimitState limit_acceleration(const Realization& realization);
+LimitLoad limit_acceleration(const Realization& realization);
 
 /// Maximum of c x subject to A x = b, x >= 0, by the two-phase simplex method with Bland's rule, which cannot cycle.
 /// Dense, in extended precision: for tens of unknowns.
@@ -31,4 +31,4 @@ LimitState limit_acceleration(const Realization& realization);
 std::vector<long double> maximise(std::vector<long double> a, std::vector<long double> b,
                                   const std::vector<long double>& c);
 
-} // namespace stylobate::verification
+} // namespace stylobate

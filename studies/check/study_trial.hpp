@@ -1,0 +1,62 @@
+#pragma once
+/// A trial of a study: a fair sample of its realizations, run to their ends with the threads and the instruction set
+/// that the run would use, for what the run takes and for what it would show.
+
+#include "ensemble/engine/executor.hpp"
+#include "ensemble/experiment.hpp"
+#include "ensemble/model/observer.hpp"
+#include "ensemble/model/outcome.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace stylobate {
+
+/// A realization that the trial has run.
+struct TrialRealization {
+    std::uint64_t index = 0;
+    std::uint64_t cell = 0; ///< `Study::cell`
+    State state = State::stood;
+    std::uint64_t steps = 0;
+    double step_s = 0;
+    double end_s = 0; ///< simulated
+    /// When its time was over it had not come to rest, and had at least the energy that topples the weakest part of it
+    /// (`Scales::barrier_j`): it may still fall.
+    bool cut_off = false;
+};
+
+/// Realizations that are stepped together: all of a study, or of one with twins a range of them.
+struct TrialPart {
+    std::uint64_t total = 0; ///< realizations of the part
+    std::vector<TrialRealization> run;
+    /// Of one realization in full registers [s]: the processor time of the trial times the share of its lanes that were
+    /// busy, over the number of realizations. The last realizations of a short run leave lanes empty, of a long one
+    /// they are few.
+    double processor_s = 0;
+    double processor_sd = 0; ///< its standard error, by the scatter of the steps
+};
+
+struct Trial {
+    std::vector<TrialPart> parts;
+    double seconds = 0;     ///< elapsed
+    double processor_s = 0; ///< of all threads
+    int threads = 1;
+    bool unfinished = false; ///< not even the first realizations of every part have ended in time
+    std::uint64_t count() const;
+    /// Whether it has run all that the study has.
+    bool whole() const;
+    /// What the threads were given of the processor; below 1 where others use the machine.
+    double share_of_processor() const;
+};
+
+/// Which realizations it runs does not depend on the machine, only how many: those of `TrialOrder`, from the first one
+/// on, as many as end in the time. Of a rare event those are independent draws, its first ones.
+///
+/// @param seconds it is to take; with realizations so long that the first ones do not end within four times that, it
+///                ends unfinished
+/// @param trajectories so many of a single study are recorded; the others are followed too
+/// @return what had been run when the observer asked to stop
+Trial try_study(const Experiment& experiment, const RunOptions& options, double seconds, std::uint64_t trajectories,
+                Observer& observer);
+
+} // namespace stylobate

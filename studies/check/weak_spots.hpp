@@ -1,0 +1,60 @@
+#pragma once
+/// Where a study is weak: choices that are allowed and plausible (`plausible.hpp` looks for what is not), but with
+/// which its answer says little or depends on the numerics. Each is a pure function of the study, its motions and a
+/// trial.
+
+#include "ensemble/sampling/plausible.hpp"
+#include "studies/check/run_cost.hpp"
+#include "studies/check/study_trial.hpp"
+#include "studies/experiment/loaded_study.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct WeakSpot {
+    std::string name; ///< "below_limit"
+    std::string text; ///< what and why, with its figures: sentences
+    std::string todo; ///< a sentence
+};
+
+/// All that are found, in the order of docs/check.md.
+/// @param doubts of the same study, so that nothing is said twice   @param trial null: none was run
+std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial);
+
+/// The structure of a study as it stands on rigid beds, nothing drawn: the largest base acceleration, held for ever,
+/// at which it can rest [m/s2] (limit analysis, `ensemble/statics/limit_analysis.hpp`).
+struct StaticLimit {
+    double rocking_m_s2 = 0; ///< if no bed could slide
+    double limit_m_s2 = 0;   ///< with the friction of the study
+};
+/// Nothing for more than 60 free blocks, for which the dense linear programme is slow, and where rigid blocks cannot
+/// rest. @throws InputError as `lay_out`
+std::optional<StaticLimit> static_limit(const Study& study);
+
+/// Part of its static capacity that a monolith of the height and weight of a column loses on a bed of the study's K_N,
+/// against a rigid bed: 3 t* h / b with t* = (sqrt(2 W / K_N) / (6 h))^(2/3), b and h half its width and height, W the
+/// weight on the bed (own derivation, compared with runs in docs/verification.md). The largest over the columns.
+double capacity_lost(const Study& study);
+
+/// Of how many independent trials a study counts each probability: the realizations of a cell, of a single study all,
+/// of a fragility study the motions. Nothing where it does not count so.
+std::optional<std::uint64_t> counted_trials(const Study& study);
+
+/// Half the width of the 95 % interval (Jeffreys) of a probability near 1/2 that is counted of so many.
+double worst_half_width(std::uint64_t realizations);
+
+/// Rows of a surface in which the probability rises from nearly none to nearly all between two neighbours.
+struct Jumps {
+    std::uint64_t rows = 0;    ///< in which both are seen,
+    std::uint64_t jumping = 0; ///< and in which they are neighbours
+};
+/// @param valid, collapsed (rows x columns) of a trial. A cell counts as nearly none (all) if at most a tenth (at least
+/// nine tenths) of its realizations fell and the 95 % interval excludes 0.3 (0.7).
+Jumps jumps_of(const std::vector<std::uint64_t>& valid, const std::vector<std::uint64_t>& collapsed,
+               std::size_t columns);
+
+} // namespace stylobate

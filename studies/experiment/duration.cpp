@@ -1,0 +1,24 @@
+#include "studies/experiment/duration.hpp"
+
+#include "ensemble/motion/base_motion.hpp"
+
+#include <algorithm>
+
+namespace stylobate {
+
+double shaking_s(const Experiment& experiment, const Realization& r)
+{
+    const double end = BaseMotion(experiment.study().excitation, r, experiment.record()).duration_s();
+    if (r.vertical == nullptr)
+        return end;
+    return std::max(end, BaseMotion::along(r.vertical, r.step_s, r.change.offset_s).duration_s());
+}
+
+double longest_s(const Experiment& experiment, const Realization& r)
+{
+    const ExcitationSpec& excitation = experiment.study().excitation;
+    const double tail = excitation.kind == ExcitationKind::none ? 0 : excitation.tail_s.value_or(tail_after_shaking(r));
+    return shaking_s(experiment, r) + tail;
+}
+
+} // namespace stylobate

@@ -1,0 +1,228 @@
+/// Where a study is weak: each spot on a study that has it and on one that just has not; the ready studies have none.
+
+#include "studies/check/weak_spots.hpp"
+#include "tests/studies/check/ready_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <unistd.h>
+
+namespace stylobate {
+namespace {
+
+std::set<std::string> names(const LoadedStudy& loaded, const Trial* trial = nullptr)
+{
+    std::set<std::string> all;
+    for (const WeakSpot& spot : weak_spots(loaded, loaded.doubts(), trial)) {
+        EXPECT_FALSE(spot.text.empty() || spot.todo.empty()) << spot.name;
+        all.insert(spot.name);
+    }
+    return all;
+}
+
+bool has(const std::string& name, const LoadedStudy& loaded, const Trial* trial = nullptr)
+{
+    return names(loaded, trial).contains(name);
+}
+
+/// So many realizations of cell 0, of which the first ones fell, and the last ones were cut off.
+Trial trial_of(std::uint64_t count, std::uint64_t fell, std::uint64_t cut = 0)
+{
+    Trial trial;
+    TrialPart part;
+    part.total = 100000;
+    for (std::uint64_t i = 0; i < count; ++i)
+        part.run.push_back({.index = i,
+                            .cell = 0,
+                            .state = i < fell ? State::collapsed : State::stood,
+                            .steps = 100,
+                            .cut_off = i >= count - cut});
+    trial.parts.push_back(part);
+    return trial;
+}
+
+TEST(WeakSpots, TheStaticLimitIsThatOfOneBlock)
+{
+    // g B / H and mu g, by hand
+    const auto limit = [](const std::string& friction) {
+        return static_limit(ready("free_rocking", {"contact.friction=" + friction}).study()).value();
+    };
+    EXPECT_NEAR(limit("0.68").limit_m_s2, 9.81 * 48 / 174, 1e-9);
+    EXPECT_NEAR(limit("0.2").limit_m_s2, 0.2 * 9.81, 1e-9);
+    EXPECT_NEAR(limit("0.2").rocking_m_s2, 9.81 * 48 / 174, 1e-9);
+}
+
+TEST(WeakSpots, ShakingBelowTheStaticLimit) // of the monolith 2.706 m/s2
+{
+    EXPECT_TRUE(has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=2.69"})));
+    EXPECT_FALSE(has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=2.72"})));
+}
+
+TEST(WeakSpots, BlocksThatSlideFirst) // B / H = 0.276
+{
+    EXPECT_TRUE(has("slides_first", ready("free_rocking", {"contact.friction=0.26"})));
+    EXPECT_FALSE(has("slides_first", ready("free_rocking", {"contact.friction=0.28"})));
+}
+
+TEST(WeakSpots, ATrialInWhichAllOrNoneFall)
+{
+    const LoadedStudy surface = ready("small_scale_monolith");
+    for (const std::uint64_t fell : {0, 60}) {
+        const Trial few = trial_of(59, std::min<std::uint64_t>(fell, 59)), enough = trial_of(60, fell);
+        EXPECT_FALSE(has("one_outcome", surface, &few));
+        EXPECT_TRUE(has("one_outcome", surface, &enough));
+    }
+    const Trial both = trial_of(60, 1);
+    EXPECT_FALSE(has("one_outcome", surface, &both));
+    Trial unfinished = trial_of(60, 60); // the short ones have ended
+    unfinished.unfinished = true;
+    EXPECT_FALSE(has("one_outcome", surface, &unfinished));
+}
+
+TEST(WeakSpots, RowsThatJump)
+{
+    const std::vector<std::uint64_t> twenty(12, 20), five(12, 5);
+    const std::vector<std::uint64_t> fell{0, 0,  20, 20, // jumps
+                                          0, 10, 20, 20, // does not
+                                          0, 0,  0,  0}; // has no such pair
+    const Jumps jumps = jumps_of(twenty, fell, 4);
+    EXPECT_EQ(jumps.rows, 2U);
+    EXPECT_EQ(jumps.jumping, 1U);
+    EXPECT_EQ(jumps_of(five, {0, 0, 5, 5, 0, 0, 5, 5, 0, 0, 5, 5}, 4).rows, 0U) << "of five nothing is known";
+
+    const LoadedStudy surface = ready("small_scale_monolith"); // 8 x 8 cells
+    const auto trial = [](bool jump) {
+        Trial all;
+        all.parts.emplace_back();
+        for (std::uint64_t cell = 0; cell < 64; ++cell)
+            for (std::uint64_t i = 0; i < 20; ++i) {
+                const std::uint64_t column = cell % 8;
+                const bool falls = column > 4 || (!jump && column == 4 && i < 10);
+                all.parts[0].run.push_back({.index = 128 * cell + i,
+                                            .cell = cell,
+                                            .state = falls ? State::collapsed : State::stood,
+                                            .steps = 100});
+            }
+        all.parts[0].total = 64 * 128;
+        return all;
+    };
+    const Trial jumps_all = trial(true), rises = trial(false);
+    EXPECT_TRUE(has("coarse_axis", surface, &jumps_all));
+    EXPECT_FALSE(has("coarse_axis", surface, &rises));
+}
+
+TEST(WeakSpots, FewRealizationsLeaveWideIntervals)
+{
+    EXPECT_NEAR(worst_half_width(10000), 1.96 * 0.5 / 100, 1e-4) << "as the normal law has it";
+    EXPECT_TRUE(has("wide_interval", ready("small_scale_monolith", {"study.realizations=16"})));
+    EXPECT_FALSE(has("wide_interval", ready("small_scale_monolith", {"study.realizations=32"})));
+    EXPECT_TRUE(has("wide_interval", ready("fragility_column", {"fragility.motions=16"})))
+        << "structures do not make up for motions";
+}
+
+TEST(WeakSpots, RealizationsThatAreTheSame)
+{
+    EXPECT_TRUE(has("same_realizations", ready("free_rocking", {"study.realizations=30"})));
+    EXPECT_FALSE(has("same_realizations", ready("free_rocking")));
+    EXPECT_FALSE(has("same_realizations", ready("mechanisms")));
+}
+
+TEST(WeakSpots, SoftContacts)
+{
+    // docs/verification.md, found by runs of the engine: the monolith on K_N = 1e8 N/m2 holds 2.460 instead of 2.706
+    EXPECT_NEAR(capacity_lost(ready("small_scale_monolith").study()), 1 - 2.460 / 2.706, 2e-3);
+    const auto monolith = [](const std::string& K_n) {
+        return ready("small_scale_monolith", {"contact.normal_stiffness_n_m2=" + K_n});
+    };
+    EXPECT_FALSE(has("soft_contacts", monolith("2e7")));
+    EXPECT_TRUE(has("soft_contacts", monolith("5e6")));
+    EXPECT_FALSE(has("soft_contacts", monolith("1e6"))) << "the check `sinkage` says it";
+    const auto corners = [](const std::string& K_n) {
+        return ready("free_rocking", {"contact.form=\"two_corner\"", "contact.normal_stiffness_n_m2=" + K_n});
+    };
+    EXPECT_TRUE(has("soft_contacts", corners("1e8"))) << "7.98 N / (1e8 N/m2 x 0.048 m) = 3.5e-5 of 0.048 m";
+    EXPECT_FALSE(has("soft_contacts", corners("1e9")));
+    EXPECT_FALSE(has("soft_contacts", ready("rigid_column")));
+}
+
+TEST(WeakSpots, LongSteps)
+{
+    EXPECT_TRUE(has("long_step", ready("small_scale_monolith", {"run.step_fraction=1"})));
+    EXPECT_FALSE(has("long_step", ready("small_scale_monolith", {"run.step_fraction=0.9"})));
+}
+
+/// A study under a record that is made here.
+class WeakRecord : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "stylobate-weak-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    /// Ten seconds of 5 Hz that begin at once, and end slowly or not.
+    LoadedStudy shaken(double step_s, bool whole) const
+    {
+        const std::string file = (folder_ / "record.txt").string();
+        std::ofstream out(file);
+        for (int i = 0; i * step_s <= 10; ++i) {
+            const double t = i * step_s, envelope = whole ? std::min(1.0, (10 - t) / 3) : 1;
+            char line[64];
+            std::snprintf(line, sizeof line, "%.6f %.6f\n", t, 3 * envelope * std::sin(2 * std::numbers::pi * 5 * t));
+            out << line;
+        }
+        out.close();
+        return ready("record", {"excitation.file=" + file, "excitation.unit=\"m/s2\"", "excitation.baseline=false"});
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(WeakRecord, WithFewSamplesInAPeriod)
+{
+    EXPECT_TRUE(has("record_step", shaken(0.03, true))) << "6.7 samples";
+    EXPECT_FALSE(has("record_step", shaken(0.02, true))) << "10 samples";
+}
+
+TEST_F(WeakRecord, ThatEndsInStrongShaking)
+{
+    EXPECT_TRUE(has("record_end", shaken(0.01, false)));
+    EXPECT_FALSE(has("record_end", shaken(0.01, true)));
+}
+
+TEST(WeakSpots, RealizationsThatAreCutOff)
+{
+    const Trial cut = trial_of(100, 50, 5), none = trial_of(100, 50, 1);
+    const LoadedStudy shortened = ready("small_scale_monolith", {"excitation.tail_s=0.1"});
+    EXPECT_TRUE(has("cut_off", shortened, &cut));
+    EXPECT_FALSE(has("cut_off", shortened, &none));
+    EXPECT_FALSE(has("cut_off", ready("small_scale_monolith"), &cut)) << "the usual time after the shaking";
+}
+
+/// Nothing is false that is never said: with a trial of each, as short as it may be.
+TEST(WeakSpots, TheReadyStudiesHaveNone)
+{
+    Observer nobody;
+    int studies = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs")) {
+        if (entry.path().extension() != ".toml" || entry.path().stem() == "record") // it has no record of its own
+            continue;
+        const LoadedStudy loaded = ready(entry.path().stem().string());
+        const Trial trial = try_study(loaded.experiment(), {best_isa(), 1}, 0.2, 0, nobody);
+        EXPECT_EQ(names(loaded, &trial), std::set<std::string>()) << entry.path();
+        ++studies;
+    }
+    EXPECT_GT(studies, 15);
+}
+
+} // namespace
+} // namespace stylobate
