@@ -22,6 +22,7 @@ for_tests=(
     python3-pytest python3-pandas python3-xarray        # its tests, and those of labels in results files
     python3-h5netcdf python3-matplotlib python3-pil
     chromium python3-h5py                               # pages of reports in a browser
+    groff python3-jinja2 python3-yaml                   # the manual page, recipes of packages
 )
 if [[ ${1:-} == --tests ]]; then
     packages+=("${for_tests[@]}")

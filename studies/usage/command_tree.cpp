@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <regex>
 #include <sstream>
 
 namespace stylobate {
@@ -12,16 +11,19 @@ namespace {
 /// What CLI11 has of a type is one text: "TEXT:{png,svg}", "INT:INT in [1 - 4096]", "KEY=VALUE".
 void read_type(const std::string& type, UsageOption& option)
 {
-    static const std::regex list(R"(\{(.*)\})"), interval(R"(in \[(\S+) - (\S+)\])");
     option.value = type.substr(0, type.find(':'));
-    std::smatch found;
-    if (std::regex_search(type, found, list)) {
-        std::istringstream words(found[1]);
-        for (std::string word; std::getline(words, word, ',');)
-            option.choices.push_back(word);
-    } else if (std::regex_search(type, found, interval)) {
-        option.range = found[1].str() + " to " + found[2].str();
-    }
+    const auto between = [&](const char* begin, const char* end) {
+        const std::size_t from = type.find(begin);
+        return from == std::string::npos ? ""
+                                         : type.substr(from + std::string(begin).size(),
+                                                       type.find(end, from) - from - std::string(begin).size());
+    };
+    std::istringstream words(between("{", "}"));
+    for (std::string word; std::getline(words, word, ',');)
+        option.choices.push_back(word);
+    option.range = between(" in [", "]");
+    if (const std::size_t dash = option.range.find(" - "); dash != std::string::npos)
+        option.range.replace(dash, 3, " to ");
 }
 
 UsageOption option_of(const CLI::Option& given)
