@@ -1,4 +1,4 @@
-"""The recipes of packaging/ agree with the project: check_recipes.py SOURCE_FOLDER.
+"""The recipes of packaging/, and what repeats the version, agree with the project: check_recipes.py SOURCE_FOLDER.
 
 Nothing that would run them is here. Spack's is parsed as Python, conda's as YAML after its templates have been filled in;
 the options of CMake that they set exist, and so do the targets and files that they name.
@@ -58,6 +58,14 @@ else:
     check(recipe["package"]["version"] == version.group(1), "conda: version")
     check((root / recipe["about"]["license_file"]).exists(), "conda: license file")
     conda_packages = {line.split()[0] for line in recipe["requirements"]["host"]}
+
+# the version has one home, which these repeat
+major_minor = version.group(1).rpartition(".")[0]
+for file, line in (("CITATION.cff", f"version: {version.group(1)}"),
+                   ("python/pyproject.toml", f'version = "{version.group(1)}"'),
+                   ("examples/CMakeLists.txt", f"find_package(stylobate {major_minor} REQUIRED)"),
+                   ("docs/library.md", f"find_package(stylobate {major_minor} REQUIRED)")):
+    check(line in (root / file).read_text(), f"{file}: not '{line}'")
 
 # every library that the project looks for is a dependency of both
 looked_for = {name.lower() for name in re.findall(r"find_package\((\w+) REQUIRED", (root / "CMakeLists.txt").read_text())}
