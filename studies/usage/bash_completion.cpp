@@ -97,7 +97,6 @@ constexpr const char* functions = R"sh(
 _stylobate_files() # ENDINGS WORD
 {
     local ending
-    compopt -o filenames 2>/dev/null
     set -f # an ending may be *
     for ending in $1; do
         compgen -f -X "!*.$ending" -- "$2"
@@ -154,6 +153,7 @@ _stylobate()
         compopt -o nospace 2>/dev/null
     fi
     if [[ -n $endings ]]; then
+        compopt -o filenames 2>/dev/null # escapes blanks, and sets / after a folder
         mapfile -t COMPREPLY < <(_stylobate_files "$endings" "$value")
     else
         mapfile -t COMPREPLY < <(compgen -W "$words" -- "$value")
