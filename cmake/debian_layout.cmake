@@ -38,6 +38,8 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     file(GLOB site ${root}/lib/python3.*)
     file(RENAME ${site}/site-packages ${root}/lib/python3/dist-packages)
     file(REMOVE_RECURSE ${site})
+    file(WRITE ${root}/lib/python3/dist-packages/stylobate-${CPACK_PACKAGE_VERSION}.dist-info/METADATA
+      "Metadata-Version: 2.1\nName: stylobate\nVersion: ${CPACK_PACKAGE_VERSION}\nRequires-Dist: numpy\n")
     file(COPY ${CPACK_STYLOBATE_SOURCE_DIR}/python/examples DESTINATION ${doc})
   endif()
 

@@ -16,9 +16,12 @@ for tool in debootstrap lintian dpkg-shlibdeps unshare; do
 done
 mirror=$(apt-get indextargets --format '$(REPO_URI)' "Codename: $suite" "Origin: Debian" "Created-By: Packages" | head -n 1)
 [[ -n $mirror ]] || skip "apt has no mirror of Debian 12 ($suite)"
+compgen -G "$build/python/stylobate/_core*.so" >/dev/null || skip "the build has no Python module"
 
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
+/usr/lib/apt/apt-helper download-file "${mirror%/}/dists/$suite/InRelease" "$work/InRelease" >/dev/null 2>&1 ||
+    skip "$mirror cannot be reached"
 root=$work/root
 unshare --mount --pid --fork true 2>/dev/null || skip "there are no namespaces here (unshare)"
 
@@ -83,12 +86,15 @@ as_user 'MANPAGER=cat man --warnings stylobate 2>warnings | grep -q "EXIT STATUS
 timed "apt install ./python3-stylobate_*.deb" in_root "cd /var/tmp && apt-get install --yes ./python3-stylobate_*.deb"
 timed "an example in Python: the surface as a table and a picture" as_user \
     "MPLBACKEND=Agg python3 /usr/share/doc/python3-stylobate/examples/surface.py column.h5 surface.png"
+version=$(sed -n 's/^project(stylobate VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
 timed "a study from Python" as_user "python3 -c '
+import importlib.metadata
 import stylobate
+assert importlib.metadata.version(\"stylobate\") == \"$version\"
 study = stylobate.Study.from_toml(\"/usr/share/stylobate/inputs/$study.toml\", {\"study.realizations\": 16})
-import_share = stylobate.run(study).share(\"collapse\")
+module_share = stylobate.run(study).share(\"collapse\")
 file_share = stylobate.Result(\"column.h5\").share(\"collapse\")
-assert (import_share.count, import_share.trials) == (file_share.count, file_share.trials)
+assert (module_share.count, module_share.trials) == (file_share.count, file_share.trials)
 '"
 
 timed "apt install ./stylobate-doc_*.deb" in_root "cd /var/tmp && apt-get install --yes ./stylobate-doc_*.deb"
