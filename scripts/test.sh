@@ -28,6 +28,9 @@ done
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 scripts/install_packages.sh --tests
+if [[ ${#selection[@]} -eq 0 ]]; then # packages in a bare Debian, and on an old processor
+    scripts/install_packages.sh debootstrap dpkg-dev file lintian qemu-user-static
+fi
 cmake --preset "$preset" >/dev/null
 cmake --build "build/$preset" --parallel "$(nproc)"
 export TSAN_OPTIONS="suppressions=$PWD/tests/tsan_suppressions.txt ${TSAN_OPTIONS:-}"

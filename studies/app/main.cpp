@@ -6,6 +6,9 @@
 #include "studies/app/command.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/results/kept_animations.hpp"
+#include "studies/usage/bash_completion.hpp"
+#include "studies/usage/manual_page.hpp"
+#include "studies/usage/usage_notes.hpp"
 #include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -84,7 +87,7 @@ public:
         app_.require_subcommand(1);
         app_.failure_message(usage_message);
         app_.set_version_flag("--version", code_version());
-        app_.get_formatter()->column_width(34);
+        app_.get_formatter()->column_width(help_column);
         add_run();
         add_check();
         add_replay();
@@ -96,6 +99,8 @@ public:
         add_new();
         add_schema();
         add_info();
+        app_.footer(notes_text(help_column));
+        add_texts();
     }
 
     /// Reads the words and does what they say.
@@ -112,6 +117,23 @@ public:
     }
 
 private:
+    static constexpr std::size_t help_column = 34; ///< where the texts begin
+
+    /// What the build asks for: hidden, because a user has them installed.
+    void add_texts()
+    {
+        const auto print = [this](const char* flag, std::string (*text)(const Usage&)) {
+            app_.add_flag_callback(flag,
+                                   [this, text] {
+                                       fmt::print("{}", text(usage_of(app_)));
+                                       throw CLI::Success();
+                                   })
+                ->group("");
+        };
+        print("--man", [](const Usage& usage) { return manual_page(usage, code_version()); });
+        print("--bash-completion", [](const Usage& usage) { return bash_completion(usage, settable_keys()); });
+    }
+
     void add_check()
     {
         auto* check = app_.add_subcommand(

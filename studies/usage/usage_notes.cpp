@@ -1,0 +1,53 @@
+#include "studies/usage/usage_notes.hpp"
+
+#include <fmt/format.h>
+
+namespace stylobate {
+
+const std::vector<UsageSection>& usage_notes()
+{
+    static const std::vector<UsageSection> sections{
+        {"Exit status",
+         {{"0", "done"},
+          {"1", "a failure that is none of the following, such as a full disk"},
+          {"2", "bad input: one message on standard error, nothing written or changed"},
+          {"3",
+           "done, but more realizations are invalid than run.max_invalid_fraction allows; of check: run.accuracy is "
+           "missed"},
+          {"130", "interrupted by Ctrl-C; the same command continues a run or a calibration"}}},
+        {"Environment",
+         {{"STYLOBATE_GNUPLOT", "path of the gnuplot that draws png, svg and pdf (default: the first in PATH)"},
+          {"STYLOBATE_FFMPEG", "path of the ffmpeg that writes gif, mp4 and webm (default: the first in PATH)"},
+          {"TMPDIR", "folder for temporary files (default: /tmp)"}}},
+        {"Files",
+         {{"NAME.toml", "a study; stylobate new writes one to begin with, stylobate schema --markdown lists every key"},
+          {"NAME.h5", "results of run, replay, calibrate or diagnose, or a measured campaign"},
+          {"/usr/share/stylobate/inputs", "studies that are ready to run, where the package for Debian has them"},
+          {"/usr/share/doc/stylobate", "the pages of the documentation, in the package stylobate-doc"}}},
+        {"Examples",
+         {{"stylobate new surface", "write surface.toml, a study with comments that runs as it stands"},
+          {"stylobate run surface.toml", "run it; the results are in surface.h5"},
+          {"stylobate run surface.toml -o quick.h5 --set study.realizations=8",
+           "the same with another value of a key and another name of the results"},
+          {"stylobate report surface.h5", "write surface.html, a page for a browser"},
+          {"stylobate export surface.h5 --to png", "draw the probability of collapse over frequency and PGA"},
+          {"stylobate replay surface.h5 --frequency 3 --pga 9.8 --fallen -o fall.h5",
+           "run a realization of that cell again that collapsed, and keep its trajectory"}}},
+    };
+    return sections;
+}
+
+std::string notes_text(std::size_t column)
+{
+    std::string text;
+    for (const UsageSection& section : usage_notes()) {
+        text += (text.empty() ? "" : "\n") + section.title + ":\n";
+        for (const UsageNote& note : section.notes)
+            text += note.name.size() + 3 > column ? fmt::format("  {}\n{:{}}{}\n", note.name, "", column, note.text)
+                                                  : fmt::format("  {:{}}{}\n", note.name, column - 2, note.text);
+    }
+    text.pop_back(); // CLI11 ends it
+    return text;
+}
+
+} // namespace stylobate
