@@ -220,7 +220,7 @@ struct OfRigidJoint {
         slope = closing + 3, ///< mu, or 0 while friction is held to a bound
         rest,                ///< of the expansion, or the bound [N]
         bound,               ///< mu N of forces that were found before [N]
-        reached,             ///< mu N of those found with it [N]
+        after_bound,         ///< mu N of those found with it [N]
         count
     };
 };

@@ -108,7 +108,7 @@ private:
             for (int pass = 0; pass < detail::passes_of_all + detail::passes_of_one && any(wrong); ++pass)
                 wrong = wrong & solve_once(wrong, pass >= detail::passes_of_all);
             for (int j = 0; j < topology_.beds(); ++j)
-                put_chosen(busy, J::reached, j, limit_of(j, load_three(J::force, j)));
+                put_chosen(busy, J::after_bound, j, limit_of(j, load_three(J::force, j)));
             couple_friction(busy);
             const Mask contradicts = solve_once(none, false);
             busy = busy & (contradicts | !comes_nearer());
@@ -149,7 +149,7 @@ private:
             const Real limit = limit_of(j, load_three(J::force, j));
             const Real per_force = select(abs_of(get(J::slips, j)) > half, get(J::own, j, 5), zero);
             from = fma(per_force, abs_of(limit - get(J::bound, j)), from);
-            to = fma(per_force, abs_of(limit - get(J::reached, j)), to);
+            to = fma(per_force, abs_of(limit - get(J::after_bound, j)), to);
         }
         return (to < from) | (to < settled());
     }
