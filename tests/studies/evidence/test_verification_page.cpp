@@ -79,7 +79,7 @@ TEST(Page, PutsFailuresFirstAndCountsThem)
 
 TEST(Page, GivesTheLimitOfAGeometricSeries)
 {
-    const auto text = [](std::vector<double> at) {
+    const auto text = [](const std::vector<double>& at) {
         Case converging{"Converging", "B", "right", "o", "t", [=] {
                             Finding f;
                             std::vector<double> value;
