@@ -88,10 +88,11 @@ protected:
     }
 
 private:
-    /// Of frames: friction in their loops admits solutions with large forces that no motion has caused. So friction is
-    /// held to the limit of forces that were found before, at first those of the last step, and the limit is found
-    /// anew, until friction of the limit itself contradicts nothing with the same ends that carry and slip. Where
-    /// nothing slips there is no such solution.
+    /// Of frames: friction in their loops admits false solutions, with large forces that no motion has caused. Where
+    /// nothing slips there are none, and the first solution is taken if it contradicts nothing. Else friction is held
+    /// to a bound, the limit mu N of the last step's forces, and then of the forces found with the bound before. With
+    /// the ends that carry and slip under a bound the equations are solved for friction mu N itself. Their solution is
+    /// taken if it contradicts nothing and the bounds lead to it. What is not found so is relaxed.
     STYLOBATE_INLINE void solve_frame() const
     {
         const Real half(0.5), zero(0.0);

@@ -13,8 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 
 namespace stylobate {
@@ -40,17 +38,14 @@ std::string no_pilot(const Study& study)
 /// @throws InputError for an unknown format, or one that the file's extension contradicts
 fs::path picture_path(const std::string& study, const CheckOptions& wanted)
 {
-    constexpr std::array formats{"png", "svg", "pdf"};
     if (wanted.output.empty())
         return wanted.format.empty() ? fs::path()
                                      : fs::path(fs::path(study).stem().string() + "_structure." + wanted.format);
-    std::string ending = fs::path(wanted.output).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (!wanted.format.empty() && ending != "." + wanted.format)
+    const std::string ending = ending_of(wanted.output);
+    if (!wanted.format.empty() && ending != wanted.format)
         throw InputError(
             fmt::format("--to {0} and -o {1}: the file extension is not .{0}", wanted.format, wanted.output));
-    if (std::none_of(formats.begin(), formats.end(),
-                     [&](const char* format) { return ending == "." + std::string(format); }))
+    if (!is_picture_format(ending))
         throw InputError(
             fmt::format("-o {}: the drawing of the structure is a .png, .svg or .pdf file", wanted.output));
     return wanted.output;

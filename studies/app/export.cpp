@@ -30,25 +30,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_picture_format(std::string_view format)
-{
-    return format == "png" || format == "svg" || format == "pdf";
-}
-
-/// The ending of the output, without its dot and in small letters.
-std::string ending_of(const ExportOptions& wanted)
-{
-    std::string ending = fs::path(wanted.output).extension().string();
-    ending.erase(0, ending.empty() ? 0 : 1);
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending;
-}
-
 /// What is to be written: said by --to, or by the ending of the output.
 /// @throws InputError if nothing says it, or if the two contradict each other
 std::string format_of(const ExportOptions& wanted)
 {
-    const std::string ending = ending_of(wanted);
+    const std::string ending = ending_of(wanted.output);
     const std::string of_picture = "The file extension of a picture is .png, .svg or .pdf.";
     if (wanted.format.empty() && !is_picture_format(ending))
         throw InputError(
@@ -232,7 +218,7 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
 /// @throws InputError if the two contradict each other
 std::string motion_format_of(const ExportOptions& wanted)
 {
-    const std::string ending = ending_of(wanted);
+    const std::string ending = ending_of(wanted.output);
     if (wanted.format.empty())
         return is_motion_format(ending) ? ending : "";
     if (!is_motion_format(wanted.format))

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace stylobate {
 
 namespace fs = std::filesystem;
@@ -12,6 +15,19 @@ fs::path beside(const std::string& input, const std::string& ending)
 {
     const fs::path path(input);
     return path.parent_path() / (path.stem().string() + ending);
+}
+
+std::string ending_of(const fs::path& output)
+{
+    std::string ending = output.extension().string();
+    ending.erase(0, ending.empty() ? 0 : 1);
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending;
+}
+
+bool is_picture_format(std::string_view format)
+{
+    return format == "png" || format == "svg" || format == "pdf";
 }
 
 void check_not_input(const std::string& input, const fs::path& output)

@@ -3,11 +3,18 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace stylobate {
 
 /// "folder/name.h5" -> "folder/name" + `ending`.
 std::filesystem::path beside(const std::string& input, const std::string& ending);
+
+/// The file extension, without its dot and in small letters.
+std::string ending_of(const std::filesystem::path& output);
+
+/// Whether it is an ending of pictures: png, svg, pdf.
+bool is_picture_format(std::string_view format);
 
 /// @throws InputError if the output is the input
 void check_not_input(const std::string& input, const std::filesystem::path& output);

@@ -60,25 +60,10 @@ std::string cells_text(const Study& study)
     return "";
 }
 
-struct Shares {
-    std::uint64_t valid = 0, collapsed = 0;
-};
-
-Shares shares_of(const Trial& trial)
-{
-    Shares shares;
-    for (const TrialPart& part : trial.parts)
-        for (const TrialRealization& r : part.run) {
-            shares.valid += r.state != State::invalid;
-            shares.collapsed += r.state == State::collapsed;
-        }
-    return shares;
-}
-
 void print_trial(const CheckReport& r)
 {
     const Trial& trial = *r.trial;
-    const Shares shares = shares_of(trial);
+    const TrialShares shares = trial.shares();
     fmt::print("trial: {} realization{} in {:.2g} s with {} threads of {}", trial.count(),
                trial.count() == 1 ? "" : "s", trial.seconds, r.run.threads, to_string(r.run.isa));
     if (shares.valid > 0)
@@ -196,7 +181,7 @@ void print_json(const CheckReport& r)
     if (!r.notice.empty())
         json.member("notice", r.notice);
     if (r.trial) {
-        const Shares shares = shares_of(*r.trial);
+        const TrialShares shares = r.trial->shares();
         json.member("trial", Json::object()
                                  .member("realizations", r.trial->count())
                                  .member("whole", r.trial->whole())

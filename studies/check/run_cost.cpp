@@ -61,11 +61,7 @@ double collapsed_share(const Trial* trial)
 {
     if (!trial || trial->count() == 0)
         return 1;
-    double collapsed = 0;
-    for (const TrialPart& part : trial->parts)
-        collapsed += static_cast<double>(std::count_if(
-            part.run.begin(), part.run.end(), [](const TrialRealization& r) { return r.state == State::collapsed; }));
-    return collapsed / static_cast<double>(trial->count());
+    return static_cast<double>(trial->shares().collapsed) / static_cast<double>(trial->count());
 }
 
 double file_bytes(const Study& study, const ResultHeader& header, const Trial* trial)
@@ -216,7 +212,7 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
     double drain = 0;
     if (!trial.whole())
         for (const TrialPart& part : trial.parts)
-            drain += part.processor_s * 0.5 * static_cast<double>(trial.threads) * 8;
+            drain += part.processor_s * 0.5 * static_cast<double>(trial.lanes);
     time.processor_s += drawing_s + drain + (size.file_bytes - size.trajectory_bytes) * row_s_per_byte +
                         size.trajectory_bytes * trajectory_s_per_byte;
     const double sd = std::sqrt(variance);

@@ -167,6 +167,27 @@ std::uint64_t end_of_drawn(const Study& study)
 
 } // namespace
 
+TrialShares shares_of(const TrialPart& part)
+{
+    TrialShares shares;
+    for (const TrialRealization& r : part.run) {
+        shares.valid += r.state != State::invalid;
+        shares.collapsed += r.state == State::collapsed;
+    }
+    return shares;
+}
+
+TrialShares Trial::shares() const
+{
+    TrialShares shares;
+    for (const TrialPart& part : parts) {
+        const TrialShares of_part = shares_of(part);
+        shares.valid += of_part.valid;
+        shares.collapsed += of_part.collapsed;
+    }
+    return shares;
+}
+
 std::uint64_t Trial::count() const
 {
     return std::accumulate(parts.begin(), parts.end(), std::uint64_t{0},
@@ -198,6 +219,7 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
     const Clock::time_point begin = Clock::now();
     Trial trial;
     trial.threads = options.threads;
+    trial.lanes = lanes;
     for (const TwinRange& range : ranges) {
         PartTrial part(experiment, options, study.twins ? &range.study : nullptr,
                        TrialOrder(study, range.begin, range.end));

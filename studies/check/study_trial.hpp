@@ -36,13 +36,21 @@ struct TrialPart {
     double processor_sd = 0; ///< its standard error, by the scatter of the steps
 };
 
+/// Of the realizations that were not set aside, and of those that fell.
+struct TrialShares {
+    std::uint64_t valid = 0, collapsed = 0;
+};
+TrialShares shares_of(const TrialPart& part);
+
 struct Trial {
     std::vector<TrialPart> parts;
     double seconds = 0;     ///< elapsed
     double processor_s = 0; ///< of all threads
     int threads = 1;
+    std::uint64_t lanes = 1; ///< of all threads
     bool unfinished = false; ///< not even the first realizations of every part have ended in time
     std::uint64_t count() const;
+    TrialShares shares() const;
     /// Whether it has run all that the study has.
     bool whole() const;
     /// What the threads were given of the processor; below 1 where others use the machine.

@@ -108,11 +108,7 @@ Found one_outcome(const Subject& s)
     constexpr std::uint64_t enough = 60; // the rule of three: then a share of 0.05 would have been seen
     if (!s.trial || !(study.surface || study.fragility || study.sensitivity))
         return std::nullopt;
-    std::uint64_t valid = 0, fell = 0;
-    for (const TrialRealization& r : s.trial->parts.front().run) {
-        valid += r.state != State::invalid;
-        fell += r.state == State::collapsed;
-    }
+    const auto [valid, fell] = shares_of(s.trial->parts.front());
     if (valid < enough || (fell > 0 && fell < valid))
         return std::nullopt;
     const double limit = 3 / static_cast<double>(valid);
@@ -273,12 +269,11 @@ Found cut_off(const Subject& s)
     const double usual = nominal_tail_s(s.study().structure);
     if (!s.trial || !tail || *tail >= usual)
         return std::nullopt;
-    std::uint64_t valid = 0, cut = 0;
+    const std::uint64_t valid = s.trial->shares().valid;
+    std::uint64_t cut = 0;
     for (const TrialPart& part : s.trial->parts)
-        for (const TrialRealization& r : part.run) {
-            valid += r.state != State::invalid;
+        for (const TrialRealization& r : part.run)
             cut += r.cut_off;
-        }
     if (static_cast<double>(cut) <= many * static_cast<double>(valid))
         return std::nullopt;
     return spot(

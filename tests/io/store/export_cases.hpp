@@ -2,6 +2,7 @@
 /// What the tests of exports and pictures share: a folder, a surface, a trajectory.
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/temporary_folder.hpp"
 #include "io/store/result_store.hpp"
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <iterator>
 #include <limits>
 #include <string>
-#include <unistd.h>
 
 namespace stylobate {
 
@@ -23,21 +23,14 @@ inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 /// A fresh folder for each test, removed afterwards.
 class ExportFolder : public ::testing::Test {
 protected:
-    void SetUp() override
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "stylobate-test-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-
     std::size_t entries() const
     {
         return static_cast<std::size_t>(
             std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
     }
 
-    std::filesystem::path folder;
+    const TemporaryFolder own;
+    const std::filesystem::path folder = own.path();
 };
 inline std::string read_file(const std::filesystem::path& file)
 {

@@ -1,5 +1,6 @@
 /// Where a study is weak: each spot on a study that has it and on one that just has not; the ready studies have none.
 
+#include "io/files/temporary_folder.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "tests/studies/check/ready_study.hpp"
 
@@ -11,7 +12,6 @@
 #include <fstream>
 #include <numbers>
 #include <set>
-#include <unistd.h>
 
 namespace stylobate {
 namespace {
@@ -155,19 +155,24 @@ TEST(WeakSpots, LongSteps)
 {
     EXPECT_TRUE(has("long_step", ready("small_scale_monolith", {"run.step_fraction=1"})));
     EXPECT_FALSE(has("long_step", ready("small_scale_monolith", {"run.step_fraction=0.9"})));
+    // A rigid block of 48 x 174 mm: p2 = 3 g / (4 R), R = 90.2 mm, so that 1 / (120 p) = 0.923 ms.
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "rigid.toml";
+    std::ofstream(file) << "study = { kind = \"single\" }\n"
+                           "structure = { kind = \"column\", blocks = 1, drum_width_m = 0.048, drum_height_m = 0.174, "
+                           "depth_m = 0.048, drum_mass_kg = 0.813 }\n"
+                           "contact = { form = \"rigid\", friction = 0.68 }\n"
+                           "excitation = { kind = \"none\", duration_s = 0.5 }\n";
+    const auto rigid = [&](const std::string& step_s) {
+        return LoadedStudy::from_file(file.string(), {"run.step_s=" + step_s});
+    };
+    EXPECT_TRUE(has("long_step", rigid("0.94e-3")));
+    EXPECT_FALSE(has("long_step", rigid("0.91e-3")));
 }
 
 /// A study under a record that is made here.
 class WeakRecord : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "stylobate-weak-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     /// Ten seconds of 5 Hz that begin at once, and end slowly or not.
     LoadedStudy shaken(double step_s, bool whole) const
     {
@@ -183,7 +188,7 @@ protected:
         return ready("record", {"excitation.file=" + file, "excitation.unit=\"m/s2\"", "excitation.baseline=false"});
     }
 
-    std::filesystem::path folder_;
+    const TemporaryFolder folder_;
 };
 
 TEST_F(WeakRecord, WithFewSamplesInAPeriod)
