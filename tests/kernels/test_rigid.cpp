@@ -156,7 +156,7 @@ TEST(Rigid, FramesMoveFromTheAccelerationOnThatLimitAnalysisGives)
                 c.one_epistyle = columns == 2 || whole;
                 if (columns == 2 && whole)
                     continue;
-                for (const double mu : {0.2, 0.7, 5.0}) {
+                for (const double mu : {0.2, 0.5, 0.7, 5.0}) {
                     model::Bed bed;
                     bed.mu = mu;
                     const Realization r = rigid(model::colonnade(c, bed, 1e-3, false), 1e-3);
