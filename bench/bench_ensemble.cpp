@@ -2,6 +2,7 @@
 
 #include "bench/scenes.hpp"
 #include "ensemble/engine/executor.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -36,7 +37,24 @@ void ensemble(benchmark::State& state, Isa isa, int threads)
     state.counters["collapsed_share"] = static_cast<double>(progress.collapsed) / static_cast<double>(progress.done);
 }
 
+/// README's first command without its files: once, on two threads.
+void main_job(benchmark::State& state, Isa isa)
+{
+    const LoadedStudy main_job =
+        LoadedStudy::from_file(std::string(STYLOBATE_SOURCE) + "/studies/inputs/small_scale_column.toml", {});
+    RunPlan plan;
+    plan.total = main_job.study().total();
+    plan.sink = [](const Realization&, const Outcome&) {};
+    Observer observer;
+    for (auto _ : state)
+        state.counters["seconds"] = run_ensemble(main_job.experiment(), {isa, 2}, plan, observer).seconds;
+}
+
 const bool registered = [] {
+    benchmark::RegisterBenchmark((std::string("BM_MainJob/") + to_string(best_isa())).c_str(), main_job, best_isa())
+        ->Unit(benchmark::kSecond)
+        ->Iterations(1)
+        ->Repetitions(1);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     for (const Isa isa : usable_isas())
         for (int threads = 1; threads <= cores; threads *= 2)

@@ -1,4 +1,7 @@
-/// Writes the tables of docs/performance.md from a file of results: no figure on that page is typed.
+/// Writes the tables of docs/performance.md from files of results: no figure on that page is typed.
+///
+///   performance_page RESULTS.json     all tables of one run
+///   performance_page --kinds FOLDER   one table, with the rows of every kind of processor of which it has results
 
 #include "bench/results_file.hpp"
 #include "io/tables/markdown.hpp"
@@ -6,7 +9,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 using namespace stylobate;
 
@@ -110,15 +116,65 @@ void ensembles(const ResultsFile& file)
     }
 }
 
+/// The rows of one kind of processor: one for each instruction set that it has.
+void rows_of_kind(const ResultsFile& file)
+{
+    for (const char* isa : isas) {
+        const auto best = [&](const char* benchmark, const char* counter) {
+            return file.best(fmt::format(fmt::runtime(benchmark), isa), counter);
+        };
+        const double steps = best("BM_Kernel/{}/7", "block_steps_per_second");
+        const double peak = best("BM_PeakFma/{}", "flops_per_second");
+        if (steps == 0 || peak == 0)
+            continue;
+        const auto whole = [](double number) { return number > 0 ? fmt::format("{:.0f}", number) : ""; };
+        fmt::print("{}", markdown_row("{} | {} | {} | {:.0f} % | {} | {} | {} | {} | {}", file.processor, isa,
+                                      millions(steps), 100 * best("BM_Kernel/{}/7", "flops_per_second") / peak,
+                                      times(steps, file.best("BM_Kernel/scalar/7", "block_steps_per_second")),
+                                      millions(best("BM_Step/{}/7", "block_steps_per_second")),
+                                      whole(best("BM_Ensemble/{}/1", "realizations_per_second")),
+                                      whole(best("BM_Ensemble/{}/2", "realizations_per_second")),
+                                      whole(best("BM_MainJob/{}/iterations:1/repeats:1", "seconds"))));
+    }
+}
+
+/// Of every processor the results that were made last.
+void kinds(const std::filesystem::path& folder)
+{
+    std::map<std::string, ResultsFile> last;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".json")
+            continue;
+        const ResultsFile file = read_results(entry.path().string());
+        if (file.best("BM_Kernel/scalar/7", "block_steps_per_second") == 0)
+            continue; // of something else
+        ResultsFile& kept = last[file.processor];
+        if (kept.date < file.date)
+            kept = file;
+    }
+    fmt::print("{}",
+               markdown_head("processor | instruction set | steps, million block-steps/s | of the peak | times the "
+                             "scalar rate | with all | small surface, realizations/s, 1 thread | 2 threads | "
+                             "main job, 2 threads [s]",
+                             Align::numbers));
+    for (const auto& [name, file] : last)
+        rows_of_kind(file);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-    if (argc != 2) {
-        fmt::print(stderr, "performance_page: give one results file of scripts/bench.sh\n");
+    const bool all = argc == 2, of_kinds = argc == 3 && std::string(argv[1]) == "--kinds";
+    if (!all && !of_kinds) {
+        fmt::print(stderr, "performance_page: give one results file of scripts/bench.sh, or --kinds FOLDER\n");
         return 2;
     }
     try {
+        if (of_kinds) {
+            kinds(argv[2]);
+            return 0;
+        }
         const ResultsFile file = read_results(argv[1]);
         fmt::print("{}; Stylobate {}.\n\n", file.processor, file.commit);
         kernel(file);

@@ -39,6 +39,7 @@ ResultsFile read_results(const std::string& path)
     ResultsFile file;
     file.processor = tree.get("context.processor", "");
     file.commit = tree.get("context.stylobate", "");
+    file.date = tree.get("context.date", "");
     const auto list = tree.get_child_optional("benchmarks");
     if (!list)
         throw std::runtime_error(path + ": no \"benchmarks\" in it. A file that Google Benchmark writes with "

@@ -16,6 +16,7 @@ struct Measured {
 
 struct ResultsFile {
     std::string processor, commit; ///< "" where the file does not say
+    std::string date;              ///< ISO 8601
     std::vector<Measured> runs;
     /// The best value of a counter over the repetitions of a benchmark: what the neighbours on a shared machine took
     /// least of. 0 where there is none.
