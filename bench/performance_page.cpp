@@ -143,7 +143,7 @@ void kinds(const std::filesystem::path& folder)
 {
     std::map<std::string, ResultsFile> last;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (entry.path().extension() != ".json")
+        if (entry.path().extension() != ".json" || entry.path().filename().string().starts_with("peers-"))
             continue;
         const ResultsFile file = read_results(entry.path().string());
         if (file.best("BM_Kernel/scalar/7", "block_steps_per_second") == 0)

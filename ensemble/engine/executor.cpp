@@ -33,13 +33,13 @@ public:
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
           kernels_(kernels(options.isa)), threads_(options.threads), plan_(plan), observer_(observer),
           order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
-          pattern_(realize(plan.index(0)))
+          places_(order_.places(plan.shard)), next_(places_.begin), pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
         progress_.done = before_ = before.end;
         progress_.collapsed = before.collapsed;
         progress_.invalid = before.invalid;
-        progress_.total = plan.total;
+        progress_.total = places_.size();
         handover_.fetch_add(1);
     }
 
@@ -164,7 +164,7 @@ private:
     }
 
     /// Realizations that were to be run at the beginning.
-    std::uint64_t left() const { return plan_.total - std::min(plan_.total, before_); }
+    std::uint64_t left() const { return places_.size() - std::min(places_.size(), before_); }
 
     Realization realize(std::uint64_t index) const
     {
@@ -174,9 +174,9 @@ private:
     std::optional<std::uint64_t> next()
     {
         const std::lock_guard lock(mutex_);
-        while (next_ < plan_.total && plan_.done.has(next_))
+        while (next_ < places_.end && plan_.done.has(next_))
             ++next_;
-        if (next_ >= plan_.total || stopped_)
+        if (next_ >= places_.end || stopped_)
             return std::nullopt;
         const std::uint64_t index = plan_.index(order_.index(next_));
         running_.emplace(index, next_++);
@@ -214,8 +214,9 @@ private:
         progress_.rate = seconds > 0 ? static_cast<double>(delivered_) / seconds : 0;
         const std::uint64_t chunks = lane_chunks_;
         progress_.occupancy = chunks > 0 ? static_cast<double>(active_chunks_) / static_cast<double>(chunks) : 0;
-        const DoneSet::Part sample = done_.sample();
-        estimate_share(progress_, sample.end - sample.invalid, sample.collapsed);
+        const DoneSet::Part sample = done_.sample(places_.begin);
+        if (sample.end > 0)
+            estimate_share(progress_, sample.done(places_.begin) - sample.invalid, sample.collapsed);
         observer_.progress(progress_);
         if (observer_.stop_requested())
             stopped_ = true;
@@ -233,8 +234,9 @@ private:
     Progress progress_;
     const RunOrder order_;
     DoneSet done_;                                             ///< places
+    const RunOrder::Places places_;                            ///< of the shard
+    std::uint64_t next_;                                       ///< place
     std::uint64_t before_ = 0;                                 ///< how many had been done
-    std::uint64_t next_ = 0;                                   ///< place
     std::unordered_map<std::uint64_t, std::uint64_t> running_; ///< places of what is being stepped, by index
     std::uint64_t delivered_ = 0;
     std::exception_ptr error_;

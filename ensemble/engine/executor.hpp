@@ -7,6 +7,7 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
+#include "ensemble/numerics/shard.hpp"
 #include "kernels/isa.hpp"
 
 #include <cstdint>
@@ -31,6 +32,7 @@ struct RunOptions {
 struct RunPlan {
     std::uint64_t total = 0;                     ///< realizations 0 .. total - 1, or as many as `indices`
     std::span<const std::uint64_t> indices = {}; ///< those to run; empty: 0 .. total - 1
+    Shard shard = {};                            ///< the part of them that is run here
     /// Those that have been done before, by their places: number p of them (or index p) has place
     /// `RunOrder(total).place(p)`. `mark_done` fills it.
     DoneSet done;
@@ -68,7 +70,7 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set
 /// and the number of threads, and on devices too (`docs/gpu.md` says what that rests on).
 ///
-/// @return the counts at the end; `done < total` if the observer asked to stop
+/// @return the counts at the end, of a shard its own; `done < total` if the observer asked to stop
 /// @throws what `Sampler::realization` or the sink throws, after all threads have stopped
 Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer);
 

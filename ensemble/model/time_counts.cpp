@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <limits>
 
 namespace stylobate {
@@ -27,7 +28,28 @@ void TimeCounts::add(double time_s)
         ++at->second;
     else
         counts_.insert(at, {time, 1});
-    if (!exact_ || counts_.size() <= most_exact)
+    limit(false);
+}
+
+void TimeCounts::add(const TimeCounts& other)
+{
+    limit(!other.exact_);
+    TimeCounts more = other;
+    more.limit(!exact_);
+    Counts all;
+    std::merge(counts_.begin(), counts_.end(), more.counts_.begin(), more.counts_.end(), std::back_inserter(all));
+    counts_.clear();
+    for (const auto& [time, count] : all)
+        if (!counts_.empty() && counts_.back().first == time)
+            counts_.back().second += count;
+        else
+            counts_.emplace_back(time, count);
+    limit(false);
+}
+
+void TimeCounts::limit(bool round)
+{
+    if (!exact_ || (!round && counts_.size() <= most_exact))
         return;
     exact_ = false;
     Counts all;

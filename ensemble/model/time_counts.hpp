@@ -27,6 +27,8 @@ public:
 
     /// @pre time_s >= 0 and finite
     void add(double time_s);
+    /// All times of another: as if they had been added one by one.
+    void add(const TimeCounts& other);
 
     const Counts& counts() const { return counts_; }
     bool exact() const { return exact_; }
@@ -37,6 +39,9 @@ public:
     double median() const;
 
 private:
+    /// Rounds all times where there are too many different ones, or if it is asked for.
+    void limit(bool round);
+
     Counts counts_;
     bool exact_ = true;
 };

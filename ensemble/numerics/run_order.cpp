@@ -111,6 +111,18 @@ std::uint64_t RunOrder::fair(std::uint64_t places) const
     return places >= total_ ? total_ : block_begin(places);
 }
 
+RunOrder::Places RunOrder::places(const Shard& shard) const
+{
+    constexpr std::uint64_t many = 16; // shards then differ by a sixteenth at the most
+    const bool whole_blocks = blocks_ >= many * shard.of;
+    const auto first_of = [&](std::uint64_t k) { // of the shards behind k of them; without overflow
+        const std::uint64_t n = whole_blocks ? blocks_ : total_;
+        const std::uint64_t part = n / shard.of * k + n % shard.of * k / shard.of;
+        return whole_blocks ? (*begin_)[part] : part;
+    };
+    return {first_of(shard.number - 1), first_of(shard.number)};
+}
+
 bool DoneSet::has(std::uint64_t place) const
 {
     const auto after = parts_.upper_bound(place);
@@ -132,12 +144,38 @@ bool DoneSet::join(At part)
     return true;
 }
 
-void DoneSet::add(std::uint64_t place, bool collapsed, bool invalid)
+void DoneSet::insert(std::uint64_t begin, const Part& part)
 {
-    At at = parts_.emplace(place, Part{place + 1, collapsed, invalid}).first;
+    At at = parts_.emplace(begin, part).first;
     join(at);
     while (at != parts_.begin() && join(std::prev(at))) // a block that is whole now may join the one before it
-        at = std::prev(parts_.upper_bound(place));
+        at = std::prev(parts_.upper_bound(begin));
+}
+
+void DoneSet::add(std::uint64_t place, bool collapsed, bool invalid)
+{
+    insert(place, {place + 1, collapsed, invalid});
+}
+
+void DoneSet::add(const DoneSet& other)
+{
+    for (const auto& [begin, part] : other.parts_)
+        insert(begin, part);
+}
+
+std::optional<std::uint64_t> DoneSet::common(const DoneSet& other) const
+{
+    auto a = parts_.begin(), b = other.parts_.begin();
+    while (a != parts_.end() && b != other.parts_.end()) {
+        const std::uint64_t first = std::max(a->first, b->first);
+        if (first < std::min(a->second.end, b->second.end))
+            return first;
+        if (a->second.end <= b->second.end)
+            ++a;
+        else
+            ++b;
+    }
+    return std::nullopt;
 }
 
 bool DoneSet::append(std::uint64_t begin, const Part& part)
@@ -160,10 +198,12 @@ DoneSet::Part DoneSet::all() const
     return all;
 }
 
-DoneSet::Part DoneSet::sample() const
+DoneSet::Part DoneSet::sample(std::uint64_t from) const
 {
-    const auto at = parts_.find(0);
-    return at == parts_.end() || order_.fair(at->second.end) != at->second.end ? Part{} : at->second;
+    const auto at = parts_.find(from);
+    const bool whole =
+        at != parts_.end() && order_.block_begin(from) == from && order_.fair(at->second.end) == at->second.end;
+    return whole ? at->second : Part{};
 }
 
 } // namespace stylobate

@@ -14,9 +14,12 @@
 /// neighbours: lanes that step similar realizations take the same branches, which is worth a twentieth of the speed.
 /// Indices and outcomes do not depend on the order. The combination is an own derivation.
 
+#include "ensemble/numerics/shard.hpp"
+
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -32,6 +35,15 @@ public:
     std::uint64_t block_end(std::uint64_t place) const;
     /// Number of the first places that form a fair sample: the whole blocks among them.
     std::uint64_t fair(std::uint64_t places) const;
+
+    struct Places {
+        std::uint64_t begin = 0, end = 0;
+        std::uint64_t size() const { return end - begin; }
+        bool has(std::uint64_t place) const { return begin <= place && place < end; }
+    };
+    /// The places of a shard: a sequence of blocks where there are many of them for each shard, so that it is a fair
+    /// sample and takes as long as the others; else a sequence of places.
+    Places places(const Shard& shard) const;
 
 private:
     std::size_t block_of(std::uint64_t place) const;
@@ -58,6 +70,10 @@ public:
     bool has(std::uint64_t place) const;
     /// @pre !has(place)
     void add(std::uint64_t place, bool collapsed, bool invalid);
+    /// All places of another set of the same order. @pre they have none in common
+    void add(const DoneSet& other);
+    /// A place that both have.
+    std::optional<std::uint64_t> common(const DoneSet& other) const;
     /// By their beginning, in order.
     const std::map<std::uint64_t, Part>& parts() const { return parts_; }
     /// Adds an interval behind all others.
@@ -66,13 +82,16 @@ public:
 
     /// Sum of all parts; `end` is the number of places.
     Part all() const;
-    /// The completed blocks from the first one on: a fair sample, not biased towards short realizations.
-    Part sample() const;
+    /// The completed blocks from the one on that begins at a place: a fair sample, not biased towards short
+    /// realizations. Nothing if no block begins there, or if it is not complete. `end` is the place behind them.
+    Part sample(std::uint64_t from = 0) const;
 
 private:
     using At = std::map<std::uint64_t, Part>::iterator;
     /// Joins a part with the next one if they belong together. @returns whether they did
     bool join(At part);
+    /// Adds a part that no other one has places of.
+    void insert(std::uint64_t begin, const Part& part);
 
     RunOrder order_;
     std::map<std::uint64_t, Part> parts_;

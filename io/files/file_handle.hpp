@@ -48,6 +48,25 @@ private:
     std::filesystem::path path_; ///< for messages
 };
 
+/// Removes an unfinished file when something fails on the way.
+class Temporary {
+public:
+    explicit Temporary(std::filesystem::path file) : file_(std::move(file)) {}
+    ~Temporary()
+    {
+        std::error_code ignored;
+        if (!kept_)
+            std::filesystem::remove(file_, ignored);
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    void keep() { kept_ = true; }
+
+private:
+    std::filesystem::path file_;
+    bool kept_ = false;
+};
+
 /// @throws InputError if there is a file of the new name; it is left alone
 void rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
 /// Replaces the file of the new name in one step, and makes the folder remember it.

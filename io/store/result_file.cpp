@@ -35,6 +35,13 @@ ResultHeader read_header(hid_t file)
     header.total = hdf5::read_number(file, "realizations");
     header.first = hdf5::read_number(file, "first_realization");
     header.selected = hdf5::has_attribute(file, names::selected);
+    if (hdf5::has_attribute(file, names::shard)) {
+        const std::string text = hdf5::read_text(file, names::shard);
+        const std::optional<Shard> shard = Shard::from_text(text);
+        if (!shard)
+            throw hdf5::Error("'" + text + "' is no shard");
+        header.shard = *shard;
+    }
     if (hdf5::has_attribute(file, names::warnings))
         header.warnings = split_names(hdf5::read_text(file, names::warnings));
     const bool counted = hdf5::exists(file, names::tally);
@@ -79,7 +86,7 @@ std::string without_title(const std::string& study_toml)
 }
 
 /// Where two study texts part, for a message; empty if they are the same but for their titles.
-std::string study_difference(const std::string& text_in_file, const std::string& text_asked)
+std::string text_difference(const std::string& text_in_file, const std::string& text_asked)
 {
     const std::string in_file = without_title(text_in_file), asked = without_title(text_asked);
     std::istringstream a(in_file);
@@ -125,6 +132,8 @@ void write_header(hid_t file, const ResultHeader& header, bool complete)
     hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
     if (header.selected)
         hdf5::write_number(file, names::selected, H5T_STD_U8LE, 1);
+    if (!header.shard.whole())
+        hdf5::write_text(file, names::shard, header.shard.text());
     if (!header.warnings.empty())
         hdf5::write_text(file, names::warnings, joined_names(header.warnings));
     hdf5::write_number(file, "complete", H5T_STD_U8LE, complete);
@@ -177,42 +186,54 @@ void check_table(const ResultHeader& header, const SurfaceTable& table)
         throw std::invalid_argument("the surface's table is not (nf x np)");
 }
 
+std::string study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked)
+{
+    if (std::string text = text_difference(found.study_toml, asked.study_toml); !text.empty())
+        return text;
+    if (found.kind != asked.kind)
+        return "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
+    if (found.seed != asked.seed)
+        return "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
+    const bool fewer = complete && found.selected; // a finished file has the rows that were needed
+    if (found.total != asked.total && !fewer)
+        return "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
+    if (found.selected != asked.selected)
+        return "its rows are selected by another method";
+    if (found.limit_states != asked.limit_states)
+        return found.has_rows() == asked.has_rows() ? "it counts other limit states"
+               : found.has_rows()                   ? "it keeps a row of each realization"
+                                                    : "it keeps no rows of its realizations";
+    if (found.first != asked.first)
+        return "it begins with realization " + std::to_string(found.first) + " instead of " +
+               std::to_string(asked.first);
+    if (found.input_names != asked.input_names)
+        return "its inputs have other names";
+    if (found.block_names != asked.block_names)
+        return "its blocks have other names";
+    if (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2)
+        return "its surface has other axes";
+    if (found.motions != asked.motions)
+        return "its motions differ";
+    return {};
+}
+
 void check_same_study(const ResultFile& file, const ResultHeader& asked)
 {
     const ResultHeader& found = file.header;
     const auto refuse = [&](const std::string& text) { throw InputError(file.path.string(), 0, text); };
-    std::string other = study_difference(found.study_toml, asked.study_toml);
-    if (other.empty() && found.kind != asked.kind)
-        other = "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
-    if (other.empty() && found.seed != asked.seed)
-        other = "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
-    const bool fewer = file.complete && found.selected; // a finished file has the rows that were needed
-    if (other.empty() && found.total != asked.total && !fewer)
-        other = "it has " + std::to_string(found.total) + " realizations instead of " + std::to_string(asked.total);
-    if (other.empty() && found.selected != asked.selected)
-        other = "its rows are selected by another method";
-    if (other.empty() && found.limit_states != asked.limit_states)
-        other = found.has_rows() == asked.has_rows() ? "it counts other limit states"
-                : found.has_rows()                   ? "it keeps a row of each realization"
-                                                     : "it keeps no rows of its realizations";
-    if (other.empty() && found.first != asked.first)
-        other =
-            "it begins with realization " + std::to_string(found.first) + " instead of " + std::to_string(asked.first);
-    if (other.empty() && found.input_names != asked.input_names)
-        other = "its inputs have other names";
-    if (other.empty() && found.block_names != asked.block_names)
-        other = "its blocks have other names";
-    if (other.empty() && (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2))
-        other = "its surface has other axes";
-    if (other.empty() && found.motions != asked.motions)
-        other = "its motions differ";
-    if (!other.empty())
+    if (const std::string other = study_difference(found, file.complete, asked); !other.empty())
         refuse("holds the results of another study: " + other + ". Choose another output file (-o).");
     if (found.code_version != asked.code_version)
         refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
                ", whose results may differ bitwise. " +
                (file.complete ? "It is complete; choose another output to run the study again."
                               : "Finish it with the old version, or choose another output."));
+    const std::string part = "shard " + found.shard.text();
+    if (file.complete || found.shard == asked.shard)
+        return;
+    refuse(found.shard.whole() ? "is of all of the study. Continue it without --shard, or choose another output (-o)."
+                               : "is of " + part + " of the study. Continue it with --" + part +
+                                     ", choose another output (-o), or merge it with the other shards.");
 }
 
 void check_unfinished(const ResultFile& file, const ResultHeader& asked)

@@ -15,25 +15,6 @@ namespace stylobate {
 /// A name in the same folder, for what is not ready to be seen.
 std::filesystem::path beside(const std::filesystem::path& file, const char* suffix);
 
-/// Removes an unfinished file when something fails on the way.
-class Temporary {
-public:
-    explicit Temporary(std::filesystem::path file) : file_(std::move(file)) {}
-    ~Temporary()
-    {
-        std::error_code ignored;
-        if (!kept_)
-            std::filesystem::remove(file_, ignored);
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-    void keep() { kept_ = true; }
-
-private:
-    std::filesystem::path file_;
-    bool kept_ = false;
-};
-
 /// The names of the inputs as one text.
 std::string joined_inputs(const ResultHeader& header);
 /// The attributes of the file, the axes of its surface and its motions.

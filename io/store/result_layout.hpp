@@ -30,6 +30,7 @@ inline constexpr char blocks[] = "blocks"; ///< attribute of groups with values 
 inline constexpr char checksum[] = "realizations/chunk_checksum";
 inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
 inline constexpr char selected[] = "selected"; ///< attribute of / where the rows are some of the realizations
+inline constexpr char shard[] = "shard";       ///< attribute of / of an unfinished file that is meant for a part
 inline constexpr char warnings[] = "warnings"; ///< attribute of / where there are any: one on each line
 inline constexpr char surface[] = "surface";
 inline constexpr char surface_frequency[] = "surface/frequency_hz";

@@ -124,6 +124,11 @@ const Tally* ResultReader::tally() const
     return impl_->counted ? &impl_->counted->tally : nullptr;
 }
 
+const DoneSet* ResultReader::counted() const
+{
+    return impl_->counted ? &impl_->counted->done : nullptr;
+}
+
 std::uint64_t ResultReader::done() const
 {
     return impl_->counted ? impl_->counted->tally.added() : impl_->rows;

@@ -4,6 +4,7 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/numerics/run_order.hpp"
 #include "io/store/tally.hpp"
 #include "io/tables/table.hpp"
 
@@ -47,9 +48,14 @@ struct ResultHeader {
     MotionTable motions;                   ///< of a fragility study, else empty
     std::vector<std::string> warnings;     ///< what is doubtful about the study, a sentence or several in each
     std::vector<std::string> limit_states; ///< that are counted where no rows are kept (`TallyWriter`), else empty
+    Shard shard;                           ///< the part that an unfinished file is meant for; of a complete one all
     /// Whether there is a row of each realization.
     bool has_rows() const { return limit_states.empty(); }
 };
+
+/// In what the study of a file is another one than that which is asked for, in words; empty: it is the same.
+/// @param complete whether the file is: where rows are selected, it then has those that were needed
+std::string study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked);
 
 /// One row of /realizations.
 struct ResultRow {
@@ -172,6 +178,8 @@ public:
     std::uint64_t done() const;
     /// What was counted where there are no rows, else null.
     const Tally* tally() const;
+    /// Which realizations were, by their places in the order of the run; null where there are rows.
+    const DoneSet* counted() const;
     /// Empty axes if there is none.
     SurfaceTable surface() const;
     /// A table that `ResultWriter::finish` was given; an empty one if there is none of this name.

@@ -130,7 +130,8 @@ std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& 
         write_open_seal(result.handle, block);
         result.journal = RowJournal(result.handle.size());
         if (!header.selected) // of others nobody knows how many there will be
-            result.handle.reserve(header.total * (result.layout.row_bytes() + RowJournal::head_bytes));
+            result.handle.reserve(RunOrder(header.total).places(header.shard).size() *
+                                  (result.layout.row_bytes() + RowJournal::head_bytes));
         result.handle.sync();
     } catch (const hdf5::Error& error) {
         throw InputError(file.string(), 0, std::string("cannot be written: ") + error.what());

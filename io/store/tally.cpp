@@ -1,6 +1,8 @@
 #include "io/store/tally.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
@@ -53,10 +55,36 @@ void Tally::add(const TallyEntry& entry)
         collapse_time_s.add(entry.collapse_time_s);
     if (entry.total_collapse_time_s >= 0)
         total_collapse_time_s.add(entry.total_collapse_time_s);
-    const double size = std::abs(entry.energy_residual), most = std::abs(energy_residual);
-    if (size > most || (size == most && entry.index < energy_realization)) {
-        energy_residual = entry.energy_residual;
-        energy_realization = entry.index;
+    keep_worst(entry.energy_residual, entry.index);
+}
+
+void Tally::add(const Tally& other)
+{
+    if (other.cells() != cells() || other.limit_states != limit_states || other.blocks != blocks)
+        throw std::invalid_argument("the counts are of another shape");
+    const auto sum = [](std::vector<std::uint64_t>& to, const std::vector<std::uint64_t>& from) {
+        std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus());
+    };
+    sum(trials, other.trials);
+    sum(invalid, other.invalid);
+    sum(reached, other.reached);
+    sum(first, other.first);
+    sum(first_together, other.first_together);
+    collapse_time_s.add(other.collapse_time_s);
+    total_collapse_time_s.add(other.total_collapse_time_s);
+    first_invalid.insert(other.first_invalid.begin(), other.first_invalid.end());
+    while (first_invalid.size() > most_invalid)
+        first_invalid.erase(std::prev(first_invalid.end()));
+    if (other.energy_realization != no_realization)
+        keep_worst(other.energy_residual, other.energy_realization);
+}
+
+void Tally::keep_worst(double residual, std::uint64_t realization)
+{
+    const double size = std::abs(residual), most = std::abs(energy_residual);
+    if (size > most || (size == most && realization < energy_realization)) {
+        energy_residual = residual;
+        energy_realization = realization;
     }
 }
 

@@ -52,6 +52,11 @@ struct Tally {
 
     /// @throws std::invalid_argument if there is no such cell or block
     void add(const TallyEntry& entry);
+    /// The counts of other realizations of the same study. @throws std::invalid_argument if its shape is another one
+    void add(const Tally& other);
+
+private:
+    void keep_worst(double residual, std::uint64_t realization);
 };
 
 } // namespace stylobate

@@ -36,6 +36,9 @@ public:
     /// @throws std::invalid_argument if it does not fit; std::system_error or std::runtime_error if the file cannot be
     ///         written; it stays then as it was written last
     void add(const TallyEntry& entry);
+    /// Takes the counts of another file of the study.
+    /// @throws std::invalid_argument if they do not fit, or if a realization is counted in both; else as the other one
+    void add(const Tally& tally, const DoneSet& done);
     /// Writes what is counted.
     void flush();
     /// Writes the surface and marks the file complete, in one step. All realizations must have been added.

@@ -155,6 +155,18 @@ void TallyWriter::add(const TallyEntry& entry)
         impl_->rewrite(nullptr);
 }
 
+void TallyWriter::add(const Tally& tally, const DoneSet& done)
+{
+    impl_->check_open();
+    if (const std::optional<std::uint64_t> place = impl_->counted.done.common(done))
+        throw std::invalid_argument("realization " + std::to_string(impl_->order.index(*place)) +
+                                    " is counted already");
+    impl_->counted.tally.add(tally);
+    impl_->counted.done.add(done);
+    if (Clock::now() >= impl_->due)
+        impl_->rewrite(nullptr);
+}
+
 void TallyWriter::flush()
 {
     impl_->check_open();

@@ -84,7 +84,10 @@ struct NewStudyOptions {
 };
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
-int run_command(const CommonOptions& options, const std::string& study, std::string results);
+/// @param shard "3/8": that part of the study alone; empty: all of it
+int run_command(const CommonOptions& options, const std::string& study, std::string results, const std::string& shard);
+int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
+                  bool partial);
 int check_command(const CommonOptions& options, const std::string& study, const CheckOptions& wanted);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory);

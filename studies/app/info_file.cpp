@@ -124,15 +124,21 @@ void tell_result(const std::string& file, Told& told)
         .member("realizations", header.total)
         .member("done", done)
         .member("complete", reader.complete());
+    if (!header.shard.whole())
+        told.json.member("shard", header.shard.text());
     const std::string what = header.kind == "replay" ? fmt::format("realization {} of a study, run again with its "
                                                                    "trajectory",
                                                                    header.first)
                                                      : "results of a study of kind " + header.kind;
     told.text = fmt::format("{}, seed {}, by stylobate {}\n{} of {} realizations, {}\n", what, header.seed,
-                            header.code_version, done, header.total, reader.complete() ? "complete" : "unfinished");
+                            header.code_version, done, header.total,
+                            reader.complete()      ? "complete"
+                            : header.shard.whole() ? "unfinished"
+                                                   : "shard " + header.shard.text());
     told.unfinished = !reader.complete();
     if (told.unfinished)
-        told.text += fmt::format("stylobate run STUDY.toml -o {}: continues it with the study stored in it\n", file);
+        told.text += fmt::format("stylobate run STUDY.toml {}-o {}: continues it with the study stored in it\n",
+                                 header.shard.whole() ? "" : "--shard " + header.shard.text() + " ", file);
     add_warnings(header.warnings, told);
 }
 
@@ -281,8 +287,7 @@ void print_file(const CommonOptions& options, const std::string& file)
                          "layouts.");
     }
     std::vector<FileUse> uses = uses_of(known, file);
-    if (told.unfinished)
-        std::erase_if(uses, [](const FileUse& use) { return use.verb == "report"; });
+    std::erase_if(uses, [&](const FileUse& use) { return use.verb == (told.unfinished ? "report" : "merge"); });
     if (options.json) {
         Json verbs = Json::list();
         for (const FileUse& use : uses)

@@ -89,6 +89,7 @@ public:
         app_.set_version_flag("--version", code_version());
         app_.get_formatter()->column_width(help_column);
         add_run();
+        add_merge();
         add_check();
         add_replay();
         add_record();
@@ -167,9 +168,26 @@ private:
         auto* run = app_.add_subcommand("run", "run a study; continues an unfinished result of the same study");
         run->add_option("STUDY", file_, "study file (TOML)")->required();
         run->add_option("-o,--output", output_, "results file (default: the study's name with .h5)");
+        run->add_option("--shard", shard_,
+                        "K/N: only this part of the realizations, from 1/N to N/N, into its own file; `merge` joins "
+                        "the files")
+            ->type_name("K/N");
         add_set(*run, options_);
         add_common(*run, options_, {"cpu", "cuda"});
-        run->callback([this] { status_ = run_command(options_, file_, output_); });
+        run->callback([this] { status_ = run_command(options_, file_, output_, shard_); });
+    }
+
+    void add_merge()
+    {
+        auto* merge = app_.add_subcommand("merge", "join the results of shards of a study into one file");
+        merge->add_option("SHARD", files_, "results files of `run --shard`, or of earlier merges")->required();
+        merge->add_option("-o,--output", output_, "results file")->required();
+        merge->add_flag("--partial", partial_,
+                        "also if realizations are missing: the file can be continued with `run`");
+        add_force(*merge, options_);
+        add_set(*merge, options_);
+        add_common(*merge, options_);
+        merge->callback([this] { status_ = merge_command(options_, files_, output_, partial_); });
     }
 
     void add_replay()
@@ -406,6 +424,8 @@ private:
     std::string file_, study_, output_; // what a verb reads, besides, and writes
     RealizationChoice choice_;
     std::vector<std::string> files_;
+    std::string shard_;
+    bool partial_ = false;
     std::string unit_, component_, block_;
     CalibrateOptions calibration_;
     bool keep_all_ = false;

@@ -18,7 +18,7 @@ void print_json(const CommonOptions& options, const RunReport& r)
     Json json = Json::object();
     json.member("kind", word_for(study_kind_names, r.study.kind))
         .member("results", r.results)
-        .member("complete", r.complete)
+        .member("complete", r.complete && r.shard.whole())
         .member("realizations", p.done)
         .member("total", p.total)
         .member("collapsed", p.collapsed)
@@ -33,9 +33,11 @@ void print_json(const CommonOptions& options, const RunReport& r)
         .member("backend", options.backend)
         .member("simd", to_string(r.run.isa))
         .member("threads", r.run.threads);
+    if (!r.shard.whole())
+        json.member("shard", r.shard.text()).member("shard_complete", r.complete);
     if (r.kind.draws_plainly())
         json.member("limit_states", r.kind.limits_json());
-    if (r.complete)
+    if (r.complete && r.shard.whole())
         r.kind.add_to(json);
     fmt::print("{}\n", json.text());
 }
@@ -43,21 +45,27 @@ void print_json(const CommonOptions& options, const RunReport& r)
 void print_text(const RunReport& r)
 {
     const Progress& p = r.progress;
-    fmt::print("{}: {}{} realizations, {} collapsed, {} invalid", r.results, p.done,
-               p.open_end ? "" : fmt::format(" of {}", p.total), p.collapsed, p.invalid);
+    fmt::print("{}: {}{} realizations{}, {} collapsed, {} invalid", r.results, p.done,
+               p.open_end ? "" : fmt::format(" of {}", p.total), r.shard.whole() ? "" : " of shard " + r.shard.text(),
+               p.collapsed, p.invalid);
     if (p.seconds > 0)
         fmt::print("; {} with {} threads of {}, {} realizations/s", duration_text(p.seconds), r.run.threads,
                    r.run.devices.empty() ? to_string(r.run.isa) : "the host and " + r.run.devices.front()->name(),
                    rate_text(p.rate));
     fmt::print("\n");
-    if (r.complete) {
+    if (r.complete && r.shard.whole()) {
         fmt::print("{}", r.kind.text());
         return;
     }
     if (!std::isnan(p.share)) // without those that have not ended because they take long
         fmt::print("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
                    100 * p.share_lower, 100 * p.share_upper);
-    fmt::print("Interrupted; {} realizations are kept. The same command continues the run.\n", p.done);
+    if (r.merged)
+        fmt::print("Partial: `stylobate run STUDY.toml -o {}` computes the missing realizations.\n", r.results);
+    else if (r.complete)
+        fmt::print("The shard is complete. `stylobate merge` joins it with the others.\n");
+    else
+        fmt::print("Interrupted; {} realizations are kept. The same command continues the run.\n", p.done);
 }
 
 } // namespace
@@ -78,6 +86,8 @@ int report_run(const CommonOptions& options, const RunReport& r)
         print_json(options, r);
     else if (!options.quiet)
         print_text(r);
+    if (r.merged && !r.complete)
+        return exit_done; // it was asked for
     if (!r.complete)
         return exit_interrupted;
     const Progress& p = r.progress;

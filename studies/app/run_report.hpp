@@ -14,10 +14,12 @@ namespace stylobate {
 struct RunReport {
     const std::string& results; ///< the file
     const Study& study;
-    const Kind& kind; ///< of a complete run: concluded
+    const Kind& kind; ///< of a complete run of all: concluded
     const Progress& progress;
     const RunOptions& run;
-    bool complete = false;
+    bool complete = false; ///< of a shard: it is
+    Shard shard = {};
+    bool merged = false; ///< from shards, and not run here
 };
 
 /// The message where more realizations are invalid than the study allows; else empty. @param results the file

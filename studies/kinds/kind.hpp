@@ -70,6 +70,10 @@ public:
     /// Realizations 0 .. n - 1 are drawn once before anything is written, so that a study that cannot be run is
     /// refused.
     virtual std::uint64_t drawn_first() const { return study_.total(); }
+    /// Why the study cannot be run in parts, each without the others; empty: it can.
+    virtual std::string why_no_shards() const { return {}; }
+    /// How many realizations a shard has.
+    virtual std::uint64_t size_of(const Shard& shard) const { return RunOrder(study_.total()).places(shard).size(); }
     /// What keeps the study from being stepped on a device: "has [twins], ..."; empty: nothing does.
     virtual std::string needs_processor() const;
     /// Looks at the study before its run. @param file of the study, for messages

@@ -20,15 +20,16 @@ struct Round {
 
 class Rounds {
 public:
-    Rounds(const Experiment& run, const RunOptions& how, Observer& told) : experiment(run), options(how), observer(told)
+    Rounds(const Experiment& run, const RunOptions& how, Observer& told, const Shard& part)
+        : experiment(run), options(how), observer(told), shard(part)
     {
     }
     virtual ~Rounds() = default;
     Rounds(const Rounds&) = delete;
     Rounds& operator=(const Rounds&) = delete;
 
-    /// Runs those of the round that have not been run before; the kind is given their rows, in any order, before this
-    /// returns. (Rows of an earlier part of the run were given to it before the first round.)
+    /// Runs those of the round, or of its shard, that have not been run before; the kind is given their rows, in any
+    /// order, before this returns. (Rows of an earlier part of the run were given to it before the first round.)
     /// @returns false if the user has asked to stop
     virtual bool run(const Round& round) = 0;
     /// Runs all realizations of the study, and keeps the trajectories of the first so many. The rows come in the order
@@ -38,6 +39,7 @@ public:
     const Experiment& experiment;
     const RunOptions& options;
     Observer& observer;
+    const Shard shard; ///< the part of every round that is run; unless it is all, nothing follows on the rounds
     Progress progress; ///< of the run so far; a kind that is open-ended states what it expects
 };
 

@@ -19,6 +19,12 @@ public:
     }
     void add(const ResultRow& row) override { writer_->add(row); }
     void add(const Trajectory& trajectory) override { writer_->add(trajectory); }
+    void add(const ResultReader& other) override
+    {
+        for (const std::uint64_t index : other.trajectory_indices())
+            writer_->add(other.trajectory(index));
+        other.for_each_row([&](const ResultRow& row) { writer_->add(row); });
+    }
     void finish(const Kind& kind) override
     {
         const std::optional<SurfaceTable> surface = kind.surface();
@@ -39,6 +45,7 @@ public:
     void give_to(Kind& kind) const override { kind.add(writer_->tally()); }
     void add(const ResultRow& row) override { writer_->add(tally_entry(row)); }
     void add(const Trajectory&) override { throw std::logic_error("counts keep no trajectories"); }
+    void add(const ResultReader& other) override { writer_->add(*other.tally(), *other.counted()); }
     void finish(const Kind& kind) override { writer_->finish(kind.surface().value()); }
     void flush() override { writer_->flush(); }
 

@@ -50,8 +50,9 @@ private:
 
 class Runner : public Rounds {
 public:
-    Runner(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options, Observer& observer)
-        : Rounds(experiment, options, observer), kind_(kind), store_(store)
+    Runner(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options, Observer& observer,
+           const Shard& shard)
+        : Rounds(experiment, options, observer, shard), kind_(kind), store_(store)
     {
     }
 
@@ -61,6 +62,7 @@ public:
         RunPlan plan;
         plan.indices = round.indices;
         plan.total = round.indices.empty() ? study.total() : round.indices.size();
+        plan.shard = shard;
         plan.as = round.as;
         plan.realize = round.realize;
         if (store_.counted())
@@ -70,18 +72,19 @@ public:
         plan.sink = [&](const Realization& realization, const Outcome& outcome) {
             take(result_row(study, realization, outcome));
         };
+        const std::uint64_t size = RunOrder(plan.total).places(shard).size();
         if (progress.total == 0)
-            progress.total = plan.total;
+            progress.total = size;
 
         const DoneSet::Part before = plan.done.all();
         Progress part{.done = before.end, .collapsed = before.collapsed, .invalid = before.invalid};
         RoundObserver observed(observer, progress, round.fair);
-        if (before.end < plan.total)
+        if (before.end < size)
             part = run_ensemble(experiment, options, plan, observed);
         else if (round.fair)
             estimate_share(part, before.end - before.invalid, before.collapsed);
         progress = joined(progress, part, round.fair);
-        return part.done == plan.total;
+        return part.done == size;
     }
 
     bool follow(std::uint64_t kept_trajectories) override
@@ -90,10 +93,15 @@ public:
         const auto seconds = [begin] {
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         };
-        progress.total = experiment.study().total();
+        const std::uint64_t total = experiment.study().total();
+        const RunOrder order(total);
+        const RunOrder::Places places = order.places(shard);
+        progress.total = places.size();
         FollowPlan plan;
         plan.recorded = kept_trajectories;
-        for (std::uint64_t index = 0; index < progress.total; ++index) {
+        for (std::uint64_t index = 0; index < total; ++index) {
+            if (!places.has(order.place(index)))
+                continue;
             if (const std::optional<State> state = store_.state(index))
                 count(*state);
             else
@@ -152,18 +160,20 @@ private:
 
 } // namespace
 
-void check_realizations(const Sampler& sampler, const Kind& kind)
+void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& shard)
 {
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, kind.drawn_first(), 256), [&](const auto& range) {
-        for (std::uint64_t index = range.begin(); index != range.end(); ++index)
-            sampler.realization(index);
+    const RunOrder order(kind.drawn_first());
+    const RunOrder::Places places = order.places(shard);
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(places.begin, places.end, 256), [&](const auto& range) {
+        for (std::uint64_t place = range.begin(); place != range.end(); ++place)
+            sampler.realization(order.index(place));
     });
 }
 
 StudyRun run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
-                   Observer& observer)
+                   Observer& observer, const Shard& shard)
 {
-    Runner runner(experiment, kind, store, options, observer);
+    Runner runner(experiment, kind, store, options, observer, shard);
     const bool complete = kind.plan(runner);
     if (store.counted())
         store.give_to(kind);

@@ -45,6 +45,10 @@ public:
 
     /// Rounds that have been run are gone through again, by the outcomes that are there: the next ones are the same as
     /// without an interruption.
+    std::string why_no_shards() const override
+    {
+        return "has surface.adaptive, whose realizations are chosen by what others did";
+    }
     bool plan(Rounds& rounds) override;
     void restore(const ResultReader& reader) override { table_ = reader.surface(); }
     void share(Progress& progress) const override;

@@ -22,6 +22,10 @@ public:
     /// Independent draws: the states of the chains are not known in advance.
     std::uint64_t drawn_first() const override;
     /// Chains are gone through again by the outcomes that are there.
+    std::string why_no_shards() const override
+    {
+        return "is of kind \"rare\", whose realizations are chosen by what others did";
+    }
     bool plan(Rounds& rounds) override;
     void restore(const ResultReader& reader) override { table_ = rare_table(reader.table("rare")); }
     void share(Progress&) const override {}

@@ -8,9 +8,17 @@
 
 namespace stylobate {
 
+std::uint64_t ReplicasKind::size_of(const Shard& shard) const
+{
+    std::uint64_t size = 0;
+    for (const TwinRange& range : twin_ranges(study_))
+        size += RunOrder(range.end - range.begin).places(shard).size();
+    return size;
+}
+
 bool ReplicasKind::plan(Rounds& rounds)
 {
-    rounds.progress.total = study_.total();
+    rounds.progress.total = size_of(rounds.shard);
     for (const TwinRange& range : twin_ranges(study_)) {
         std::vector<std::uint64_t> indices(range.end - range.begin);
         std::iota(indices.begin(), indices.end(), range.begin);
@@ -18,6 +26,8 @@ bool ReplicasKind::plan(Rounds& rounds)
         if (!rounds.run({.indices = indices, .as = &range.study, .fair = range.begin == 0}))
             return false;
     }
+    if (!rounds.shard.whole())
+        return true; // pairs are followed where all are there
     followed_ = follow_twins(rounds.experiment, rounds.options, rounds.observer);
     return !rounds.observer.stop_requested();
 }

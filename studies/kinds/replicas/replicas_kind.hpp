@@ -15,6 +15,7 @@ public:
     {
         return "has [twins], some of which are the processor's (run.precision)";
     }
+    std::uint64_t size_of(const Shard& shard) const override;
     /// Kind by kind of replica: each bundle has one contact form and one precision. Pairs are followed at the end, and
     /// again if that was interrupted.
     bool plan(Rounds& rounds) override;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 #include <vector>
@@ -133,6 +135,71 @@ TEST(DoneSet, CountsWhatItHolds)
         EXPECT_EQ(read.parts(), done.parts());
     }
     EXPECT_EQ(done.parts().size(), 1U);
+}
+
+TEST(DoneSet, JoinsParts)
+{
+    const RunOrder order(3000);
+    std::mt19937_64 random(3);
+    for (int trial = 0; trial < 20; ++trial) {
+        std::vector<std::uint64_t> places(3000);
+        std::iota(places.begin(), places.end(), 0);
+        if (trial % 2 == 0)
+            std::shuffle(places.begin(), places.end(), random);
+        DoneSet parts[3] = {DoneSet(order), DoneSet(order), DoneSet(order)}, all(order), joined(order);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            if (k % 17 == 0 && trial % 4 < 2)
+                continue; // done by nobody
+            const bool collapsed = places[k] % 3 == 0, invalid = places[k] % 5 == 1 && !collapsed;
+            parts[trial % 2 == 0 ? k % 3 : k / 1000].add(places[k], collapsed, invalid);
+            all.add(places[k], collapsed, invalid);
+        }
+        for (const DoneSet& part : parts) {
+            EXPECT_FALSE(joined.common(part));
+            joined.add(part);
+            const std::optional<std::uint64_t> twice = joined.common(part);
+            ASSERT_TRUE(twice);
+            EXPECT_TRUE(joined.has(*twice) && part.has(*twice));
+        }
+        EXPECT_EQ(joined.parts(), all.parts());
+    }
+}
+
+TEST(RunOrder, ShardsAreAllPlacesOnce)
+{
+    for (const std::uint64_t total : {1, 7, 60, 244, 1000, 65536, 1000003})
+        for (const std::uint64_t of : {1, 2, 3, 4, 37, 1000}) {
+            const RunOrder order(total);
+            std::uint64_t next = 0, least = total, most = 0;
+            for (Shard shard{1, of}; shard.number <= of; ++shard.number) {
+                const RunOrder::Places places = order.places(shard);
+                EXPECT_EQ(places.begin, next);
+                next = places.end;
+                least = std::min(least, places.size());
+                most = std::max(most, places.size());
+            }
+            EXPECT_EQ(next, total);
+            EXPECT_LE(most, least + std::max<std::uint64_t>(1, total / of / 8)) << total << " of " << of;
+        }
+    // of many blocks a shard has whole ones, and so is a fair sample
+    const RunOrder order(65536);
+    const RunOrder::Places third = order.places({3, 4});
+    EXPECT_EQ(order.block_begin(third.begin), third.begin);
+    DoneSet done(order);
+    for (std::uint64_t place = third.begin; place < third.end; ++place)
+        done.add(place, place % 2 == 0, false);
+    EXPECT_EQ(done.sample(third.begin).done(third.begin), third.size());
+    EXPECT_EQ(done.sample().end, 0U);
+    EXPECT_EQ(done.sample(third.begin + 1).end, 0U) << "no block begins there";
+}
+
+TEST(Shard, ReadsItsText)
+{
+    EXPECT_EQ(Shard::from_text("3/8"), (Shard{3, 8}));
+    EXPECT_EQ(Shard::from_text("1/1"), Shard{});
+    for (const char* text : {"", "3", "3/", "/8", "0/8", "9/8", "3/8/2", "3/8 ", " 3/8", "-1/8", "3/0", "1/1000001",
+                             "99999999999999999999/8", "1.5/8"})
+        EXPECT_FALSE(Shard::from_text(text)) << text;
 }
 
 TEST(DoneSet, RefusesWhatItIsNot)

@@ -102,6 +102,24 @@ TEST(TimeCounts, NoOrderAndNoInterruptionChangesThem)
     }
 }
 
+TEST(TimeCounts, PartsJoinToTheWhole)
+{
+    // both exact, exact joined with rounded, and exact parts that together are too many
+    for (const std::size_t n : {3000U, 6000U, 9000U, 30'000U})
+        for (const std::size_t cut : {n / 2, n - 100, std::size_t{100}}) {
+            std::vector<double> times = some_times(n, 0.5);
+            times.insert(times.end(), times.begin(), times.begin() + 1000);
+            const auto middle = times.begin() + static_cast<std::ptrdiff_t>(cut);
+            const TimeCounts whole = counts_of(times), first = counts_of({times.begin(), middle}),
+                             second = counts_of({middle, times.end()});
+            for (TimeCounts joined : {first, second}) {
+                joined.add(joined.counts() == first.counts() ? second : first);
+                EXPECT_EQ(joined.exact(), whole.exact()) << n << ' ' << cut;
+                EXPECT_EQ(joined.counts(), whole.counts()) << n << ' ' << cut;
+            }
+        }
+}
+
 /// Peak memory of a child process that takes n times [kB].
 long peak_kb(std::size_t n)
 {
@@ -240,6 +258,37 @@ TEST_F(TallyStore, CountsAreThoseCountedByHand)
         EXPECT_EQ(bits(reader.surface().lower), bits(sample_surface().lower));
         expect_part(refusal([&] { reader.row(0); }), "has no rows");
     }
+}
+
+TEST_F(TallyStore, PartsJoinToTheSameBytes)
+{
+    constexpr std::uint64_t total = 20'000;
+    write_at_once(file, total);
+    const RunOrder order(total);
+    const fs::path joined = folder / "joined.h5";
+    const auto writer = TallyWriter::create(joined, tally_header(total));
+    for (const std::uint64_t number : {3, 1, 5, 2, 4}) {
+        const fs::path part = folder / "part.h5";
+        fs::remove(part);
+        ResultHeader header = tally_header(total);
+        header.shard = {number, 5};
+        {
+            const auto one = TallyWriter::create(part, header);
+            const RunOrder::Places places = order.places(header.shard);
+            for (std::uint64_t place = places.end; place-- > places.begin;)
+                one->add(entry(order.index(place)));
+            one->flush();
+        }
+        const ResultReader reader(part);
+        EXPECT_EQ(reader.header().shard, header.shard);
+        writer->add(*reader.tally(), *reader.counted());
+        const Tally before = writer->tally();
+        EXPECT_THROW(writer->add(*reader.tally(), *reader.counted()), std::invalid_argument);
+        EXPECT_EQ(writer->tally().trials, before.trials) << "what is there twice was added";
+    }
+    writer->finish(sample_surface());
+    EXPECT_TRUE(contents(joined) == contents(file));
+    EXPECT_THROW(Tally(6, 2, 3).add(Tally(5, 2, 3)), std::invalid_argument);
 }
 
 /// Four bundles' worth of realizations at a time, in any order among them, and again and again only the file survives.
