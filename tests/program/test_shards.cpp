@@ -36,6 +36,7 @@ protected:
 
     void expect_same_bytes(const std::string& study, const Words& settings, std::initializer_list<int> numbers) const
     {
+        fs::remove(folder / "whole.h5");
         const Ended whole = run(run_words(study, settings, {"-o", "whole.h5"}));
         ASSERT_EQ(whole.status, 0) << testing::PrintToString(whole);
         for (const int of : numbers) {
@@ -64,11 +65,11 @@ TEST_F(Shards, OfOtherKindsAreTheirBytes)
 {
     expect_same_bytes(inputs + "free_rocking.toml", {"study.realizations=5"}, {3});
     expect_same_bytes(inputs + "twins_column.toml",
-                      {"study.realizations=4", "surface.frequency_hz={from=2.0,to=4.0,count=2}",
-                       "surface.pga_m_s2={from=2.0,to=9.0,count=2}"},
+                      {"study.realizations=4", "twins.followed=2", "run.max_invalid_fraction=0.5",
+                       "surface.frequency_hz={from=2.0,to=4.0,count=2}", "surface.pga_m_s2={from=2.0,to=9.0,count=2}"},
                       {3});
     expect_same_bytes(inputs + "fragility_column.toml",
-                      {"study.realizations=2", "fragility.stripes=3", "fragility.motions=4"}, {3});
+                      {"study.realizations=2", "fragility.motions=8", "fragility.contacts=1"}, {3});
     expect_same_bytes(inputs + "sensitivity_column.toml", {"sensitivity.samples=16"}, {3});
 }
 
