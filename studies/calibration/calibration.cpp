@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "io/files/toml_document.hpp"
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration_evidence.hpp"
@@ -25,22 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* friction_key = "contact.friction";
-constexpr double friction_method_deviation = 0.01;
-
-constexpr const char* name = "the study to be calibrated";
 constexpr std::size_t most_folds = 6;
 constexpr std::size_t most_keys = 12;
-
-/// Every number of a range must be one that a study file may have.
-void check(const Study& study, const FitKey& key)
-{
-    if (!(std::isfinite(key.from) && std::isfinite(key.to) && key.from < key.to))
-        throw InputError(fmt::format("--fit {}: the range from {} to {} is empty; give KEY=FROM:TO with FROM below TO",
-                                     key.key, key.from, key.to));
-    with_values(study, {key.key}, {key.from});
-    with_values(study, {key.key}, {key.to});
-}
 
 /// What the units of the evidence belong to: a run of a campaign, a row of a table.
 struct CalibrationRun {
@@ -118,88 +103,6 @@ std::string interval_words(const FittedParameter& p)
     if (!p.determined && !p.effective)
         return "no interval";
     return fmt::format("95 % {}from {:.4g} to {:.4g}", p.effective ? "of the model's value " : "", p.low, p.high);
-}
-
-double number_in(const Study& study, const std::string& key)
-{
-    const TomlValue root = parse_toml(study.text.empty() ? study_text(study) : study.text, name);
-    const TomlValue* value = &root;
-    for (std::size_t begin = 0; value != nullptr && begin <= key.size();) {
-        const std::size_t end = std::min(key.find('.', begin), key.size());
-        value = value->type == TomlValue::Type::table ? value->find(key.substr(begin, end - begin)) : nullptr;
-        begin = end + 1;
-    }
-    if (value == nullptr || (value->type != TomlValue::Type::number && value->type != TomlValue::Type::integer))
-        throw InputError(fmt::format("--fit {}: the study has no number of that name. Give a start value in the study "
-                                     "file, or by --set {}=VALUE.",
-                                     key, key));
-    return value->number;
-}
-
-Study with_values(const Study& study, const std::vector<std::string>& keys, const std::vector<double>& values)
-{
-    std::vector<std::string> settings;
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        settings.push_back(keys[i] + "=" + toml_number(values[i]));
-    return parse_study(study.text.empty() ? study_text(study) : study.text, name, settings);
-}
-
-std::vector<FitKey> contact_keys(const Study& study)
-{
-    const ContactSpec& c = study.contact;
-    std::vector<FitKey> keys = {
-        {"contact.normal_stiffness_n_m2", c.normal_stiffness_n_m2 / 30, c.normal_stiffness_n_m2 * 10},
-        {"contact.tangential_stiffness_n_m", c.tangential_stiffness_n_m / 30, c.tangential_stiffness_n_m * 10}};
-    const auto damping = [&](const std::string& ratio, const std::string& coefficient,
-                             const std::optional<double>& given) {
-        if (!given)
-            keys.push_back({"contact." + ratio, 0.01, 0.7});
-        else if (*given > 0)
-            keys.push_back({"contact." + coefficient, *given / 10, *given * 10});
-    };
-    damping("normal_damping_ratio", "normal_damping_n_s_m", c.normal_damping_n_s_m);
-    damping("tangential_damping_ratio", "tangential_damping_n_s_m", c.tangential_damping_n_s_m);
-    keys.push_back({friction_key, c.friction / 3, std::min(c.friction * 1.6, 2.0), true, friction_method_deviation});
-    return keys;
-}
-
-FitKey fit_key(const Study& study, const std::string& text)
-{
-    FitKey key;
-    const std::size_t equals = text.find('='), colon = text.find(':', equals == std::string::npos ? 0 : equals);
-    key.key = text.substr(0, equals);
-    const double start = number_in(study, key.key);
-    if (equals == std::string::npos) {
-        if (!(start > 0))
-            throw InputError(fmt::format("--fit {}: the start value is {}, for which there is no default range; give "
-                                         "--fit {}=FROM:TO",
-                                         key.key, start, key.key));
-        key.from = start / 5;
-        key.to = start * 5;
-    } else {
-        const auto number = [&](const std::string& word) {
-            std::size_t read = 0;
-            double value = 0;
-            try {
-                value = std::stod(word, &read);
-            } catch (const std::exception&) {
-                read = 0;
-            }
-            if (read == 0 || read != word.size())
-                throw InputError(fmt::format("--fit {}: '{}' is not a number; give KEY=FROM:TO, such as "
-                                             "contact.friction=0.3:0.9",
-                                             text, word));
-            return value;
-        };
-        key.from = number(text.substr(equals + 1, colon == std::string::npos ? colon : colon - equals - 1));
-        key.to = colon == std::string::npos ? number("") : number(text.substr(colon + 1));
-    }
-    key.logarithmic = key.from > 0 && key.to / key.from > 3;
-    if (key.key == friction_key)
-        key.method_deviation = friction_method_deviation;
-    key.asked = true;
-    check(study, key);
-    return key;
 }
 
 Study default_study(const Campaign& campaign)
@@ -385,7 +288,7 @@ std::vector<FitKey> checked_keys(const Study& base, const CalibrationOptions& op
     if (keys.size() > most_keys)
         throw InputError(fmt::format("--fit: {} parameters at once are too many; at most {}", keys.size(), most_keys));
     for (const FitKey& key : keys)
-        check(base, key);
+        check_range(base, key);
     return keys;
 }
 

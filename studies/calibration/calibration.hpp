@@ -20,6 +20,7 @@
 #include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/calibration/calibration_windows.hpp"
+#include "studies/calibration/fit_keys.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,19 +29,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// A number of the study file that is fitted, and its range.
-struct FitKey {
-    std::string key; ///< "contact.friction"
-    double from = 0;
-    double to = 0;
-    bool logarithmic = true; ///< equal steps for equal ratios; needs from > 0
-    /// What nudging itself adds to the error (the nudging force, the smoothing, starts from noisy states), as a part of
-    /// the value, 1 sigma; of friction 0.01. Measured on 20 simulated campaigns of known parameters: friction came out
-    /// 0.6 % too low in the median, K_N 5 %, in one of ten 20 %.
-    double method_deviation = 0.1;
-    bool asked = false; ///< by the user: the friction is then searched for too, as an effective value
-};
 
 struct CalibrationOptions {
     std::vector<FitKey> keys;       ///< empty: `contact_keys` of the study
@@ -90,7 +78,7 @@ struct RunScore {
     int motion_id = 0;
     std::size_t units = 0; ///< windows; of outcomes 1
     double nominal = 0;    ///< the study as it was
-    double calibrated = 0; ///< by the parameters that its motion did not help to find; NaN: not asked for
+    double calibrated = 0; ///< by parameters that its motion did not help to find; without held-out motions by all
 };
 
 /// The calibration with one contact form.
@@ -122,22 +110,9 @@ struct Calibration {
     bool complete = false; ///< false: the observer stopped it; nothing of the above is to be used
 };
 
-/// K_N, K_T, both dashpots and friction, with ranges about the study's values.
-std::vector<FitKey> contact_keys(const Study& study);
-
-/// A key of the study file with the range FROM:TO in the text "KEY=FROM:TO"; of "KEY" alone a fifth to five times the
-/// study's value. @throws InputError if the study has no such number, or the range is none
-FitKey fit_key(const Study& study, const std::string& text);
-
 /// The study that a campaign is calibrated from where none is given: the specimen, its nominal friction, and a bed of
 /// 2e9 N/m3 (stone joints are of the order of 1 to 10 GPa/m).
 Study default_study(const Campaign& campaign);
-
-/// The study with other values. @throws InputError for a key or value that a study file may not have
-Study with_values(const Study& study, const std::vector<std::string>& keys, const std::vector<double>& values);
-
-/// The number that a study has for a key, defaults included. @throws InputError if there is none
-double number_in(const Study& study, const std::string& key);
 
 /// Calibrates. Progress is reported in parameter sets of the whole calibration.
 ///

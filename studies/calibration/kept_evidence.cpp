@@ -4,6 +4,7 @@
 #include "io/files/file_handle.hpp"
 #include "io/store/result_seal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -153,6 +154,10 @@ KeptEvidence::KeptEvidence(std::unique_ptr<CalibrationEvidence> inner, std::file
 {
     file_->path = std::move(file);
     file_->handle = FileHandle::claim(file_->path);
+    if (!head.starts_with(file_->read(0, std::min<std::uint64_t>(file_->handle.size(), head.size()))))
+        throw InputError(file_->path.string(), 0,
+                         "keeps no parameter sets of a calibration, and nothing was written.\n  Remove it, or name "
+                         "another file.");
     const std::string first_line = std::string(head) + key + "\n";
     file_->read_all(first_line);
     if (file_->end == 0) {

@@ -16,7 +16,7 @@ namespace stylobate {
 class KeptEvidence : public CalibrationEvidence {
 public:
     /// @param key  of what the predictions depend on beside the studies: a file with another key is begun anew
-    /// @throws InputError if the file cannot be written, or another calibration is writing it
+    /// @throws InputError if the file cannot be written, another calibration is writing it, or it has other content
     KeptEvidence(std::unique_ptr<CalibrationEvidence> inner, std::filesystem::path file, const std::string& key);
     ~KeptEvidence() override;
 
