@@ -30,6 +30,13 @@ bool is_picture_format(std::string_view format)
     return format == "png" || format == "svg" || format == "pdf";
 }
 
+void check_drawing(const fs::path& output)
+{
+    if (!is_picture_format(ending_of(output)))
+        throw InputError(
+            fmt::format("-o {}: the drawing of the structure is a .png, .svg or .pdf file", output.string()));
+}
+
 void check_not_input(const std::string& input, const fs::path& output)
 {
     std::error_code none;

@@ -16,6 +16,9 @@ std::string ending_of(const std::filesystem::path& output);
 /// Whether it is an ending of pictures: png, svg, pdf.
 bool is_picture_format(std::string_view format);
 
+/// @throws InputError if a drawing of a structure cannot have that ending
+void check_drawing(const std::filesystem::path& output);
+
 /// @throws InputError if the output is the input
 void check_not_input(const std::string& input, const std::filesystem::path& output);
 

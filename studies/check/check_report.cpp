@@ -60,88 +60,58 @@ std::string cells_text(const Study& study)
     return "";
 }
 
-void print_trial(const CheckReport& r)
+std::string trial_text(const CheckReport& r)
 {
     const Trial& trial = *r.trial;
     const TrialShares shares = trial.shares();
-    fmt::print("trial: {} realization{} in {:.2g} s with {} threads of {}", trial.count(),
-               trial.count() == 1 ? "" : "s", trial.seconds, r.run.threads, to_string(r.run.isa));
+    std::string text = fmt::format("trial: {} realization{} in {:.2g} s with {} threads of {}", trial.count(),
+                                   trial.count() == 1 ? "" : "s", trial.seconds, r.run.threads, to_string(r.run.isa));
     if (shares.valid > 0)
-        fmt::print("; {:.3g} of them collapsed",
-                   static_cast<double>(shares.collapsed) / static_cast<double>(shares.valid));
+        text += fmt::format("; {:.3g} of them collapsed",
+                            static_cast<double>(shares.collapsed) / static_cast<double>(shares.valid));
     if (!r.time) {
-        fmt::print("\ntime: unknown. Not all of the first realizations ended in the trial; give a longer one by "
-                   "--trial-seconds.\n");
-        return;
+        text +=
+            fmt::format("\ntime: unknown. Not all of the first realizations ended in the trial; give a longer one by "
+                        "--trial-seconds.\n");
+        return text;
     }
     const RunTime& time = *r.time;
-    fmt::print("; {} steps each\n", between_text(time.steps, "{:.0f}"));
+    text += fmt::format("; {} steps each\n", between_text(time.steps, "{:.0f}"));
     const Between range = time.range_s();
     if (time.at_most)
-        fmt::print("time: at most about {}; {} if all {} realizations are run and take as long as those of the trial. "
-                   "Which ones are run depends on what they do, and the run ends when it knows enough.\n",
-                   seconds_text(range.high), seconds_text(time.seconds()), r.size.realizations);
+        text += fmt::format(
+            "time: at most about {}; {} if all {} realizations are run and take as long as those of the trial. "
+            "Which ones are run depends on what they do, and the run ends when it knows enough.\n",
+            seconds_text(range.high), seconds_text(time.seconds()), r.size.realizations);
     else
-        fmt::print("time: about {} ({} to {}), {:.2g} block-steps\n", seconds_text(time.seconds()),
-                   seconds_text(range.low), seconds_text(range.high), time.block_steps);
+        text += fmt::format("time: about {} ({} to {}), {:.2g} block-steps\n", seconds_text(time.seconds()),
+                            seconds_text(range.low), seconds_text(range.high), time.block_steps);
     constexpr double busy = 0.85;
     if (const double share = trial.share_of_processor(); share < busy && trial.seconds > 0.5)
-        fmt::print("      for threads that have the machine for themselves; in the trial they had {:.0f} % of it\n",
-                   100 * share);
+        text += fmt::format(
+            "      for threads that have the machine for themselves; in the trial they had {:.0f} % of it\n",
+            100 * share);
+    return text;
 }
 
-void print_pilot(const CheckReport& r)
+std::string pilot_text(const CheckReport& r)
 {
     const NumericsCheck& check = *r.pilot;
     const auto n = static_cast<double>(check.realizations);
     const double wanted = r.study.run.accuracy.value_or(0);
-    fmt::print("pilot: {} of them, {:.3g} of these collapsed; with {} {:.3g}\n", check.realizations,
-               n > 0 ? static_cast<double>(check.collapsed) / n : 0, finer_text(r.study),
-               n > 0 ? static_cast<double>(check.finer) / n : 0);
-    fmt::print("error of the numerics: {:+.4f} ± {:.4f} of the collapse probability (difference of the two, and its "
-               "standard error); the finer run took {:.2g} times as long\n",
-               check.difference, check.sd, check.seconds > 0 ? check.finer_seconds / check.seconds : 0);
+    std::string text = fmt::format("pilot: {} of them, {:.3g} of these collapsed; with {} {:.3g}\n", check.realizations,
+                                   n > 0 ? static_cast<double>(check.collapsed) / n : 0, finer_text(r.study),
+                                   n > 0 ? static_cast<double>(check.finer) / n : 0);
+    text += fmt::format(
+        "error of the numerics: {:+.4f} ± {:.4f} of the collapse probability (difference of the two, and its "
+        "standard error); the finer run took {:.2g} times as long\n",
+        check.difference, check.sd, check.seconds > 0 ? check.finer_seconds / check.seconds : 0);
     if (r.missed())
-        fmt::print("run.accuracy = {:g} is not reached: give a smaller one.\n", wanted);
+        text += fmt::format("run.accuracy = {:g} is not reached: give a smaller one.\n", wanted);
     else if (wanted > 0 && check.sd > wanted)
-        fmt::print("The pilot is too small to see an error of {:g}: --pilot {:.0f} would.\n", wanted,
-                   n * std::pow(check.sd / wanted, 2) * 4);
-}
-
-void print_text(const CheckReport& r)
-{
-    const Study& study = r.study;
-    fmt::print("{}: a study of kind \"{}\"; contact.form = \"{}\"\n", r.file, word_for(study_kind_names, study.kind),
-               word_for(contact_form_names, study.contact.form));
-    if (!r.picture.empty())
-        fmt::print("picture: {}\n", r.picture);
-    fmt::print("run: {}{} realization{}{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
-               r.size.realizations, r.size.realizations == 1 ? "" : "s", cells_text(study), r.size.blocks,
-               r.size.free_blocks);
-    fmt::print(
-        "steps: of {} s; about {} in a realization that neither falls nor comes to rest before its time is over; at "
-        "most {:.2g} block-steps\n",
-        between_text(r.size.step_s, "{:.3g}"), between_text(r.size.longest_steps, "{:.0f}"), r.size.most_block_steps);
-    for (const NumericsChoice& choice : study.chosen)
-        fmt::print("chosen: {} = {}: {}\n", choice.key, choice.value, choice.reason);
-    if (r.trial)
-        print_trial(r);
-    fmt::print("memory: about {}\nresults file: {}{}\n", bytes_text(r.memory_bytes),
-               r.size.at_most || (r.size.trajectory_bytes > 0 && !r.trial) ? "at most about " : "about ",
-               bytes_text(r.size.file_bytes));
-    if (!r.notice.empty())
-        fmt::print("{}\n", r.notice);
-    if (const std::optional<std::uint64_t> n = counted_trials(study))
-        fmt::print("interval: a probability near 1/2 that is counted of {} is open by ±{:.2g} (95 %)\n", *n,
-                   worst_half_width(*n));
-    for (const WeakSpot& spot : r.weak)
-        fmt::print("weak: {}: {}\n  {}\n", spot.name, spot.text, spot.todo);
-    if (r.weak.empty())
-        fmt::print("weak: nothing was found.\n");
-    if (r.pilot)
-        print_pilot(r);
-    else
-        fmt::print("pilot: none; {}\n", r.why_no_pilot);
+        text += fmt::format("The pilot is too small to see an error of {:g}: --pilot {:.0f} would.\n", wanted,
+                            n * std::pow(check.sd / wanted, 2) * 4);
+    return text;
 }
 
 Json between_json(const Between& between)
@@ -149,7 +119,53 @@ Json between_json(const Between& between)
     return Json::object().member("low", between.low).member("high", between.high);
 }
 
-void print_json(const CheckReport& r)
+} // namespace
+
+bool CheckReport::missed() const
+{
+    const double wanted = study.run.accuracy.value_or(0);
+    return pilot && wanted > 0 && std::fabs(pilot->difference) - 2 * pilot->sd > wanted;
+}
+
+std::string check_text(const CheckReport& r)
+{
+    const Study& study = r.study;
+    std::string text =
+        fmt::format("{}: a study of kind \"{}\"; contact.form = \"{}\"\n", r.file,
+                    word_for(study_kind_names, study.kind), word_for(contact_form_names, study.contact.form));
+    if (!r.picture.empty())
+        text += fmt::format("picture: {}\n", r.picture);
+    text += fmt::format("run: {}{} realization{}{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
+                        r.size.realizations, r.size.realizations == 1 ? "" : "s", cells_text(study), r.size.blocks,
+                        r.size.free_blocks);
+    text += fmt::format(
+        "steps: of {} s; about {} in a realization that neither falls nor comes to rest before its time is over; at "
+        "most {:.2g} block-steps\n",
+        between_text(r.size.step_s, "{:.3g}"), between_text(r.size.longest_steps, "{:.0f}"), r.size.most_block_steps);
+    for (const NumericsChoice& choice : study.chosen)
+        text += fmt::format("chosen: {} = {}: {}\n", choice.key, choice.value, choice.reason);
+    if (r.trial)
+        text += trial_text(r);
+    text += fmt::format("memory: about {}\nresults file: {}{}\n", bytes_text(r.memory_bytes),
+                        r.size.at_most || (r.size.trajectory_bytes > 0 && !r.trial) ? "at most about " : "about ",
+                        bytes_text(r.size.file_bytes));
+    if (!r.notice.empty())
+        text += r.notice + "\n";
+    if (const std::optional<std::uint64_t> n = counted_trials(study))
+        text += fmt::format("interval: a probability near 1/2 that is counted of {} is open by ±{:.2g} (95 %)\n", *n,
+                            worst_half_width(*n));
+    for (const WeakSpot& spot : r.weak)
+        text += fmt::format("weak: {}: {}\n  {}\n", spot.name, spot.text, spot.todo);
+    if (r.weak.empty())
+        text += "weak: nothing was found.\n";
+    if (r.pilot)
+        text += pilot_text(r);
+    else
+        text += fmt::format("pilot: none; {}\n", r.why_no_pilot);
+    return text;
+}
+
+Json check_json(const CheckReport& r)
 {
     const Study& study = r.study;
     Json chosen = Json::list(), weak = Json::list();
@@ -213,23 +229,7 @@ void print_json(const CheckReport& r)
     } else {
         json.member("why_no_pilot", r.why_no_pilot);
     }
-    fmt::print("{}\n", json.text());
-}
-
-} // namespace
-
-bool CheckReport::missed() const
-{
-    const double wanted = study.run.accuracy.value_or(0);
-    return pilot && wanted > 0 && std::fabs(pilot->difference) - 2 * pilot->sd > wanted;
-}
-
-void print_check(const CheckReport& report, bool json)
-{
-    if (json)
-        print_json(report);
-    else
-        print_text(report);
+    return json;
 }
 
 } // namespace stylobate

@@ -4,6 +4,7 @@
 #include "studies/check/run_cost.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "studies/experiment/numerics.hpp"
+#include "studies/report/json.hpp"
 
 #include <optional>
 #include <string>
@@ -13,10 +14,10 @@ namespace stylobate {
 
 struct CheckReport {
     std::string file; ///< of the study
-    const Study& study;
+    Study study;
     RunOptions run;
-    std::vector<std::string> warnings;
-    std::string notice; ///< of the kind; empty: none
+    std::vector<std::string> warnings{};
+    std::string notice{}; ///< of the kind; empty: none
     std::string picture{};
     RunSize size{};
     std::optional<Trial> trial{};
@@ -30,6 +31,8 @@ struct CheckReport {
     bool missed() const;
 };
 
-void print_check(const CheckReport& report, bool json);
+/// Lines, as the program prints them.
+std::string check_text(const CheckReport& report);
+Json check_json(const CheckReport& report);
 
 } // namespace stylobate

@@ -6,7 +6,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <mutex>
 
 namespace stylobate {
 
@@ -160,14 +162,29 @@ private:
 
 } // namespace
 
-void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& shard)
+bool check_realizations(const Sampler& sampler, const Kind& kind, Observer& observer, const Shard& shard)
 {
+    constexpr std::uint64_t portion = 256;
     const RunOrder order(kind.drawn_first());
     const RunOrder::Places places = order.places(shard);
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(places.begin, places.end, 256), [&](const auto& range) {
-        for (std::uint64_t place = range.begin(); place != range.end(); ++place)
+    std::atomic<bool> stopped = false;
+    std::mutex asking;
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(places.begin, places.end, portion), [&](const auto& range) {
+        for (std::uint64_t place = range.begin(); place != range.end() && !stopped; ++place) {
             sampler.realization(order.index(place));
+            if (place % portion != 0)
+                continue;
+            if (const std::unique_lock lock(asking, std::try_to_lock); lock.owns_lock() && observer.stop_requested())
+                stopped = true;
+        }
     });
+    return !stopped;
+}
+
+void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& shard)
+{
+    Observer patient;
+    check_realizations(sampler, kind, patient, shard);
 }
 
 StudyRun run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,

@@ -1,0 +1,59 @@
+#pragma once
+/// A check of a study, from what it refuses to what it finds.
+
+#include "ensemble/model/observer.hpp"
+#include "studies/check/check_report.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/kinds/kind.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace stylobate {
+
+/// What a check is asked to spend.
+struct CheckPlan {
+    /// Realizations that are run twice, 16 to 10 million; 0: none. Not given: the usual number, where the kind of study
+    /// allows it.
+    std::optional<std::uint64_t> pilot;
+    double trial_seconds = 2; ///< of the trial, up to 3600; 0: none
+    /// Called with each stage that takes time; may be empty.
+    std::function<void(const std::string&)> stage;
+};
+
+class StudyCheck {
+public:
+    /// Refuses what a run refuses, but for single realizations.
+    /// @param file of the study, for messages and texts
+    /// @throws InputError also if a part of the study cannot be run twice but is to be, and for a plan out of range
+    StudyCheck(LoadedStudy loaded, std::string file, CheckPlan plan, const RunOptions& run);
+
+    const Study& study() const { return report_.study; }
+    const std::vector<std::string>& warnings() const { return report_.warnings; }
+
+    /// Draws every realization once, as a run does before it begins.
+    /// @return whether all were drawn: the observer did not ask to stop   @throws InputError if one cannot be built
+    bool draw_realizations(Observer& observer);
+
+    /// @pre `draw_realizations` has drawn all
+    /// @return nothing if the observer asked to stop
+    std::optional<CheckReport> run(Observer& observer);
+
+private:
+    LoadedStudy loaded_;
+    CheckPlan plan_;
+    CheckReport report_;
+    std::unique_ptr<Kind> kind_;
+    std::uint64_t pilot_ = 0, trajectories_ = 0;
+    double drawing_s_ = 0;
+};
+
+/// Draws the structure of a study with its dimensions (`plot_structure`). @param file of the study, for the title where
+/// the study has none   @throws InputError as `plot_structure`
+void draw_study(const Study& study, const std::string& file, const std::filesystem::path& picture);
+
+} // namespace stylobate
