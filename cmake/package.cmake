@@ -47,7 +47,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, bash-completion, stylobate-do
 stylobate_package(development libstylobate-dev libdevel
 "C++ library of ensembles of multi-drum columns
 The library behind the program stylobate, for other C++20 programs: a static
-library, ten headers that need the standard's only, a CMake package
+library, twelve headers that need the standard's only, a CMake package
 (find_package(stylobate)), and three programs as examples.")
 # What the static library is linked with (cmake/stylobateConfig.cmake.in).
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS

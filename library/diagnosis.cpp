@@ -3,6 +3,7 @@
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
+#include "studies/app/file_kind.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
@@ -72,15 +73,9 @@ void Diagnosis::write(const std::filesystem::path& file) const
 
 std::optional<Diagnosis> diagnose(const std::filesystem::path& measured, const DiagnosisOptions& options)
 {
-    class Asked : public inner::Observer {
-    public:
-        explicit Asked(const std::function<bool()>& go_on) : go_on_(go_on) {}
-        bool stop_requested() override { return go_on_ && !go_on_(); }
-
-    private:
-        const std::function<bool()>& go_on_;
-    } observer(options.go_on);
+    Asked observer(options.go_on);
     return translated([&]() -> std::optional<Diagnosis> {
+        inner::check_kind(measured.string(), "diagnose");
         const inner::Campaign campaign = inner::read_campaign(measured);
         inner::track_scales(campaign); // refuses what cannot be diagnosed, before any work
         const inner::Study study = options.study ? Inside::of(*options.study).study : inner::default_study(campaign);

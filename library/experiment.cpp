@@ -75,7 +75,7 @@ Record sampled(const std::function<double(double)>& acceleration_m_s2, double dt
 /// With the warnings of the command line. @throws InputError where it refuses a study
 Experiment::Data Experiment::Data::checked(inner::Experiment experiment, const std::string& name)
 {
-    Data data{inner::LoadedStudy(std::move(experiment)), {}};
+    Data data{inner::LoadedStudy(std::move(experiment)), name, {}};
     for (const inner::Doubt& doubt : data.loaded.doubts()) {
         if (doubt.refused)
             throw InputError(

@@ -4,12 +4,19 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/observer.hpp"
 #include "io/records/record.hpp"
+#include "studies/calibration/calibration.hpp"
+#include "studies/check/check_report.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "stylobate/stylobate.hpp"
 
+#include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate::api {
@@ -30,6 +37,7 @@ struct Record::Data {
 
 struct Experiment::Data {
     inner::LoadedStudy loaded;
+    std::string name; ///< of its study in messages
     std::vector<std::string> warnings;
 
     static Data checked(inner::Experiment experiment, const std::string& name);
@@ -37,6 +45,17 @@ struct Experiment::Data {
 
 struct Diagnosis::Data {
     inner::Diagnosis diagnosis;
+};
+
+struct Calibration::Data {
+    inner::Calibration calibration;
+    inner::Study start;
+    std::filesystem::path measured;
+    std::vector<CalibratedForm> forms;
+};
+
+struct Check::Data {
+    inner::CheckReport report;
 };
 
 /// The way from a public object to what it holds, and back.
@@ -52,6 +71,21 @@ struct Inside {
         return T(std::make_shared<const typename T::Data>(std::move(data)));
     }
     static Result run(const Experiment& experiment, const RunOptions& options);
+};
+
+/// Asks the caller of what takes long whether to go on; no is for ever.
+class Asked : public inner::Observer {
+public:
+    explicit Asked(const std::function<bool()>& go_on) : go_on_(go_on) {}
+    bool stop_requested() override
+    {
+        stopped_ = stopped_ || (go_on_ && !go_on_());
+        return stopped_;
+    }
+
+private:
+    const std::function<bool()>& go_on_;
+    bool stopped_ = false;
 };
 
 /// Where and how to run. @param threads, simd as in `RunOptions`

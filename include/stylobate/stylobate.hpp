@@ -7,6 +7,8 @@
 ///
 /// SI units throughout; the unit is a part of each name. docs/library.md says how to build against it.
 
+#include "stylobate/calibration.hpp"
+#include "stylobate/check.hpp"
 #include "stylobate/diagnosis.hpp"
 #include "stylobate/error.hpp"
 #include "stylobate/experiment.hpp"

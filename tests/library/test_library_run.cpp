@@ -1,6 +1,7 @@
 /// The library against the program: one study, the same numbers and the same bytes.
 
 #include "stylobate/stylobate.hpp"
+#include "tests/library/inputs.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/study/study_file.hpp"
@@ -14,8 +15,6 @@
 
 namespace stylobate {
 namespace {
-
-const std::string inputs = STYLOBATE_SOURCE_DIR "/studies/inputs/";
 
 struct SmallStudy {
     std::string name; ///< of the test
