@@ -39,7 +39,8 @@ int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std
     check_output("", output, options.force);
     write_whole(output, text);
     if (!options.quiet)
-        fmt::print("{}\n  stylobate info {}    what it would run, with warnings\n  stylobate run {}\n", output, output,
+        fmt::print("{0}\n  stylobate info {0}    what it would run, with warnings\n"
+                   "  stylobate check {0}    its time, memory and file, and where it is weak\n  stylobate run {0}\n",
                    output);
     return exit_done;
 }

@@ -26,6 +26,7 @@ const std::vector<UsageSection>& usage_notes()
           {"/usr/share/doc/stylobate", "the pages of the documentation, in the package stylobate-doc"}}},
         {"Examples",
          {{"stylobate new surface", "write surface.toml, a study with comments that runs as it stands"},
+          {"stylobate check surface.toml", "what a run will take, and where the study is weak"},
           {"stylobate run surface.toml", "run it; the results are in surface.h5"},
           {"stylobate run surface.toml -o quick.h5 --set study.realizations=8",
            "the same with another value of a key and another name of the results"},

@@ -22,7 +22,10 @@ TEST_F(NewStudy, RunsAsItStands)
         const Ended made = run({"new", kind});
         ASSERT_EQ(made.status, 0) << testing::PrintToString(made);
         EXPECT_EQ(made.err, "");
-        EXPECT_NE(made.out.find("stylobate run " + kind + ".toml"), std::string::npos) << made.out;
+        const std::size_t check = made.out.find("\n  stylobate check " + kind + ".toml "),
+                          runs = made.out.find("\n  stylobate run " + kind + ".toml\n");
+        EXPECT_LT(check, runs) << made.out;
+        EXPECT_NE(runs, std::string::npos) << made.out;
         const Ended ended = run(run_words(kind + ".toml", settings, {"-o", kind + ".h5", "--quiet"}));
         EXPECT_EQ(ended.status, 0) << kind << testing::PrintToString(ended);
         EXPECT_EQ(ended.err, "") << "no warnings";
