@@ -13,23 +13,6 @@ namespace py = pybind11;
 namespace sb = stylobate::api;
 using namespace pybind11::literals;
 
-using Found = std::optional<sb::Diagnosis>;
-using TellLine = std::function<bool(const std::optional<std::string>&)>;
-
-Found diagnose(const std::filesystem::path& measured, sb::DiagnosisOptions options, const py::object& progress)
-{
-    std::function<bool(const std::string&)> listen;
-    if (!progress.is_none())
-        listen = [&](const std::string& line) { return !progress(line).is(py::bool_(false)); };
-    return interruptible<std::string, Found>(
-        [&](const TellLine& tell) {
-            options.tell = [&](const std::string& line) { tell(line); };
-            options.go_on = [&] { return tell(std::nullopt); };
-            return sb::diagnose(measured, options);
-        },
-        listen);
-}
-
 const char* word(sb::Verdict verdict)
 {
     switch (verdict) {
@@ -79,7 +62,9 @@ void add_diagnosis(py::module_& module)
             options.threads = threads;
             options.simd = simd;
             options.cache = cache;
-            return diagnose(measured, std::move(options), progress);
+            return interruptible_lines<std::optional<sb::Diagnosis>>(
+                std::move(options), progress,
+                [&](const sb::DiagnosisOptions& told) { return sb::diagnose(measured, told); });
         },
         "measured"_a, "study"_a, "nulls"_a, "seed"_a, "threads"_a, "simd"_a, "cache"_a, "progress"_a);
 }

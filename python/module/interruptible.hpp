@@ -3,14 +3,17 @@
 
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace stylobate::python {
 
@@ -81,6 +84,43 @@ Answer interruptible(const std::function<Answer(const std::function<bool(const s
     if (of_work)
         std::rethrow_exception(of_work);
     return std::move(*answer);
+}
+
+/// The same for work that tells lines of text, of which none is lost.
+/// @param progress None, or a Python function that is called with each line; only False stops
+/// @param options  whose `tell` and `go_on` are set here
+/// @param work     of (options)
+template <class Answer, class Options, class Work>
+Answer interruptible_lines(Options options, const pybind11::object& progress, const Work& work)
+{
+    std::mutex mutex;
+    std::vector<std::string> lines;
+    struct NewLines {};
+    std::function<bool(const NewLines&)> listen;
+    if (!progress.is_none())
+        listen = [&](const NewLines&) {
+            std::vector<std::string> told;
+            {
+                const std::lock_guard lock(mutex);
+                told.swap(lines);
+            }
+            return std::ranges::none_of(
+                told, [&](const std::string& line) { return progress(line).is(pybind11::bool_(false)); });
+        };
+    using Tell = std::function<bool(const std::optional<NewLines>&)>;
+    return interruptible<NewLines, Answer>(
+        [&](const Tell& tell) {
+            options.tell = [&](const std::string& line) {
+                {
+                    const std::lock_guard lock(mutex);
+                    lines.push_back(line);
+                }
+                tell(NewLines());
+            };
+            options.go_on = [&] { return tell(std::nullopt); };
+            return work(options);
+        },
+        listen);
 }
 
 } // namespace stylobate::python

@@ -6,5 +6,7 @@ PYBIND11_MODULE(_core, module)
     stylobate::python::add_study(module);
     stylobate::python::add_result(module);
     stylobate::python::add_run(module);
+    stylobate::python::add_check(module);
+    stylobate::python::add_calibration(module);
     stylobate::python::add_diagnosis(module);
 }

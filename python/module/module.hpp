@@ -6,9 +6,11 @@
 
 namespace stylobate::python {
 
-void add_study(pybind11::module_& module);     ///< Study, Record, and errors
-void add_result(pybind11::module_& module);    ///< Result, Surface, Fragility, Trajectory
-void add_run(pybind11::module_& module);       ///< run, run_to_file, follow
-void add_diagnosis(pybind11::module_& module); ///< diagnose
+void add_study(pybind11::module_& module);       ///< Study, Record, and errors
+void add_result(pybind11::module_& module);      ///< Result, Surface, Fragility, Trajectory
+void add_run(pybind11::module_& module);         ///< run, run_to_file, follow
+void add_check(pybind11::module_& module);       ///< check
+void add_calibration(pybind11::module_& module); ///< calibrate
+void add_diagnosis(pybind11::module_& module);   ///< diagnose
 
 } // namespace stylobate::python

@@ -10,7 +10,26 @@
 SI units; the unit is part of each name. Results have the bits of the program `stylobate`, for every number of threads.
 """
 
-from ._core import Cause, Error, InputError, Intensity, Progress, Record, Share
+from ._calibration import Calibration, calibrate
+from ._check import Check
+from ._core import (
+    CalibratedForm,
+    CalibratedParameter,
+    CalibratedRun,
+    Cause,
+    ChosenKey,
+    Error,
+    HeldOutGain,
+    InputError,
+    Intensity,
+    Pilot,
+    Progress,
+    Record,
+    RunTime,
+    Share,
+    Trial,
+    WeakSpot,
+)
 from ._diagnosis import Diagnosis, diagnose
 from ._replay import Replay
 from ._result import Result, ResultGone, TooManyInvalid
@@ -18,19 +37,31 @@ from ._run import run
 from ._study import Study
 
 __all__ = [
+    "CalibratedForm",
+    "CalibratedParameter",
+    "CalibratedRun",
+    "Calibration",
     "Cause",
+    "Check",
+    "ChosenKey",
     "Diagnosis",
     "Error",
+    "HeldOutGain",
     "InputError",
     "Intensity",
+    "Pilot",
     "Progress",
     "Record",
     "Replay",
     "Result",
     "ResultGone",
+    "RunTime",
     "Share",
     "Study",
     "TooManyInvalid",
+    "Trial",
+    "WeakSpot",
+    "calibrate",
     "diagnose",
     "run",
 ]

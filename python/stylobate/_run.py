@@ -5,7 +5,7 @@ import warnings
 
 from . import _core
 from ._result import Result, TooManyInvalid
-from ._study import study_of, whole_number
+from ._study import experiment_of, study_of, whole_number
 
 
 def run(study, output=None, *, threads=0, simd="auto", progress=None, record=None):
@@ -26,11 +26,8 @@ def run(study, output=None, *, threads=0, simd="auto", progress=None, record=Non
     InputError: as the program, exit status 2; nothing is written. TooManyInvalid: exit status 3; its `result` is
     complete. What the program prints as a warning is given to `warnings.warn`.
     """
-    if record is not None and not isinstance(record, _core.Record):
-        raise _core.InputError(f"record is a {type(record).__name__}; Record.read(path) reads one")
     threads = whole_number(threads, "threads")
-    core = study_of(study)._core
-    experiment = _core.Experiment(core) if record is None else _core.Experiment(core, record)
+    experiment = experiment_of(study_of(study), record)
     for warning in experiment.warnings():
         warnings.warn(warning, stacklevel=2)
     path = None if output is None else os.path.abspath(os.fspath(output))

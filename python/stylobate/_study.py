@@ -45,6 +45,23 @@ class Study:
         width = max(len(name) for name, _ in lines)
         return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
 
+    def check(self, *, pilot=0, trial_seconds=2, threads=0, simd="auto", progress=None, record=None):
+        """Before a run: what will be run, its time, memory and file, and where the study is weak. Returns a Check.
+
+        pilot          realizations that are run twice, the second time with finer numerics: 16 to 10,000,000; 0: none
+        trial_seconds  [s] spent on a fair sample of the realizations, for the time of the run; 0: none
+        threads, simd  of the run that is asked about, as of `run`
+        progress       called with a line of text; returns False to stop, and None is returned
+        record         a Record that shakes the base instead of the study's [excitation]
+
+        The time is measured by the processor time of this process: what its other threads compute meanwhile is counted
+        too. Ctrl-C raises KeyboardInterrupt within a second. InputError: for what `run` refuses. What the program prints
+        as a warning is given to `warnings.warn`.
+        """
+        from . import _check
+
+        return _check.check(self, pilot, trial_seconds, threads, simd, progress, record)
+
     @property
     def text(self):
         """The canonical text (TOML): every key with its default. Two studies are the same if their texts are."""
@@ -98,6 +115,23 @@ def whole_number(value, name):
     if number < 0:
         raise _core.InputError(f"{name} = {value!r} is not a whole number, from 0 on")
     return number
+
+
+def number(value, name):
+    """A float from any number. `name` is for the message."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise _core.InputError(f"{name} = {value!r} is not a number") from None
+
+
+def experiment_of(study, record):
+    """What is run of a Study: with its own excitation, or with a Record."""
+    if record is None:
+        return _core.Experiment(study._core)
+    if not isinstance(record, _core.Record):
+        raise _core.InputError(f"record is a {type(record).__name__}; Record.read(path) reads one")
+    return _core.Experiment(study._core, record)
 
 
 def study_of(given):

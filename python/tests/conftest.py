@@ -21,6 +21,34 @@ SMALL_FRAGILITY = {
     "fragility.intensity": {"measure": "pgv", "from": 0.5, "to": 3.0, "count": 3, "spacing": "log"},
 }
 
+TWO_DRUMS = """[study]
+kind = "single"
+[structure]
+kind = "column"
+blocks = 3
+fixed_blocks = 1
+drum_width_m = 0.05
+drum_height_m = 0.05
+depth_m = 0.05
+drum_mass_kg = 0.4
+[contact]
+normal_stiffness_n_m2 = 2e6
+tangential_stiffness_n_m = 1e5
+normal_damping_ratio = 0.1
+tangential_damping_ratio = 0.1
+friction = 0.7
+[excitation]
+kind = "full_sine"
+frequency_hz = 3
+pga_m_s2 = 4
+"""
+
+
+def write_tests(folder):
+    """A table of outcomes of two drums, tests.csv, and the study that it needs, two_drums.toml."""
+    (folder / "two_drums.toml").write_text(TWO_DRUMS)
+    (folder / "tests.csv").write_text("pga_m_s2,frequency_hz,fell\n8,3,no\n14,3,yes\n20,4,yes\n12,5,no\n")
+
 
 def toml_text(value):
     if isinstance(value, dict):
@@ -30,12 +58,21 @@ def toml_text(value):
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-def program(*words, settings=None, status=0):
-    """Runs the program; returns what it writes to standard error."""
+def ended_program(words, settings, status):
     sets = [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={toml_text(value)}")]
     ended = subprocess.run([PROGRAM, *map(str, words), *sets], capture_output=True, text=True)
     assert ended.returncode == status, ended.stderr
-    return ended.stderr
+    return ended
+
+
+def program(*words, settings=None, status=0):
+    """Runs the program; returns what it writes to standard error."""
+    return ended_program(words, settings, status).stderr
+
+
+def output_of(*words, settings=None, status=0):
+    """Runs the program; returns what it writes to standard output."""
+    return ended_program(words, settings, status).stdout
 
 
 @pytest.fixture

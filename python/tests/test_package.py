@@ -10,13 +10,18 @@ import sys
 import pytest
 
 import stylobate
-from conftest import INPUTS, SMALL_FRAGILITY, SMALL_SURFACE, SOURCES, program
+from conftest import INPUTS, SMALL_FRAGILITY, SMALL_SURFACE, SOURCES, program, write_tests
 
 EXAMPLES = SOURCES / "python" / "examples"
 
 
 def members(thing):
     return {name for name in vars(thing) if not name.startswith("_")}
+
+
+def names_of(function):
+    """Of the parameters of a function in the stubs."""
+    return [a.arg for a in function.args.args + function.args.kwonlyargs]
 
 
 def test_stubs_are_those_of_the_package():
@@ -26,7 +31,7 @@ def test_stubs_are_those_of_the_package():
     for name, stub in stubs.items():
         thing = getattr(stylobate, name)
         if isinstance(stub, ast.FunctionDef):
-            assert [a.arg for a in stub.args.args + stub.args.kwonlyargs] == list(inspect.signature(thing).parameters)
+            assert names_of(stub) == list(inspect.signature(thing).parameters)
             continue
         functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
         public = {name for name in functions if not name.startswith("_")}
@@ -34,7 +39,7 @@ def test_stubs_are_those_of_the_package():
         for function, node in functions.items():
             real = inspect.getattr_static(thing, function)
             if inspect.isfunction(real):
-                assert [a.arg for a in node.args.args] == list(inspect.signature(real).parameters), function
+                assert names_of(node) == list(inspect.signature(real).parameters), function
 
 
 def test_everything_that_is_written_in_python_is_described():
@@ -53,6 +58,7 @@ def files(folder):
     """A study, results and a record for the examples."""
     record = "\n".join(f"{0.01 * i:.2f} {0.3 * ((i // 25) % 2 * 2 - 1)}" for i in range(400))
     pathlib.Path("record.txt").write_text(record)
+    write_tests(folder)
     study = stylobate.Study.from_toml(INPUTS / "small_scale_column.toml", SMALL_SURFACE)
     pathlib.Path("column.toml").write_text(study.text)
     stylobate.run(study, "column.h5")
@@ -62,12 +68,14 @@ def files(folder):
 
 ARGUMENTS = {
     "study.py": ["column.toml"],
+    "check.py": ["column.toml", "column.png"],
     "run.py": ["column.toml", "new.h5"],
     "surface.py": ["column.h5", "surface.png"],
     "fragility.py": ["fragility.h5", "fragility.png"],
     "replay.py": ["column.h5", "17"],
     "animate.py": ["column.h5", "17", "fall.gif"],
     "record.py": ["record.txt", "g"],
+    "calibrate.py": ["tests.csv", "two_drums.toml"],
     "diagnose.py": None,  # below
 }
 
