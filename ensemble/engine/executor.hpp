@@ -45,13 +45,14 @@ struct RunPlan {
     std::function<void(const Realization&, const Outcome&)> sink;
 
     std::uint64_t index(std::uint64_t number) const { return indices.empty() ? number : indices[number]; }
-    /// Marks what has been done before. @param state of an index: an optional `State`
+    /// Marks what of the shard has been done before. @param state of an index: an optional `State`
     template <class StateOf>
     void mark_done(const StateOf& state)
     {
         const RunOrder order(total);
         done = DoneSet(order);
-        for (std::uint64_t place = 0; place < total; ++place)
+        const RunOrder::Places places = order.places(shard);
+        for (std::uint64_t place = places.begin; place < places.end; ++place)
             if (const std::optional<State> s = state(index(order.index(place))))
                 done.add(place, s == State::collapsed, s == State::invalid);
     }

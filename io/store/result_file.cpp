@@ -245,7 +245,7 @@ void check_unfinished(const ResultFile& file, const ResultHeader& asked)
 
 std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
 {
-    if (selected_) {
+    if (scattered_) {
         const auto found = place_.find(index);
         return found == place_.end() ? std::nullopt : std::optional(found->second);
     }
@@ -260,7 +260,7 @@ std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
 bool RowNumbers::add(std::uint64_t index, std::uint64_t place)
 {
     bool is_new = false;
-    if (selected_) {
+    if (scattered_) {
         is_new = place_.emplace(index, place).second;
     } else {
         const std::uint64_t at = index - first_;

@@ -51,7 +51,8 @@ class RowNumbers {
 public:
     RowNumbers() = default;
     RowNumbers(const ResultHeader& header, bool complete)
-        : selected_(header.selected), in_order_(complete && !header.selected), first_(header.first), rows_(header.total)
+        : scattered_(header.selected || !header.shard.whole()), in_order_(complete && !header.selected),
+          first_(header.first), rows_(header.total)
     {
     }
     /// Nothing for a realization that has no row.
@@ -64,12 +65,13 @@ public:
     void for_each(const std::function<void(std::uint64_t place)>& f) const;
 
 private:
-    bool selected_ = false, in_order_ = false;
+    bool scattered_ = false; ///< few of the study's realizations have rows
+    bool in_order_ = false;
     std::uint64_t first_ = 0;
     std::uint64_t rows_ = 0;
     std::uint64_t added_ = 0;
     std::vector<std::uint64_t> after_;                       ///< place + 1 by index - first, 0: none
-    std::unordered_map<std::uint64_t, std::uint64_t> place_; ///< where the rows are selected
+    std::unordered_map<std::uint64_t, std::uint64_t> place_; ///< where few have rows
 };
 
 /// An open results file, its seal verified.
