@@ -66,7 +66,7 @@ std::vector<Law> laws(Table table)
     for (const double K_n : {1e8, 1e9})
         for (const double xi : {0.05, 0.1, 0.3, 0.5, 1.0})
             all.push_back({ContactForm::two_corner, K_n, xi});
-    for (const double xi : {2.0, 4.0, 8.0})
+    for (const double xi : {2.0, 4.0, 8.0, 16.0})
         all.push_back({ContactForm::two_corner, 1e8, xi});
     all.push_back({ContactForm::two_corner, 1e10, 0.5});
     return all;
