@@ -71,6 +71,38 @@ bool strike_with_dashpots(const Bodies& bodies, const Impacts& impacts, Contacts
     return false;
 }
 
+/// In units of time of 1 / w, w the angular frequency of the first point's upper block on two springs.
+bool strike_with_springs(const Bodies& bodies, const Impacts& impacts, Contacts& contacts, Twists& velocity)
+{
+    constexpr double longest = 200; // a column of six drums has periods of about 60
+    const double mass = 1 / bodies[static_cast<std::size_t>(contacts.front().upper())].per_mass;
+    const double k = mass / 2, c = impacts.damping_ratio * mass;
+    const double k_along = k / 3, c_along = c / std::sqrt(3.0);
+    const double dt = 0.5 * impacts.fineness / std::max(1.0, impacts.damping_ratio);
+    std::vector<double> depth(contacts.size(), 0.0), spring(contacts.size(), 0.0);
+    for (double time = 0; time < longest; time += dt) {
+        const Twists before = velocity;
+        bool carries = false;
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            Contact& point = contacts[i];
+            const double rate = normal_rate(point, before), along_rate_now = along_rate(point, before);
+            depth[i] -= rate * dt;
+            const double force = depth[i] > 0 ? std::max(0.0, k * depth[i] - c * rate) : 0;
+            const double limit = friction_of(bodies, point) * force;
+            spring[i] = std::clamp(spring[i] - k_along * along_rate_now * dt, -limit, limit);
+            const double normal = force * dt;
+            const double along = std::clamp(spring[i] - c_along * along_rate_now, -limit, limit) * dt;
+            push(bodies, point, normal, along, velocity);
+            point.normal += normal;
+            point.along += along;
+            carries = carries || force > 0;
+        }
+        if (!carries)
+            return true;
+    }
+    return false;
+}
+
 } // namespace
 
 bool strike(const Bodies& bodies, const Impacts& impacts, Contacts& contacts, Twists& velocity)
@@ -86,6 +118,8 @@ bool strike(const Bodies& bodies, const Impacts& impacts, Contacts& contacts, Tw
         return strike_in_sequence(bodies, contacts, velocity);
     case ImpactLaw::viscous:
         return strike_with_dashpots(bodies, impacts, contacts, velocity);
+    case ImpactLaw::compliant:
+        return strike_with_springs(bodies, impacts, contacts, velocity);
     }
     return false;
 }

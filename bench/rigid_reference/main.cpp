@@ -27,7 +27,8 @@ namespace {
 
 const std::map<std::string, reference::ImpactLaw> laws{{"together", reference::ImpactLaw::together},
                                                        {"sequential", reference::ImpactLaw::sequential},
-                                                       {"viscous", reference::ImpactLaw::viscous}};
+                                                       {"viscous", reference::ImpactLaw::viscous},
+                                                       {"compliant", reference::ImpactLaw::compliant}};
 
 struct Answer {
     Fallen fallen; ///< (draws)
@@ -121,8 +122,10 @@ int main(int argc, char** argv)
     app.add_option("--draws", draws, "realizations")->check(CLI::Range(1, 1000000));
     app.add_option("--first", first, "index of the first one");
     app.add_option("--cell", cell_name, "structure and shaking");
-    app.add_option("--law", law, "of impacts")->check(CLI::IsMember({"together", "sequential", "viscous"}));
+    app.add_option("--law", law, "of impacts")
+        ->check(CLI::IsMember({"together", "sequential", "viscous", "compliant"}));
     app.add_option("--along-ratio", impacts.along_ratio, "viscous: dashpot along the face over that across it");
+    app.add_option("--damping-ratio", impacts.damping_ratio, "compliant: of the contacts")->check(CLI::Range(0.0, 1e3));
     app.add_option("--rate", rate, "steps per second");
     app.add_flag("--list", list, "1 or 0 for each draw: fallen or not");
     app.add_option("--trace", traced, "one draw over time, beside the rigid form");
