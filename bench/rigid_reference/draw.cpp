@@ -41,8 +41,8 @@ LimitStates limits_of(const Study& study, const Realization& r, double step_s)
 } // namespace
 
 Draw::Draw(const Study& study, Realization realization, const Impacts& impacts, double step_s)
-    : study_(study), realization_(std::move(realization)), step_s_(step_s),
-      base_(study.excitation, realization_, nullptr), end_s_(base_.duration_s() + study.excitation.tail_s.value_or(0)),
+    : realization_(std::move(realization)), step_s_(step_s), base_(study.excitation, realization_, nullptr),
+      end_s_(base_.duration_s() + study.excitation.tail_s.value_or(0)),
       column_(bodies_of(realization_), places_of(realization_), impacts), start_(places_of(realization_)),
       limits_(limits_of(study, realization_, step_s)), moved_(realization_.blocks.size()),
       inside_(realization_.blocks.size(), -1)

@@ -10,7 +10,7 @@ namespace stylobate::reference {
 /// One realization on its way.
 class Draw {
 public:
-    /// @param study of the realization; must outlive this
+    /// @param study of the realization
     Draw(const Study& study, Realization realization, const Impacts& impacts, double step_s);
 
     void step();
@@ -27,7 +27,6 @@ public:
 private:
     double base_acceleration(int step) const;
 
-    const Study& study_;
     Realization realization_;
     double step_s_;
     BaseMotion base_;
