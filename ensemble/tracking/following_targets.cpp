@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace stylobate {
 
@@ -100,8 +101,10 @@ SeenRun seen_run(const MeasuredRun& run, const Motion& base, const std::vector<i
     while (quiet < base.acceleration_m_s2.size() && std::fabs(base.acceleration_m_s2[quiet]) < quiet_part * peak)
         ++quiet;
     seen.quiet_s = static_cast<double>(quiet) * base.dt_s;
-    for (const double t : run.time_s)
+    for (const double t : run.time_s) {
         seen.time_s.push_back(t - run.time_s.front());
+        seen.base_m.push_back(base_displacement(base, seen.time_s.back()));
+    }
     seen.end_s = seen.time_s.back();
     if (run.collapsed.value_or(false) && run.collapse_time_s >= 0)
         seen.end_s = std::min(seen.end_s, run.collapse_time_s - run.time_s.front());
@@ -123,7 +126,7 @@ SeenRun seen_run(const MeasuredRun& run, const Motion& base, const std::vector<i
             for (std::size_t k = 0; k < n; ++k) {
                 double value = series[c]->values[k * measured + b];
                 if (c == static_cast<std::size_t>(BlockCoordinate::x))
-                    value -= base_displacement(base, seen.time_s[k]);
+                    value -= seen.base_m[k];
                 q[k * blocks + to] = value;
                 if (std::isfinite(value) && (seen.time_s[k] < seen.quiet_s || count < fewest_samples)) {
                     sum += value;
@@ -174,9 +177,8 @@ Targets targets_of(const SeenRun& run)
     return targets;
 }
 
-std::vector<SeenWindow> windows_of(const SeenRun& run, double length_s)
+std::optional<SeenWindow> window_at(const SeenRun& run, double start_s, double length_s)
 {
-    std::vector<SeenWindow> windows;
     const auto row_at = [&](double t) {
         const auto after = std::lower_bound(run.time_s.begin(), run.time_s.end(), t);
         auto row = static_cast<std::size_t>(after - run.time_s.begin());
@@ -184,19 +186,26 @@ std::vector<SeenWindow> windows_of(const SeenRun& run, double length_s)
             --row;
         return row;
     };
+    SeenWindow w;
+    w.window.start_s = start_s;
+    for (const double part : {0.5, 1.0}) {
+        w.rows.push_back(row_at(start_s + part * length_s));
+        w.window.times_s.push_back(run.time_s[w.rows.back()]);
+    }
+    if (w.window.times_s[0] > start_s && w.rows[0] < w.rows[1])
+        return w;
+    return std::nullopt;
+}
+
+std::vector<SeenWindow> windows_of(const SeenRun& run, double length_s)
+{
+    std::vector<SeenWindow> windows;
     // (to half a sample, so that rounding does not cost the last one)
     const double slack = 0.5 * (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.time_s.size());
     for (double start = std::max(run.quiet_s, run.time_s.front()); start + length_s <= run.end_s + slack;
-         start += length_s) {
-        SeenWindow w;
-        w.window.start_s = start;
-        for (const double part : {0.5, 1.0}) {
-            w.rows.push_back(row_at(start + part * length_s));
-            w.window.times_s.push_back(run.time_s[w.rows.back()]);
-        }
-        if (w.window.times_s[0] > start && w.rows[0] < w.rows[1])
-            windows.push_back(w);
-    }
+         start += length_s)
+        if (std::optional<SeenWindow> window = window_at(run, start, length_s))
+            windows.push_back(std::move(*window));
     return windows;
 }
 

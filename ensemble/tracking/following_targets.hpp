@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -21,6 +22,7 @@ inline constexpr std::size_t coordinate_count = 3;
 struct SeenRun {
     std::size_t blocks = 0;
     std::vector<double> time_s; ///< (nt)
+    std::vector<double> base_m; ///< (nt) displacement of the base
     /// (nt x blocks) x and y of the centre [m], rotation [rad]
     std::array<std::vector<double>, coordinate_count> seen;
     /// (nt x blocks) smoothed, and its rate [m, m/s, rad, rad/s]
@@ -62,6 +64,9 @@ struct SeenWindow {
     FreeWindow window;             ///< read at the times of `rows`
     std::vector<std::size_t> rows; ///< samples: the middle and the end
 };
+
+/// The window of this length from a time on; nothing where the run has too few samples there.
+std::optional<SeenWindow> window_at(const SeenRun& run, double start_s, double length_s);
 
 /// Windows one after the other from the end of the quiet part to `end_s`.
 std::vector<SeenWindow> windows_of(const SeenRun& run, double length_s);

@@ -55,11 +55,13 @@ void check_no_realizations(const CommonOptions& options, const ReportOptions& wa
         throw InputError(fmt::format("--set {}: {} is a {} and contains no study whose keys could be set",
                                      options.set.front(), file, kind));
     if (wanted.animate || wanted.animate_mb || wanted.animate_seconds)
-        throw InputError(fmt::format("--animate{}: {} is a {} and contains no realizations to show in motion",
-                                     wanted.animate      ? ""
-                                     : wanted.animate_mb ? "-mb"
-                                                         : "-seconds",
-                                     file, kind));
+        throw InputError(
+            fmt::format("--animate{}: {} is a {} and contains no realizations to choose from; its page has "
+                        "the windows in motion that the file has",
+                        wanted.animate      ? ""
+                        : wanted.animate_mb ? "-mb"
+                                            : "-seconds",
+                        file, kind));
 }
 
 } // namespace

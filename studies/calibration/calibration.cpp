@@ -7,6 +7,7 @@
 #include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/calibration_search.hpp"
 #include "studies/calibration/kept_evidence.hpp"
+#include "studies/calibration/window_motions.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/version.hpp"
 
@@ -292,6 +293,28 @@ std::vector<FitKey> checked_keys(const Study& base, const CalibrationOptions& op
     return keys;
 }
 
+/// Measured and simulated blocks in the windows in which the best study is off most, and in a typical one.
+void show_windows(Calibration& result, const Campaign& campaign, const Study& nominal,
+                  const CalibrationOptions& options, const RunOptions& run, Observer& observer)
+{
+    WindowOptions windows;
+    windows.window_s = options.window_s;
+    windows.runs = options.runs;
+    WindowComparison comparison(campaign, windows);
+    const ModelVariant best{{}, result.forms[result.best].study, {}, {}}, start{{}, nominal, {}, {}};
+    Quietly quietly(observer);
+    const std::vector<WindowResiduals> residuals = comparison.residuals({best}, run, quietly);
+    EvidenceCost cost{comparison.simulations(), comparison.window_simulations(), comparison.block_steps()};
+    if (!residuals.empty())
+        result.motion =
+            window_motions(choose_windows(comparison.windows(),
+                                          excess_of(comparison, residuals.front(), build_specimen(campaign.specimen))),
+                           {{"calibrated", campaign, best}, {"start", campaign, start}}, windows, run, cost, quietly);
+    result.simulations += cost.simulations;
+    result.window_simulations += cost.window_simulations;
+    result.block_steps += cost.block_steps;
+}
+
 } // namespace
 
 Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
@@ -332,7 +355,10 @@ Calibration calibrate(const Campaign& campaign, const Study& start, const Calibr
         all.push_back({measured.name, measured.motion_id});
     if (!result.from_outcomes)
         take_friction(campaign, begin);
+    const Study nominal = begin.nominal;
     search_and_keep(result, std::move(begin), options, std::move(evidence), all, run, observer);
+    if (result.complete && !result.from_outcomes)
+        show_windows(result, campaign, nominal, options, run, observer);
     return result;
 }
 

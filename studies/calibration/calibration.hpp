@@ -21,10 +21,12 @@
 #include "ensemble/model/study.hpp"
 #include "studies/calibration/calibration_windows.hpp"
 #include "studies/calibration/fit_keys.hpp"
+#include "studies/diagnosis/findings/window_motion.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,6 +102,9 @@ struct Calibration {
     std::vector<FormCalibration> forms; ///< in the order asked for
     std::size_t best = 0;               ///< of the forms: by the score on runs left out
     std::vector<std::string> notes;     ///< what could not be used or judged, in words
+    /// The measured blocks, those of the best study and those of the start study, in windows chosen by the errors of
+    /// the best one; nothing of outcomes.
+    std::optional<WindowMotions> motion;
     std::uint64_t parameter_sets = 0;
     std::uint64_t restored_sets = 0; ///< of them, taken from what an interrupted calibration left
     std::uint64_t kept_sets = 0;     ///< held by the file, where the calibration was interrupted

@@ -90,16 +90,6 @@ private:
     mutable std::vector<std::optional<ResidualScales>> scales_; ///< (candidates) once they were asked for
 };
 
-/// Passes on the wish to stop, not the progress of one small ensemble.
-class Quietly : public Observer {
-public:
-    explicit Quietly(Observer& outer) : outer_(outer) {}
-    bool stop_requested() override { return outer_.stop_requested(); }
-
-private:
-    Observer& outer_;
-};
-
 class OutcomeEvidence : public CalibrationEvidence {
 public:
     OutcomeEvidence(OutcomeTests tests, std::vector<Perturbation> perturbations, std::uint64_t ensemble)

@@ -4,17 +4,21 @@
 #include "io/files/hdf5.hpp"
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/diagnosis/findings/field_table.hpp"
+#include "studies/diagnosis/findings/window_motion_fields.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace stylobate {
 
 namespace {
 
 constexpr char format_name[] = "stylobate-calibration";
-constexpr std::uint64_t format_version = 3;
+constexpr std::uint64_t format_version = 4;       // 4: windows in motion
+constexpr std::uint64_t least_format_version = 3; // that is read
 
 void write_form(hid_t parent, const FormCalibration& form)
 {
@@ -186,12 +190,13 @@ StoredCalibration read_calibration(const std::filesystem::path& file)
         const hid_t root = open.id();
         if (!hdf5::has_attribute(root, "format") || hdf5::read_any_text(root, "format") != format_name)
             throw InputError(file.string(), 0, "contains no calibration");
-        if (const std::uint64_t version = hdf5::read_number(root, "format_version"); version != format_version)
+        if (const std::uint64_t version = hdf5::read_number(root, "format_version");
+            version < least_format_version || version > format_version)
             throw InputError(
                 file.string(), 0,
-                fmt::format("is a calibration of format version {}; this program reads version {}. Read it "
+                fmt::format("is a calibration of format version {}; this program reads versions {} to {}. Read it "
                             "with the version that wrote it, or calibrate again.",
-                            version, format_version));
+                            version, least_format_version, format_version));
         StoredCalibration stored;
         stored.measured = hdf5::read_text(root, "measured");
         stored.evidence = hdf5::read_text(root, "evidence");
@@ -210,6 +215,12 @@ StoredCalibration read_calibration(const std::filesystem::path& file)
         if (std::none_of(stored.forms.begin(), stored.forms.end(),
                          [&](const StoredForm& form) { return form.name == stored.best_form; }))
             throw hdf5::Error("its best form '" + stored.best_form + "' is not there");
+        if (hdf5::exists(root, "motion")) {
+            const hdf5::Handle motion = hdf5::open_group(root, "motion");
+            stored.motion = std::move(read_table<WindowMotions>(motion.id(), 1, format_version).front());
+            if (const std::string fault = stored.motion->fault(); !fault.empty())
+                throw hdf5::Error(fault);
+        }
         return stored;
     } catch (const hdf5::Error& error) {
         throw InputError(file.string(), 0, std::string("is a damaged calibration: ") + error.what());
@@ -238,6 +249,10 @@ void write_calibration(const Calibration& calibration, const Study& start, const
         const hdf5::Handle forms = hdf5::create_group(made.id(), "forms");
         for (const FormCalibration& form : calibration.forms)
             write_form(forms.id(), form);
+        if (calibration.motion) {
+            const hdf5::Handle motion = hdf5::create_group(made.id(), "motion");
+            write_table<WindowMotions>(motion.id(), {&*calibration.motion});
+        }
         made.close();
     } catch (const hdf5::Error& error) {
         throw InputError(file.string(), 0, std::string("cannot be written: ") + error.what());

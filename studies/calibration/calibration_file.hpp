@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ struct StoredCalibration {
     std::string evidence;  ///< "histories" or "outcomes"
     std::string best_form; ///< name of one of the forms
     std::string code_version;
-    std::string start_toml;         ///< the study that it began from
-    std::vector<std::string> notes; ///< what could not be used or judged
+    std::string start_toml;              ///< the study that it began from
+    std::vector<std::string> notes;      ///< what could not be used or judged
+    std::optional<WindowMotions> motion; ///< nothing of outcomes, and in files of format version 3
     std::uint64_t parameter_sets = 0, simulations = 0, window_simulations = 0, block_steps = 0;
     double seconds = 0;            ///< that it took
     std::vector<StoredForm> forms; ///< by name; never empty

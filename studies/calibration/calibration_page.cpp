@@ -1,6 +1,7 @@
 #include "studies/calibration/calibration_page.hpp"
 
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/words.hpp"
 
@@ -74,6 +75,7 @@ public:
         profiles();
         forms();
         runs();
+        motion();
         notes();
         method();
         again();
@@ -239,6 +241,17 @@ private:
             best_.runs.size() > most_runs
                 ? fmt::format(" The first {} of {} runs; the file contains all of them.", most_runs, best_.runs.size())
                 : ""));
+    }
+
+    void motion()
+    {
+        if (c_.evidence == "outcomes")
+            return;
+        page_.section("Windows");
+        if (c_.motion && !c_.motion->windows.empty())
+            add_motion(page_, *c_.motion);
+        else
+            page_.note(no_motion_words(file_, c_.code_version));
     }
 
     void notes()

@@ -24,6 +24,7 @@ struct WindowComparison::Prepared {
         std::size_t first = 0; ///< of its windows among all
     };
     StructureSpec structure;
+    std::vector<double> plan_x_m; ///< (blocks)
     FollowScales scales;
     std::vector<Run> runs;
     std::vector<std::size_t> used;
@@ -49,8 +50,52 @@ struct WindowComparison::Prepared {
         return job;
     }
 
+    /// The windows of a run that are asked for, or all.
+    std::vector<SeenWindow> windows_in(const Run& run, const WindowOptions& options) const
+    {
+        if (options.places.empty())
+            return windows_of(run.seen, scales.window_s);
+        std::vector<SeenWindow> windows;
+        for (const WindowPlace& place : options.places)
+            if (place.run == run.index)
+                if (std::optional<SeenWindow> window = window_at(run.seen, place.free_s, scales.window_s))
+                    windows.push_back(std::move(*window));
+        return windows;
+    }
+
+    WindowCurve measured_curve(const Run& run, std::size_t window, const std::vector<std::size_t>& chosen,
+                               FreeWindow& read) const;
+
     std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
 };
+
+/// A window as it was measured; no model yet.
+/// @param read the same window, to be read at every sample
+WindowCurve WindowComparison::Prepared::measured_curve(const Run& run, std::size_t window,
+                                                       const std::vector<std::size_t>& chosen, FreeWindow& read) const
+{
+    const FreeWindow& free = (*run.windows)[window - run.first];
+    const SeenRun& seen = run.seen;
+    const double clock_s = places[window].start_s - free.start_s;
+    read.start_s = free.start_s;
+    WindowCurve curve;
+    curve.noise_sd = seen.noise_sd;
+    for (std::size_t row = 0; row < seen.time_s.size(); ++row) {
+        if (!(seen.time_s[row] > free.start_s && seen.time_s[row] <= free.times_s.back()))
+            continue;
+        read.times_s.push_back(seen.time_s[row]);
+        curve.time_s.push_back(seen.time_s[row] + clock_s);
+        curve.base_m.push_back(seen.base_m[row]);
+        for (std::size_t c = 0; c < coordinate_count; ++c)
+            for (const std::size_t block : chosen)
+                curve.seen[c].push_back(seen.seen[c][row * blocks + block]);
+    }
+    for (const std::size_t block : chosen) {
+        const double moved = seen.standing_x_m[block];
+        curve.stood_x_m.push_back(plan_x_m[block] + (std::isfinite(moved) ? moved : 0));
+    }
+    return curve;
+}
 
 Realization nominal_realization(const Study& variant, const StructureSpec& structure)
 {
@@ -74,11 +119,10 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
     p.structure = specimen.structure;
     const Layout layout = lay_out(p.structure);
     p.blocks = layout.blocks.size();
-    std::vector<double> plan_x;
     double width = 0;
     std::size_t drums = 0;
     for (const PlacedBlock& block : layout.blocks) {
-        plan_x.push_back(block.x_m() + specimen.origin_x_m);
+        p.plan_x_m.push_back(block.x_m() + specimen.origin_x_m);
         if (!block.fixed && block.role == BlockRole::drum) {
             width += block.width_m;
             ++drums;
@@ -99,10 +143,10 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
         Prepared::Run run;
         run.index = i;
         run.base = std::make_shared<Motion>(base_motion_of(measured));
-        run.seen = seen_run(measured, *run.base, specimen.block, plan_x, p.scales.smoothing_s);
+        run.seen = seen_run(measured, *run.base, specimen.block, p.plan_x_m, p.scales.smoothing_s);
         if (run.seen.blocks == 0)
             continue;
-        const std::vector<SeenWindow> windows = windows_of(run.seen, p.scales.window_s);
+        const std::vector<SeenWindow> windows = p.windows_in(run, options);
         if (windows.empty())
             continue;
         run.targets = std::make_shared<Targets>(targets_of(run.seen));
@@ -113,7 +157,7 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
         for (const SeenWindow& window : windows) {
             list->push_back(window.window);
             p.places.push_back({i, window.window.start_s + measured.time_s.front(),
-                                window.window.times_s.back() + measured.time_s.front()});
+                                window.window.times_s.back() + measured.time_s.front(), window.window.start_s});
         }
         run.windows = list;
         p.used.push_back(i);
@@ -192,48 +236,43 @@ std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<Model
 }
 
 std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, const std::vector<std::size_t>& windows,
-                                                  std::size_t block, const RunOptions& options, Observer& observer)
+                                                  const std::vector<std::size_t>& blocks, const RunOptions& options,
+                                                  Observer& observer)
 {
     Prepared& p = *prepared_;
-    const auto of = std::find_if(p.runs.begin(), p.runs.end(), [&](const Prepared::Run& run) {
-        return run.first <= windows.front() && windows.front() < run.first + run.windows->size();
-    });
-    const SeenRun& seen = of->seen;
     std::vector<WindowCurve> curves;
-    auto dense = std::make_shared<std::vector<FreeWindow>>();
-    for (const std::size_t w : windows) {
-        const FreeWindow& window = (*of->windows)[w - of->first];
-        const double clock_s = p.places[w].start_s - window.start_s;
-        FreeWindow all{window.start_s, {}};
-        WindowCurve curve;
-        curve.noise_sd = seen.noise_sd;
-        for (std::size_t row = 0; row < seen.time_s.size(); ++row) {
-            if (!(seen.time_s[row] > window.start_s && seen.time_s[row] <= window.times_s.back()))
+    std::vector<FollowJob> jobs;
+    for (const Prepared::Run& run : p.runs) {
+        auto dense = std::make_shared<std::vector<FreeWindow>>();
+        for (const std::size_t w : windows) {
+            if (w < run.first || w >= run.first + run.windows->size())
                 continue;
-            all.times_s.push_back(seen.time_s[row]);
-            curve.time_s.push_back(seen.time_s[row] + clock_s);
-            for (std::size_t c = 0; c < coordinate_count; ++c)
-                curve.seen[c].push_back(seen.seen[c][row * p.blocks + block]);
+            curves.push_back(p.measured_curve(run, w, blocks, dense->emplace_back()));
         }
-        dense->push_back(std::move(all));
-        curves.push_back(std::move(curve));
+        if (dense->empty())
+            continue;
+        jobs.push_back(p.job_of(run, variant));
+        jobs.back().windows = dense;
     }
-    FollowJob job = p.job_of(*of, variant);
-    job.windows = dense;
-    const double rest_y_m = static_state(job.realization).y_m[block];
-    const FollowReport report = follow({job}, options, observer);
-    p.simulations += 1;
+    const FollowReport report = follow(jobs, options, observer);
+    p.simulations += jobs.size();
     p.window_simulations += report.windows;
     p.block_steps += report.block_steps;
     if (!report.complete)
         return {};
-    for (std::size_t w = 0; w < curves.size(); ++w) {
-        const Readings& readings = report.results.front().windows[w];
-        for (std::size_t k = 0; k < curves[w].time_s.size(); ++k) {
-            const std::size_t i = k * job.realization.blocks.size() + block; // the ground may be one of them
-            curves[w].model[0].push_back(readings.x_m[i]);
-            curves[w].model[1].push_back(readings.y_m[i] - rest_y_m);
-            curves[w].model[2].push_back(readings.theta_rad[i]);
+    auto curve = curves.begin();
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+        const std::size_t all = jobs[j].realization.blocks.size(); // the ground may be one of them
+        const std::vector<double> rest_y_m = static_state(jobs[j].realization).y_m;
+        for (const Readings& readings : report.results[j].windows) {
+            for (std::size_t k = 0; k < curve->time_s.size(); ++k)
+                for (const std::size_t block : blocks) {
+                    const std::size_t i = k * all + block;
+                    curve->model[0].push_back(readings.x_m[i]);
+                    curve->model[1].push_back(readings.y_m[i] - rest_y_m[block]);
+                    curve->model[2].push_back(readings.theta_rad[i]);
+                }
+            ++curve;
         }
     }
     return curves;

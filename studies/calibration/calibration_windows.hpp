@@ -30,29 +30,35 @@ struct ModelVariant {
     std::function<void(Realization&, std::size_t run)> change = {};
 };
 
-struct WindowOptions {
-    double window_s = 0;           ///< length; 0: by the size of the drums (`follow_scales`)
-    double nudge_rad_s = 0;        ///< 0: likewise
-    std::vector<std::size_t> runs; ///< of the campaign; empty: all
-};
-
 /// Where a window lies.
 struct WindowPlace {
     std::size_t run = 0; ///< of the campaign
     double start_s = 0;  ///< the cameras' clock
     double end_s = 0;
+    double free_s = 0; ///< its start in the time of the base motion
+};
+
+struct WindowOptions {
+    double window_s = 0;           ///< length; 0: by the size of the drums (`follow_scales`)
+    double nudge_rad_s = 0;        ///< 0: likewise
+    std::vector<std::size_t> runs; ///< of the campaign; empty: all
+    /// These windows only, which a comparison with the same length has chosen, ascending in each run; empty: all that
+    /// follow from the base motion.
+    std::vector<WindowPlace> places;
 };
 
 /// What a variant is off by: residuals over their scale s (`SeenValue`) of every window.
 using WindowResiduals = std::vector<std::vector<double>>;
 
-/// A block in a window, at every sample in which it was seen.
+/// Blocks in a window, at every sample of the cameras.
 struct WindowCurve {
-    std::vector<double> time_s; ///< the cameras' clock
-    /// By coordinate, as displacements from where it stood: measured, and as a variant predicts it from the window's
-    /// start. NaN: not seen, or no longer finite.
+    std::vector<double> time_s; ///< (nt) the cameras' clock
+    std::vector<double> base_m; ///< (nt) displacement of the base, as measured
+    /// (nt x blocks) by coordinate, as displacements from where they stood: measured, and as a variant predicts them
+    /// from the window's start, in the frame of the base. NaN: not seen, or no longer finite.
     std::array<std::vector<double>, coordinate_count> seen, model;
     std::array<double, coordinate_count> noise_sd{}; ///< of a sample
+    std::vector<double> stood_x_m;                   ///< (blocks) where they stood in the run, as measured
 };
 
 /// A campaign made ready to be predicted: base motions, smoothed histories, windows. Made once, used for many models.
@@ -76,10 +82,11 @@ public:
                                            Observer& observer);
 
     /// The motion behind the residuals.
-    /// @param windows of one run, ascending   @param block of the realization
-    /// @return in their order; empty if the observer stopped it
+    /// @param windows ascending   @param blocks of the layout, in the order in which the curves have them
+    /// @return in the order of the windows; empty if the observer stopped it
     std::vector<WindowCurve> curves(const ModelVariant& variant, const std::vector<std::size_t>& windows,
-                                    std::size_t block, const RunOptions& options, Observer& observer);
+                                    const std::vector<std::size_t>& blocks, const RunOptions& options,
+                                    Observer& observer);
 
     /// Scales k fitted to a variant, of the runs in `runs` (of the campaign; empty: all).
     ResidualScales fit_scales(const WindowResiduals& residuals, const std::vector<std::size_t>& runs = {}) const;

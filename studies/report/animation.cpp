@@ -2,6 +2,7 @@
 
 #include "ensemble/model/structure.hpp"
 #include "studies/report/html.hpp"
+#include "studies/report/json.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,8 @@
 namespace stylobate {
 namespace {
 
-/// Farther than any drawing is wide [quanta]: what flies off is not followed beyond.
-constexpr double farthest = 1e6;
+/// Farther than any drawing is wide: what flies off is not followed beyond.
+constexpr double farthest_px = 1e5;
 
 /// Bytes of whole numbers.
 class NumberBytes {
@@ -80,7 +81,8 @@ Animation animation_of(const Trajectory& t, const AnimationStage& stage, std::si
     Animation animation;
     animation.index = t.index;
     animation.samples = (t.time_s.size() + stride - 1) / stride;
-    const auto rounded = [](double value, std::int64_t before) {
+    const double farthest = farthest_px / stage.quantum_px;
+    const auto rounded = [&](double value, std::int64_t before) {
         return std::isfinite(value) ? std::llround(std::clamp(value, -farthest, farthest)) : before;
     };
     NumberBytes bytes;
@@ -107,6 +109,24 @@ Animation animation_of(const Trajectory& t, const AnimationStage& stage, std::si
     add([&](std::size_t k) { return t.base_x_m[k] / stage.quantum_m(); });
     animation.data = base64(bytes.bytes());
     return animation;
+}
+
+Json animation_store(const AnimationStage& stage, double rate_hz, const std::vector<AnimatedBlock>& blocks)
+{
+    Json names = Json::list(), look = Json::list();
+    for (const AnimatedBlock& block : blocks) {
+        names.item(block.name);
+        look.item(block.look);
+    }
+    return Json::object()
+        .member("rate_hz", rate_hz)
+        .member("px_m", stage.px_m)
+        .member("quantum_px", stage.quantum_px)
+        .member("width", stage.width_px)
+        .member("height", stage.height_px)
+        .member("ground", stage.ground_px)
+        .member("blocks", names)
+        .member("look", look);
 }
 
 } // namespace stylobate

@@ -3,6 +3,7 @@
 
 #include "ensemble/model/outcome.hpp"
 #include "io/store/result_store.hpp"
+#include "studies/report/json.hpp"
 
 #include <cstdint>
 #include <string>
@@ -18,11 +19,10 @@ struct AnimationStage {
     double middle_m = 0;   ///< of the structure at rest: x = 0 of the drawing is its middle
     double width_px = 640; ///< of the drawing
     double height_px = 0;
-    double ground_px = 0; ///< y of the ground, from above
+    double ground_px = 0;    ///< y of the ground, from above
+    double quantum_px = 0.1; ///< coordinates are whole multiples of it
 
-    /// The length that coordinates are whole multiples of [m].
     double quantum_m() const { return quantum_px / px_m; }
-    static constexpr double quantum_px = 0.1;
 };
 
 /// @param blocks of the structure at rest, at least one
@@ -45,5 +45,14 @@ struct Animation {
 /// @pre the trajectory has a sample
 /// @returns the animation without what its row says
 Animation animation_of(const Trajectory& trajectory, const AnimationStage& stage, std::size_t stride);
+
+/// A block of all animations of a page.
+struct AnimatedBlock {
+    std::string name;
+    std::string look; ///< classes of the page's style: "stone", "lintel", "fixed"
+};
+
+/// What the script of the page (player.js) needs beside the list of animations, to which members may be added.
+Json animation_store(const AnimationStage& stage, double rate_hz, const std::vector<AnimatedBlock>& blocks);
 
 } // namespace stylobate

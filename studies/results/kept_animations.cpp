@@ -273,11 +273,10 @@ KeptAnimations animations_for(const Study& study)
 
 std::string animations_json(const KeptAnimations& kept, const Study& study)
 {
-    Json names = Json::list(), look = Json::list(), list = Json::list();
-    for (const PlacedBlock& block : lay_out(study.structure).blocks) {
-        names.item(block.name);
-        look.item(std::string_view(block.fixed ? "fixed" : block.role == BlockRole::epistyle ? "lintel" : "stone"));
-    }
+    std::vector<AnimatedBlock> blocks;
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        blocks.push_back({block.name, block.fixed ? "fixed" : block.role == BlockRole::epistyle ? "lintel" : "stone"});
+    Json list = Json::list();
     for (const Animation& animation : kept.list) {
         Json falls = Json::list();
         for (std::size_t block = 0; block < animation.fall_time_s.size(); ++block)
@@ -293,18 +292,7 @@ std::string animations_json(const KeptAnimations& kept, const Study& study)
                       .member("falls", falls)
                       .member("data", animation.data));
     }
-    const AnimationStage& stage = kept.stage;
-    return Json::object()
-        .member("rate_hz", kept.rate_hz)
-        .member("px_m", stage.px_m)
-        .member("quantum_px", AnimationStage::quantum_px)
-        .member("width", stage.width_px)
-        .member("height", stage.height_px)
-        .member("ground", stage.ground_px)
-        .member("blocks", names)
-        .member("look", look)
-        .member("list", list)
-        .text();
+    return animation_store(kept.stage, kept.rate_hz, blocks).member("list", list).text();
 }
 
 } // namespace stylobate

@@ -13,22 +13,9 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
-import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from browser import Browser, find_chromium  # noqa: E402
-
-try:
-    import h5py
-except ImportError:
-    h5py = None
-
-PROGRAM = STUDIES = ""
-
-
-def stylobate(*words):
-    subprocess.run([PROGRAM, *map(str, words), "--quiet"], check=True)
+from page_test import Given, Page, h5py, main, stylobate  # noqa: E402
 
 
 def settings(**values):
@@ -54,47 +41,10 @@ def jeffreys(collapses, trials):
     return (0.0 if collapses == 0 else quantile(.025)), (1.0 if collapses == trials else quantile(.975))
 
 
-class Page(unittest.TestCase):
-    """A browser for all tests of a class; after each one it has asked for the page alone and complained of nothing."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory(prefix="stylobate-page-")
-        cls.make()
-        cls.browser = Browser(find_chromium())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-        cls.folder.cleanup()
-
-    @classmethod
-    def at(cls, name):
-        return os.path.join(cls.folder.name, name)
-
-    def open(self, name):
-        self.browser.open(self.at(name))
-        self.page = self.at(name)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.errors, [])
-        self.assertEqual(self.browser.requests, ["file://" + self.page])
-
-    def tip(self):
-        """The readings beside the pointer, by their names; None where there are none."""
-        rows = self.browser.js("""(() => {
-            const tip = [...document.querySelectorAll(".tip")].find((one) => !one.hidden);
-            return tip ? [["title", tip.querySelector("b").textContent],
-                          ...[...tip.querySelectorAll("tr")].map((row) => [...row.cells].map((c) => c.textContent))]
-                       : null;
-        })()""")
-        return None if rows is None else dict(rows)
-
-
 class Surface(Page):
     @classmethod
     def make(cls):
-        stylobate("run", f"{STUDIES}/small_scale_column.toml", "-o", cls.at("surface.h5"),
+        stylobate("run", f"{Given.studies}/small_scale_column.toml", "-o", cls.at("surface.h5"),
                   *settings(study__realizations=6, structure__blocks=4, contact__normal_stiffness_n_m2="4e6",
                             contact__tangential_stiffness_n_m="2e5", excitation__cycles=4,
                             surface__frequency_hz="{from=4.0,to=8.0,count=4}",
@@ -188,7 +138,7 @@ class Surface(Page):
         self.open_cell(cell)
         text = self.browser.js('document.querySelector(".cell-panel").textContent')
         command = re.search(r"stylobate (replay surface\.h5 --frequency \S+ --pga \S+)", text).group(1)
-        done = subprocess.run([PROGRAM, *command.split(), "--json"], cwd=self.folder.name, check=True,
+        done = subprocess.run([Given.program, *command.split(), "--json"], cwd=self.folder.name, check=True,
                               stdout=subprocess.PIPE)
         self.assertEqual(self.cell[self.index.index(json.loads(done.stdout)["realization"])], cell)
 
@@ -391,7 +341,7 @@ class Surface(Page):
 class Single(Page):
     @classmethod
     def make(cls):
-        stylobate("run", f"{STUDIES}/free_rocking.toml", "-o", cls.at("one.h5"))
+        stylobate("run", f"{Given.studies}/free_rocking.toml", "-o", cls.at("one.h5"))
         stylobate("report", cls.at("one.h5"))
 
     def test_history_has_the_values_of_the_trajectory(self):
@@ -430,7 +380,7 @@ class Single(Page):
 class Fragility(Page):
     @classmethod
     def make(cls):
-        study = [PROGRAM, "run", f"{STUDIES}/fragility_column.toml", "-o", cls.at("curves.h5"),
+        study = [Given.program, "run", f"{Given.studies}/fragility_column.toml", "-o", cls.at("curves.h5"),
                  *settings(fragility__motions=12, study__realizations=6, contact__normal_stiffness_n_m2="1e8",
                            fragility__intensity='{from=0.4,to=2.5,count=6,spacing="log"}')]
         subprocess.run([*study, "--quiet"], check=True)
@@ -471,13 +421,4 @@ class Fragility(Page):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    PROGRAM, STUDIES = map(os.path.abspath, sys.argv[1:3])
-    if not find_chromium():
-        print("skipped: Chromium is not installed (Debian: chromium)")
-        sys.exit(77)
-    if h5py is None:
-        print("skipped: h5py is not installed (Debian: python3-h5py)")
-        sys.exit(77)
-    unittest.main(argv=[sys.argv[0], "-v", *sys.argv[3:]])
+    main(["program", "studies"], __doc__)

@@ -68,6 +68,7 @@ private:
     void list_indistinguishable();
     void describe_unexplained();
     void find_wrong_windows();
+    void show_windows(const std::vector<ChosenWindow>& chosen);
     void judge_extension();
     void write_extended_study();
     void propose_next_test();
@@ -350,6 +351,21 @@ void Pipeline::find_wrong_windows()
     WrongWindows wrong = wrong_windows(measured_, study_, most_wrong, options_.run, count_, observer_);
     d_.wrong = std::move(wrong.stretches);
     std::move(wrong.figures.begin(), wrong.figures.end(), std::back_inserter(d_.figures));
+    show_windows(wrong.shown);
+}
+
+/// Measured and simulated blocks in these windows: of the baseline, and of the extended study where there is one.
+void Pipeline::show_windows(const std::vector<ChosenWindow>& chosen)
+{
+    std::vector<ShownModel> models{{"baseline", measured_, with_causes(study_, built_, {})}};
+    if (std::any_of(decided_.named.begin(), decided_.named.end(),
+                    [](const JudgedCause& j) { return !unrecorded_vertical(j.fit.cause); }))
+        models.push_back({"extended", campaign_, with_causes(study_, built_, model_causes(decided_.named))});
+    EvidenceCost cost;
+    d_.motion = window_motions(chosen, models, {}, options_.run, cost, observer_);
+    count_.simulations += cost.simulations;
+    count_.window_simulations += cost.window_simulations;
+    count_.block_steps += cost.block_steps;
 }
 
 /// What the extension by the named causes gains on runs left out, and its study.

@@ -2,7 +2,6 @@
 
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace stylobate {
 
@@ -56,13 +56,8 @@ std::optional<WindowResiduals> residuals_of(WindowComparison& comparison, const 
                                             const Study& study, const std::vector<SizedCause>& causes,
                                             const RunOptions& options, SimulationCount& count, Observer& observer)
 {
-    ModelVariant variant;
-    variant.study = study;
-    variant.change = [&](Realization& r, std::size_t) {
-        for (const SizedCause& cause : causes)
-            apply_cause(cause, built, r);
-    };
-    std::vector<WindowResiduals> residuals = comparison.residuals({variant}, options, observer);
+    std::vector<WindowResiduals> residuals =
+        comparison.residuals({with_causes(study, built, causes)}, options, observer);
     count.simulations += comparison.simulations();
     count.window_simulations += comparison.window_simulations();
     count.block_steps += comparison.block_steps();
@@ -133,6 +128,17 @@ Campaign corrected(const Campaign& campaign, const DirectResult& direct)
             out.runs[r].table = {};
         }
     return out;
+}
+
+ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std::vector<SizedCause> causes)
+{
+    ModelVariant variant;
+    variant.study = study;
+    variant.change = [built, causes = std::move(causes)](Realization& r, std::size_t) {
+        for (const SizedCause& cause : causes)
+            apply_cause(cause, built, r);
+    };
+    return variant;
 }
 
 std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named)

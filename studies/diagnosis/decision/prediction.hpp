@@ -5,6 +5,8 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/tracking/specimen.hpp"
+#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/laws/track.hpp"
@@ -18,6 +20,9 @@ namespace stylobate {
 
 /// The campaign with the base motion as it must have been.
 Campaign corrected(const Campaign& campaign, const DirectResult& direct);
+
+/// A study with causes in it, for a campaign that is corrected.
+ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std::vector<SizedCause> causes);
 
 /// Sizes of causes that act in the model; those that act on the base's horizontal motion are in its correction.
 std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named);

@@ -47,7 +47,7 @@ class Windows {
 public:
     Windows(const Campaign& campaign, double length_s, const std::vector<SizedCause>& given, const RunOptions& options,
             Observer& observer)
-        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, 0, {}}), given_(given),
+        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, 0, {}, {}}), given_(given),
           options_(options), observer_(observer)
     {
     }

@@ -2,6 +2,7 @@
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/calibration/calibration_windows.hpp"
+#include "studies/calibration/window_motions.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,6 @@ constexpr double beyond = 2;        // scales: noise and 20 ms of the local moti
 constexpr std::size_t pictured = 2; // runs whose worst block is shown
 constexpr std::size_t before = 4;   // windows before the worst one, and as many after it
 constexpr double noise_band = 2;    // standard deviations
-constexpr const char* coordinate_names[] = {"x", "y", "theta"};
 
 /// Windows in which one coordinate of a block is off, one after the other.
 struct Stretch {
@@ -34,31 +34,7 @@ struct Stretch {
     double excess = 0; ///< of the worst
 };
 
-/// By window, then block of the specimen and coordinate: root mean square of the residuals.
-using Excess = std::vector<std::map<std::pair<int, int>, double>>;
-
-Excess excess_of(const WindowComparison& comparison, const WindowResiduals& residuals, const SpecimenStructure& built)
-{
-    std::map<int, int> block_of; // of the layout -> of the specimen
-    for (std::size_t b = 0; b < built.block.size(); ++b)
-        block_of[built.block[b]] = static_cast<int>(b);
-    Excess excess;
-    for (std::size_t w = 0; w < residuals.size(); ++w) {
-        std::map<std::pair<int, int>, std::pair<double, int>> square;
-        for (std::size_t k = 0; k < residuals[w].size(); ++k) {
-            const SeenValue& seen = comparison.seen(w)[k];
-            auto& [sum, n] = square[{block_of[static_cast<int>(seen.block)], static_cast<int>(seen.coordinate)}];
-            sum += std::min(std::pow(residuals[w][k], 2), 1e4);
-            ++n;
-        }
-        excess.emplace_back();
-        for (const auto& [what, sum] : square)
-            excess.back()[what] = std::sqrt(sum.first / sum.second);
-    }
-    return excess;
-}
-
-std::vector<Stretch> stretches_of(const std::vector<WindowPlace>& windows, const Excess& excess)
+std::vector<Stretch> stretches_of(const std::vector<WindowPlace>& windows, const std::vector<WindowExcess>& excess)
 {
     std::vector<Stretch> done;
     std::map<std::tuple<std::size_t, int, int>, Stretch> open;
@@ -68,7 +44,8 @@ std::vector<Stretch> stretches_of(const std::vector<WindowPlace>& windows, const
     };
     for (std::size_t w = 0; w < windows.size(); ++w)
         for (const auto& [what, value] : excess[w]) {
-            const auto key = std::tuple{windows[w].run, what.first, what.second};
+            const auto coordinate = static_cast<int>(what.second);
+            const auto key = std::tuple{windows[w].run, what.first, coordinate};
             auto it = open.find(key);
             const bool follows = it != open.end() && windows[w].start_s <= windows[it->second.last].end_s + 1e-6;
             if (it != open.end() && (value < beyond || !follows)) {
@@ -78,7 +55,7 @@ std::vector<Stretch> stretches_of(const std::vector<WindowPlace>& windows, const
             if (value < beyond)
                 continue;
             if (it == open.end())
-                it = open.emplace(key, Stretch{windows[w].run, what.first, what.second, w, w, w, 0}).first;
+                it = open.emplace(key, Stretch{windows[w].run, what.first, coordinate, w, w, w, 0}).first;
             Stretch& stretch = it->second;
             stretch.last = w;
             if (value > stretch.excess) {
@@ -108,7 +85,7 @@ Unit unit_of(BlockCoordinate coordinate, double largest)
 /// One coordinate of a block about its worst window: what was seen with its noise, what the baseline makes of it.
 DiagnosisFigure curve_figure(const Stretch& stretch, const std::string& run, BlockCoordinate coordinate,
                              const std::vector<std::size_t>& windows, const std::vector<WindowPlace>& places,
-                             const std::vector<WindowCurve>& curves, const Excess& excess)
+                             const std::vector<WindowCurve>& curves, const std::vector<WindowExcess>& excess)
 {
     const auto c = static_cast<std::size_t>(coordinate);
     double largest = 0;
@@ -140,7 +117,7 @@ DiagnosisFigure curve_figure(const Stretch& stretch, const std::string& run, Blo
         }
         model.x.push_back(places[windows[k]].end_s); // a gap: the next one starts anew
         model.y.push_back(std::numeric_limits<double>::quiet_NaN());
-        const auto found = excess[windows[k]].find({stretch.block, static_cast<int>(c)});
+        const auto found = excess[windows[k]].find({stretch.block, coordinate});
         if (found == excess[windows[k]].end() || found->second < beyond)
             continue;
         const WindowPlace& place = places[windows[k]];
@@ -192,8 +169,9 @@ WrongWindows wrong_windows(const Campaign& campaign, const Study& baseline, std:
     variant.study = baseline;
     const std::vector<WindowResiduals> residuals = comparison.residuals({variant}, options, observer);
     if (!residuals.empty()) {
-        const Excess excess = excess_of(comparison, residuals.front(), built);
+        const std::vector<WindowExcess> excess = excess_of(comparison, residuals.front(), built);
         const std::vector<Stretch> stretches = stretches_of(places, excess);
+        found.shown = choose_windows(places, excess);
         std::set<std::size_t> shown; // the blocks of a run are off together
         for (const Stretch& s : stretches) {
             const std::string& run = campaign.runs[s.run].name;
@@ -204,7 +182,7 @@ WrongWindows wrong_windows(const Campaign& campaign, const Study& baseline, std:
                 continue;
             const std::vector<std::size_t> windows = windows_about(s, places);
             const std::vector<WindowCurve> curves = comparison.curves(
-                variant, windows, static_cast<std::size_t>(built.block[static_cast<std::size_t>(s.block)]), options,
+                variant, windows, {static_cast<std::size_t>(built.block[static_cast<std::size_t>(s.block)])}, options,
                 observer);
             if (curves.empty())
                 break;

@@ -5,6 +5,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "studies/calibration/window_motions.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 
@@ -17,6 +18,7 @@ struct WrongWindows {
     std::vector<WrongStretch> stretches; ///< worst first
     /// Measured and simulated x and rotation over each other, about the worst windows of the worst runs.
     std::vector<DiagnosisFigure> figures;
+    std::vector<ChosenWindow> shown; ///< windows to be shown in motion
 };
 
 /// Errors of the baseline by more than noise and a lag of some milliseconds make.

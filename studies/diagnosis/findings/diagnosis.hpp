@@ -4,6 +4,7 @@
 /// What is not known or could not be estimated is `std::nullopt`, never a number that stands for it. Texts are plain
 /// UTF-8 sentences without markup. Blocks and joints are counted from 0, as in the measured file; block -1 is the base.
 
+#include "studies/diagnosis/findings/window_motion.hpp"
 #include "studies/report/figure.hpp"
 
 #include <cstdint>
@@ -228,6 +229,7 @@ struct Diagnosis {
     std::vector<std::string> method; ///< in short: one paragraph each
     DiagnosisCost cost;
     std::vector<DiagnosisFigure> figures;
+    std::optional<WindowMotions> motion; ///< nothing: no window could be simulated, or a file of format version 2
 };
 
 /// Words of the file, the JSON object and the pages.

@@ -4,10 +4,49 @@
 /// `visit_fields(std::type_identity<T>(), f)` calls f(name, &T::field) for each field of T, in the order of the file.
 
 #include "studies/diagnosis/findings/diagnosis.hpp"
+#include "studies/diagnosis/findings/field_table.hpp"
+#include "studies/diagnosis/findings/window_motion_fields.hpp"
 
 #include <type_traits>
 
 namespace stylobate {
+
+template <>
+struct FieldWords<Verdict> {
+    static constexpr const char* words[] = {"none", "named", "unexplained"};
+};
+template <>
+struct FieldWords<TestOutcome> {
+    static constexpr const char* words[] = {"passed", "failed", "not_judged"};
+};
+template <>
+struct FieldWords<Decision> {
+    static constexpr const char* words[] = {"named", "in_set", "rejected", "not_judged"};
+};
+template <>
+struct FieldWords<SeriesKind> {
+    static constexpr const char* words[] = {"line", "points", "band", "bars", "spans"};
+};
+template <>
+struct FieldWords<FigurePlace> {
+    static constexpr const char* words[] = {"verdict",    "data",        "baseline", "wrong",
+                                            "candidates", "unexplained", "gain",     "next_test"};
+};
+template <>
+struct ListOf<DiagnosisCost> {
+    using Item = DiagnosisCost;
+    static void add(DiagnosisCost& part, DiagnosisCost item) { part = std::move(item); }
+};
+
+template <class F>
+void for_each_item(const DiagnosisCost& part, F f)
+{
+    f(part);
+}
+
+/// Version 2 has no windows in motion.
+template <>
+inline constexpr std::uint64_t since_version<WindowMotions> = 3;
 
 template <class F>
 void visit_fields(std::type_identity<DataTest>, F f)
@@ -223,6 +262,7 @@ void visit_fields(std::type_identity<Diagnosis>, F f)
     f("method", &Diagnosis::method);
     f("cost", &Diagnosis::cost);
     f("figures", &Diagnosis::figures);
+    f("motion", &Diagnosis::motion);
 }
 
 } // namespace stylobate

@@ -1,6 +1,7 @@
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -141,7 +142,16 @@ private:
                             : std::string()) +
                        wrong_words(d_) + " Times are on the cameras' clock.");
         }
+        motion();
         figures(FigurePlace::wrong);
+    }
+
+    void motion()
+    {
+        if (d_.motion && !d_.motion->windows.empty())
+            add_motion(page_, *d_.motion);
+        else if (d_.cost.window_simulations > 0)
+            page_.note(no_motion_words(file_, d_.code_version));
     }
 
     void candidates()

@@ -4,14 +4,15 @@
 //   {rate_hz, px_m, quantum_px, width, height, ground, blocks: [name], look: [class], list: [{index, cell, state,
 //    frequency_hz, pga_m_s2, samples, falls: [[block, time_s], ...], data}]}
 //
-// px_m: pixels per metre; data: see `decoded`.
+// px_m: pixels per metre; data: see `decoded`. Those of windows.js have other members besides.
 
 /**
  * The numbers of an animation. The bytes (base64) are whole numbers of variable length, seven bits a byte, the lowest
  * first, the eighth bit set where another byte follows. First half width and half height of each block; then for each
  * block x, y and rotation, and at the end the base: the first sample, and the differences from sample to sample. A
- * difference d is written as 2 d or, below 0, -2 d - 1; a run of n zeros as 0 and n. Lengths are in quanta of a tenth of
- * a pixel. The rotation is in quanta of a radian over the half diagonal of the block in quanta: a corner moves by one.
+ * difference d is written as 2 d or, below 0, -2 d - 1; a run of n zeros as 0 and n. Lengths are in quanta of
+ * `quantum_px` pixels. The rotation is in quanta of a radian over the half diagonal of the block in quanta: a corner
+ * moves by one.
  */
 function decoded(animation, blocks) {
   const bytes = Uint8Array.from(atob(animation.data), (letter) => letter.charCodeAt(0));
@@ -73,7 +74,7 @@ class Player {
     this.playButton = html("button", {type: "button", click: () => this.toggle(), class: "play"}, "Play");
     this.slider = html("input", {type: "range", min: 0, step: 1, "aria-label": "time", input: () => {
       this.pause();
-      this.show(Number(this.slider.value) / this.store.rate_hz);
+      this.show(Number(this.slider.value) / this.rate());
     }});
     this.clock = html("span", {class: "time"});
     this.speeds = html("select", {"aria-label": "speed", change: () => { this.speed = Number(this.speeds.value); }});
@@ -81,9 +82,9 @@ class Player {
                                   [0.05, "1/20 speed"]])
       this.speeds.append(html("option", {value: factor}, name));
     this.before = html("button", {type: "button", click: () => this.choose(this.place - 1), class: "previous",
-                                  "aria-label": "previous realization"}, "◀ previous");
+                                  "aria-label": `previous ${this.noun()}`}, "◀ previous");
     this.after = html("button", {type: "button", click: () => this.choose(this.place + 1), class: "next",
-                                 "aria-label": "next realization"}, "next ▶");
+                                 "aria-label": `next ${this.noun()}`}, "next ▶");
     this.title = html("p", {class: "which"});
     this.says = html("p", {class: "says"});
     this.element = html("div", {class: "player only-with-script", keydown: (event) => this.key(event)},
@@ -92,8 +93,36 @@ class Player {
         html("div", {class: "controls"}, this.playButton, this.slider, this.clock, this.speeds),
         this.says,
         html("p", {class: "note"}, "Keys: space plays and pauses, the arrows go a sample back and on (with shift ten), ",
-             "n and p choose the next and the previous realization. The drawing moves with the base; the marks on the ",
+             `n and p choose the next and the previous ${this.noun()}. The drawing moves with the base; the marks on the `,
              "ground stand still in the laboratory."));
+  }
+
+  // ---- what windows.js does in another way ----
+
+  noun() { return "realization"; }
+
+  /** Samples a second. */
+  rate() { return this.store.rate_hz; }
+
+  titleText() {
+    const one = this.one;
+    const shaking = one.frequency_hz > 0 ? ` at ${numberText(one.frequency_hz)} Hz, ${numberText(one.pga_m_s2)} m/s²` : "";
+    return `Realization ${one.index}${shaking}: ${stateWords[one.state] ?? one.state}`;
+  }
+
+  clockText() { return `${this.time.toFixed(3)} s of ${this.end.toFixed(3)} s`; }
+
+  /** Where a block is drawn, of its own place [px, rad]; x from the middle, y upwards from the ground. */
+  drawn(block, x, y, turn) { return [x, y, turn]; }
+
+  /** How far the base is drawn, of its displacement [px]. */
+  drawnBase(base) { return base; }
+
+  /** What is said below the drawing, besides the place of the base. */
+  saysText() {
+    const fallen = this.one.falls.filter(([, t]) => t <= this.time + 1e-9);
+    return fallen.length ? `Fallen: ${fallen.map(([b, t]) => `${this.store.blocks[b]} (${t.toFixed(3)} s)`).join(", ")}.`
+                         : "No block has fallen.";
   }
 
   // ---- which realization ----
@@ -109,14 +138,12 @@ class Player {
     this.now = this.numbers.get(one);
     one.falls.sort((a, b) => a[1] - b[1]);
     this.fallTime = new Map(one.falls);
-    this.end = (one.samples - 1) / this.store.rate_hz;
+    this.end = (one.samples - 1) / this.rate();
     const quantum = this.store.quantum_px;
     this.now.sizes.forEach(([w, h], i) => {
       filled(this.blocks[i], {x: -w * quantum, y: -h * quantum, width: 2 * w * quantum, height: 2 * h * quantum}, []);
     });
-    const shaking = one.frequency_hz > 0 ? ` at ${numberText(one.frequency_hz)} Hz, ${numberText(one.pga_m_s2)} m/s²` : "";
-    this.title.textContent = `Realization ${one.index}${shaking}: ${stateWords[one.state] ?? one.state} (` +
-        `${place + 1} of ${this.list.length})`;
+    this.title.textContent = `${this.titleText()} (${place + 1} of ${this.list.length})`;
     this.stage.setAttribute("aria-label", this.title.textContent);
     this.before.hidden = this.after.hidden = this.list.length === 1;
     this.before.disabled = place === 0;
@@ -138,43 +165,52 @@ class Player {
     this.label.textContent = most === 0 ? "the base is at rest"
         : `displacement of the base, ± ${numberText(most * this.store.quantum_px / this.store.px_m, 3)} m`;
     this.falls.replaceChildren(...this.one.falls.filter(([, time]) => time <= this.end).map(([, time]) => {
-      const at = x(time * this.store.rate_hz);
+      const at = x(time * this.rate());
       return svg("line", {class: "fall", x1: at, x2: at, y1: 50, y2: 68});
     }));
   }
 
   // ---- a moment ----
 
+  /** A coordinate at the time that is shown, or the last channel: the displacement of the base [quanta]. */
+  value(channel) {
+    const values = this.now.channels[channel];
+    return values[this.sample] + this.share * (values[this.nextSample] - values[this.sample]);
+  }
+
+  /** The place of a block at the time that is shown [px, rad]. */
+  placeOf(block) {
+    const [w, h] = this.now.sizes[block], quantum = this.store.quantum_px;
+    return [this.value(3 * block) * quantum, this.value(3 * block + 1) * quantum,
+            this.value(3 * block + 2) / Math.hypot(w, h)];
+  }
+
   show(time) {
     this.time = clamp(time, 0, this.end);
-    const {channels} = this.now, {quantum_px: quantum, width, ground, look, px_m} = this.store;
-    const at = this.time * this.store.rate_hz;
-    const i = Math.min(Math.floor(at + 1e-9), this.one.samples - 1), next = Math.min(i + 1, this.one.samples - 1);
-    const share = clamp(at - i, 0, 1);
-    const value = (channel) => channels[channel][i] + share * (channels[channel][next] - channels[channel][i]);
+    const {quantum_px: quantum, width, ground, look, px_m} = this.store;
+    const at = this.time * this.rate(), last = this.one.samples - 1;
+    this.sample = Math.min(Math.floor(at + 1e-9), last);
+    this.nextSample = Math.min(this.sample + 1, last);
+    this.share = clamp(at - this.sample, 0, 1);
     this.blocks.forEach((block, b) => {
-      const [w, h] = this.now.sizes[b];
-      const turn = value(3 * b + 2) / Math.hypot(w, h) * 180 / Math.PI;
+      const [x, y, turn] = this.drawn(b, ...this.placeOf(b));
       const fallen = this.fallTime.has(b) && this.fallTime.get(b) <= this.time + 1e-9;
       block.setAttribute("class", `block ${look[b]}${fallen ? " fallen" : ""}`);
-      block.setAttribute("transform", `translate(${(width / 2 + value(3 * b) * quantum).toFixed(2)} ` +
-          `${(ground - value(3 * b + 1) * quantum).toFixed(2)}) rotate(${(-turn).toFixed(3)})`);
+      block.setAttribute("transform", `translate(${(width / 2 + x).toFixed(2)} ${(ground - y).toFixed(2)}) ` +
+          `rotate(${(-turn * 180 / Math.PI).toFixed(3)})`);
     });
-    const spacing = 40, shift = ((-value(3 * this.blocks.length) * quantum) % spacing + spacing) % spacing;
+    const base = this.value(3 * this.blocks.length) * quantum;
+    const spacing = 40, shift = (-this.drawnBase(base) % spacing + spacing) % spacing;
     let ticks = "";
     for (let x = shift; x < width; x += spacing) ticks += `M${x.toFixed(1)} ${ground}v10`;
     this.ticks.setAttribute("d", ticks);
     const x = this.time / Math.max(this.end, 1e-9) * (width - 2) + 1;
     this.cursor.setAttribute("x1", x);
     this.cursor.setAttribute("x2", x);
-    this.slider.value = i;
+    this.slider.value = this.sample;
     this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s`);
-    this.clock.textContent = `${this.time.toFixed(3)} s of ${this.end.toFixed(3)} s`;
-    const fallen = this.one.falls.filter(([, t]) => t <= this.time + 1e-9);
-    const base = value(3 * this.blocks.length) * quantum / px_m;
-    this.says.textContent = `Base at ${numberText(base, 3)} m. ` + (fallen.length
-        ? `Fallen: ${fallen.map(([b, t]) => `${this.store.blocks[b]} (${t.toFixed(3)} s)`).join(", ")}.`
-        : "No block has fallen.");
+    this.clock.textContent = this.clockText();
+    this.says.textContent = `Base at ${numberText(base / px_m, 3)} m. ${this.saysText()}`;
   }
 
   // ---- time runs ----
@@ -216,7 +252,7 @@ class Player {
   key(event) {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const own = event.target.tagName; // a control has its own use of some keys
-    const step = (event.shiftKey ? 10 : 1) / this.store.rate_hz;
+    const step = (event.shiftKey ? 10 : 1) / this.rate();
     const moment = (time) => { this.pause(); this.show(time); };
     const actions = {
       " ": () => this.toggle(),

@@ -7,6 +7,7 @@ for (const script of document.querySelectorAll("script.figure-data"))
   const map = document.querySelector("svg.cells");
   if (cells && map) new CellMap(map, cells, store);
   for (const place of document.querySelectorAll("[data-player]"))
-    if (store && store.list.length) place.append(new Player(store, store.list).element);
+    if (store && store.list.length)
+      place.append(new (store.layers ? WindowPlayer : Player)(store, store.list).element);
 }
 document.documentElement.dataset.alive = "yes";

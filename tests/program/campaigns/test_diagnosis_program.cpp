@@ -78,6 +78,10 @@ TEST_F(DiagnosisProgram, APitchingTableIsNamed)
     EXPECT_EQ(motions % 2, 0u) << "x and rotation of each run";
     EXPECT_EQ(count_of(page, ">calibrated baseline, restarted in each window</text>"), motions);
     EXPECT_GE(count_of(page, ">error above noise and a short lag</text>"), 1u);
+    EXPECT_EQ(count_of(page, "id=\"animations\""), 1u);
+    EXPECT_EQ(count_of(page, ">worst of all</td>"), 1u);
+    EXPECT_EQ(count_of(page, ">typical: the median</td>"), 1u);
+    EXPECT_EQ(count_of(page, ">extended study</text>"), 1u); // of the still picture's legend
     const std::size_t chart = page.find("aria-label=\"Gain of each cause");
     ASSERT_NE(chart, std::string::npos);
     const std::string svg = page.substr(chart, page.find("</svg>", chart) - chart);

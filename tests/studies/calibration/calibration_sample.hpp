@@ -3,6 +3,7 @@
 
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration.hpp"
+#include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
 #include <cmath>
 #include <limits>
@@ -48,6 +49,7 @@ inline Calibration sample_calibration()
     }
     c.forms[1].held_out = {-3, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 1};
     c.best = 0;
+    c.motion = sample_motion();
     c.notes = {"run 003 has no table motion & was left out", "<i>"};
     c.parameter_sets = 700;
     c.simulations = 1400;

@@ -218,6 +218,31 @@ TEST(CalibrationStatistics, TheSameCalibrationHasTheSameBits)
         EXPECT_EQ(one.forms[0].parameters[i].low, other.forms[0].parameters[i].low);
     }
     EXPECT_EQ(one.forms[0].score, other.forms[0].score);
+    // and so have the windows in motion, which are of the calibrated model and of the start study
+    ASSERT_TRUE(one.motion && other.motion);
+    EXPECT_EQ(one.motion->fault(), "");
+    ASSERT_GE(one.motion->windows.size(), 2U);
+    const std::vector<MotionTrack>&tracks = one.motion->windows[0].tracks, &same = other.motion->windows[0].tracks;
+    ASSERT_EQ(tracks.size(), 3U);
+    EXPECT_EQ(tracks[1].model, "calibrated");
+    EXPECT_EQ(tracks[2].model, "start");
+    for (std::size_t track = 1; track < 3; ++track) {
+        EXPECT_EQ(tracks[track].excess, same[track].excess);
+        EXPECT_EQ(tracks[track].places.back().x_m, same[track].places.back().x_m);
+    }
+    EXPECT_NE(tracks[1].places.back().x_m, tracks[2].places.back().x_m);
+    ModelVariant calibrated;
+    calibrated.study = one.forms[0].study;
+    WindowComparison comparison(campaign, {});
+    const WindowResiduals z = comparison.residuals({calibrated}, {best_isa(), 1}, observer).front();
+    double worst = 0; // over the two times at which a window is compared
+    for (std::size_t w = 0; w < z.size(); ++w)
+        for (std::size_t k = 0; k < z[w].size(); ++k)
+            for (std::size_t l = 0; l < k; ++l)
+                if (const SeenValue& a = comparison.seen(w)[k], &b = comparison.seen(w)[l];
+                    a.block == b.block && a.coordinate == b.coordinate)
+                    worst = std::max(worst, std::hypot(z[w][k], z[w][l]) / std::sqrt(2.0));
+    EXPECT_NEAR(*tracks[1].excess, worst, 1e-9 * worst);
 }
 
 TEST(CalibrationStatistics, FromOutcomesAlone)

@@ -32,6 +32,39 @@ inline DiagnosisFigure sample_figure()
     return figure;
 }
 
+/// Two windows of two blocks on a fixed one. In the second the cameras' clock is uneven, and once block 1 is not seen.
+inline WindowMotions sample_motion()
+{
+    WindowMotions motion;
+    motion.blocks = {{ShownBlockKind::drum, 0.5, 0.25, 2.0, 0.85},
+                     {ShownBlockKind::epistyle, 0.4, 0.25, 2.1, 1.35},
+                     {ShownBlockKind::fixed, 0.6, 0.3, 2.0, 0.3}};
+    WindowMotion worst{WindowChoice::worst, "004", 1.2, 1.4, 1, 57, {}, {}};
+    worst.tracks = {{"measured", {}, -1, "", {}}, {"baseline", 36.1, 1, "x", {}}, {"extended", 1.5, 0, "theta", {}}};
+    WindowMotion typical = worst;
+    typical.choice = WindowChoice::typical;
+    typical.run = "005 <i>";
+    typical.rank = 29;
+    typical.from_s = 0.5;
+    typical.to_s = 0.72;
+    for (int k = 0; k < 11; ++k) {
+        const double t = 0.02 * k;
+        worst.samples.push_back({1.2 + t, 0.1 * t});
+        typical.samples.push_back({0.5 + t + (k == 5 ? 0.008 : 0), -0.2 * t});
+        for (WindowMotion* window : {&worst, &typical})
+            for (std::size_t track = 0; track < 3; ++track)
+                for (std::size_t b = 0; b < 2; ++b) {
+                    const double moved = 0.001 * static_cast<double>((b + 1) * (track + 1)) * (1 + k);
+                    const ShownBlock& block = motion.blocks[b];
+                    window->tracks[track].places.push_back(
+                        {block.rest_x_m + moved, block.rest_y_m + moved / 10, -0.01 * moved * k});
+                }
+    }
+    typical.tracks[0].places[2 * 7 + 1].theta_rad = std::numeric_limits<double>::quiet_NaN();
+    motion.windows = {worst, typical};
+    return motion;
+}
+
 inline Diagnosis filled_diagnosis()
 {
     Diagnosis d;
@@ -158,6 +191,7 @@ inline Diagnosis filled_diagnosis()
     marks.x_log = marks.y_log = true;
     marks.series = {{"", SeriesKind::points, {1, 3, 10}, {0.2, 5, 40}, {0.1, 3, 30}, {0.4, 8, 55}}};
     d.figures = {sample_figure(), bars, marks};
+    d.motion = sample_motion();
     return d;
 }
 

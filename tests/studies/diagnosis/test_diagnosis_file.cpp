@@ -6,8 +6,10 @@
 #include "tests/io/store/result_samples.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 
 namespace stylobate {
 namespace {
@@ -104,8 +106,53 @@ TEST_F(DiagnosisFile, EveryFieldOfTheStructuresIsListed)
     EXPECT_EQ(listed<FigureSeries>(), 6U);
     const Diagnosis whole;
     [[maybe_unused]] const auto& [d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18,
-                                  d19, d20, d21, d22, d23, d24, d25, d26, d27, d28] = whole;
-    EXPECT_EQ(listed<Diagnosis>(), 29U);
+                                  d19, d20, d21, d22, d23, d24, d25, d26, d27, d28, d29] = whole;
+    EXPECT_EQ(listed<Diagnosis>(), 30U);
+    const WindowMotions motion;
+    [[maybe_unused]] const auto& [blocks, windows] = motion;
+    EXPECT_EQ(listed<WindowMotions>(), 2U);
+    const ShownBlock block;
+    [[maybe_unused]] const auto& [of_block, half_width, half_height, rest_x, rest_y] = block;
+    EXPECT_EQ(listed<ShownBlock>(), 5U);
+    const WindowMotion window;
+    [[maybe_unused]] const auto& [w0, w1, w2, w3, w4, w5, w6, w7] = window;
+    EXPECT_EQ(listed<WindowMotion>(), 8U);
+    const MotionTrack track;
+    [[maybe_unused]] const auto& [model, excess, at_block, at_coordinate, places] = track;
+    EXPECT_EQ(listed<MotionTrack>(), 5U);
+    const MotionSample sample;
+    [[maybe_unused]] const auto& [sample_time, sample_base] = sample;
+    EXPECT_EQ(listed<MotionSample>(), 2U);
+    const BlockPlace place;
+    [[maybe_unused]] const auto& [place_x, place_y, place_theta] = place;
+    EXPECT_EQ(listed<BlockPlace>(), 3U);
+}
+
+/// Of what no program of ours has written, but whose bytes are sealed.
+TEST_F(DiagnosisFile, RefusesWindowsThatDoNotFitTogether)
+{
+    const std::vector<std::pair<std::string, std::function<void(WindowMotions&)>>> faults = {
+        {"as many", [](WindowMotions& m) { m.windows[1].tracks[2].places.pop_back(); }},
+        {"as many", [](WindowMotions& m) { m.windows[0].samples.pop_back(); }},
+        {"no size", [](WindowMotions& m) { m.blocks[1].half_height_m = 0; }},
+        {"no place", [](WindowMotions& m) { m.blocks[0].rest_x_m = std::nan(""); }},
+        {"at the end", [](WindowMotions& m) { std::swap(m.blocks[0], m.blocks[2]); }},
+        {"ascend", [](WindowMotions& m) { m.windows[0].samples[4].time_s = m.windows[0].samples[3].time_s; }},
+        {"ascend", [](WindowMotions& m) { m.windows[0].samples[4].base_x_m = std::nan(""); }},
+        {"lacks", [](WindowMotions& m) { m.windows[0].tracks[0].model = "seen"; }},
+        {"lacks", [](WindowMotions& m) { m.windows[0].tracks.resize(1); }},
+        {"lacks", [](WindowMotions& m) { m.windows[1].samples.resize(1); }},
+        {"different models", [](WindowMotions& m) { m.windows[1].tracks[2].model = "another"; }},
+    };
+    for (const auto& [words, spoil] : faults) {
+        Diagnosis d;
+        d.motion = sample_motion();
+        spoil(*d.motion);
+        write_diagnosis(d, file);
+        const std::string said = refusal([&] { read_diagnosis(file); });
+        EXPECT_NE(said.find("is damaged"), std::string::npos) << said;
+        EXPECT_NE(said.find(words), std::string::npos) << words << ": " << said;
+    }
 }
 
 TEST_F(DiagnosisFile, AnEmptyOneReadsBackEqual)
@@ -115,7 +162,7 @@ TEST_F(DiagnosisFile, AnEmptyOneReadsBackEqual)
     const Diagnosis got = read_diagnosis(file);
     expect_equal(want, got, "diagnosis");
     EXPECT_EQ(got.verdict, Verdict::none);
-    EXPECT_FALSE(got.unexplained || got.gain || got.next_test);
+    EXPECT_FALSE(got.unexplained || got.gain || got.next_test || got.motion);
 }
 
 TEST_F(DiagnosisFile, EqualDiagnosesAreEqualFiles)

@@ -51,7 +51,7 @@ TEST(WindowCurves, AreTheMotionThatTheResidualsAreOf)
             windows.push_back(w);
     ASSERT_EQ(windows.size(), 3U);
     const auto block = static_cast<std::size_t>(build_specimen(campaign.specimen).block[1]);
-    const std::vector<WindowCurve> curves = comparison.curves(variant, windows, block, options, observer);
+    const std::vector<WindowCurve> curves = comparison.curves(variant, windows, {block}, options, observer);
     ASSERT_EQ(curves.size(), 3U);
     std::size_t compared = 0;
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -109,7 +109,7 @@ TEST(WindowCurves, OfABlockOnTheGroundAreItsOwnToo)
             }
     ASSERT_GT(most, 2e-3);
     const auto block = static_cast<std::size_t>(build_specimen(s).block.back());
-    const std::vector<WindowCurve> curves = comparison.curves(variant, {strongest}, block, {best_isa(), 1}, observer);
+    const std::vector<WindowCurve> curves = comparison.curves(variant, {strongest}, {block}, {best_isa(), 1}, observer);
     ASSERT_EQ(curves.size(), 1U);
     for (std::size_t k = 1; k < curves[0].time_s.size(); ++k)
         EXPECT_LT(std::fabs(curves[0].model[0][k] - curves[0].model[0][k - 1]), 0.5 * most) << k;
@@ -166,6 +166,12 @@ TEST(WrongWindows, DrawsMeasuredAndSimulatedWhereTheModelIsWrong)
             inside = inside || (spans.x[k] < worst.to_s && spans.y[k] > worst.from_s);
         EXPECT_TRUE(inside);
     }
+    // the first of the windows that are shown in motion is the worst one of that stretch
+    ASSERT_FALSE(found.shown.empty());
+    EXPECT_EQ(found.shown.front().rank, 1U);
+    EXPECT_EQ(campaign.runs[found.shown.front().place.run].name, worst.run);
+    EXPECT_GE(found.shown.front().place.start_s, worst.from_s);
+    EXPECT_LE(found.shown.front().place.end_s, worst.to_s);
     // measured and simulated differ where it is marked, and the model knows no measured sample beyond the start
     EXPECT_GT(count.window_simulations, 10U);
 

@@ -3,94 +3,20 @@
 
 #include "ensemble/model/structure.hpp"
 #include "studies/report/animation.hpp"
+#include "tests/studies/report/animation_reader.hpp"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
-#include <stdexcept>
 
 namespace stylobate {
 namespace {
 
-std::vector<unsigned> bytes_of(const std::string& base64)
-{
-    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::vector<unsigned> bytes;
-    unsigned bits = 0, held = 0;
-    for (const char c : base64) {
-        if (c == '=')
-            break;
-        bits = bits << 6 | static_cast<unsigned>(letters.find(c));
-        held += 6;
-        if (held >= 8) {
-            held -= 8;
-            bytes.push_back(bits >> held & 255);
-        }
-    }
-    return bytes;
-}
-
-/// What the header of animation.hpp and player.js say, step by step.
-struct ReadBack {
-    std::vector<std::array<double, 2>> half_size_px;
-    std::vector<std::vector<double>> x_px, y_px, theta_rad; ///< (blocks)(samples)
-    std::vector<double> base_px;
-};
-
 ReadBack read_back(const Animation& animation, std::size_t blocks)
 {
-    const std::vector<unsigned> bytes = bytes_of(animation.data);
-    std::size_t at = 0;
-    const auto number = [&] {
-        std::uint64_t value = 0;
-        for (unsigned shift = 0;; shift += 7) {
-            const unsigned byte = bytes.at(at++);
-            value |= static_cast<std::uint64_t>(byte & 127) << shift;
-            if (byte < 128)
-                return value;
-        }
-    };
-    const auto signed_of = [](std::uint64_t code) {
-        const double half = static_cast<double>(code) / 2;
-        return code % 2 == 0 ? half : -(half + 0.5);
-    };
-    const auto series = [&] {
-        std::vector<double> values{signed_of(number())};
-        while (values.size() < animation.samples) {
-            const std::uint64_t code = number();
-            if (code != 0) {
-                values.push_back(values.back() + signed_of(code));
-                continue;
-            }
-            for (std::uint64_t run = number(); run > 0; --run)
-                values.push_back(values.back());
-        }
-        if (values.size() != animation.samples)
-            throw std::runtime_error("a run is too long");
-        return values;
-    };
-    const auto scaled = [](std::vector<double> values, double by) {
-        for (double& v : values)
-            v *= by;
-        return values;
-    };
-    ReadBack back;
-    for (std::size_t b = 0; b < blocks; ++b) {
-        const auto width = static_cast<double>(number());
-        back.half_size_px.push_back({0.1 * width, 0.1 * static_cast<double>(number())});
-    }
-    for (std::size_t b = 0; b < blocks; ++b) {
-        back.x_px.push_back(scaled(series(), 0.1));
-        back.y_px.push_back(scaled(series(), 0.1));
-        back.theta_rad.push_back(scaled(series(), 0.1 / std::hypot(back.half_size_px[b][0], back.half_size_px[b][1])));
-    }
-    back.base_px = scaled(series(), 0.1);
-    if (at != bytes.size())
-        throw std::runtime_error("something is left");
-    return back;
+    return stylobate::read_back(animation.data, animation.samples, blocks);
 }
 
 AnimationStage small_stage()

@@ -364,7 +364,7 @@ TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
         EXPECT_GT(at, before) << title;
         before = at;
     }
-    EXPECT_EQ(count_of(page, "<figure>"), 3U);
+    EXPECT_EQ(count_of(page, "<figure>"), 4U); // three curves, and the ends of the windows in motion
     for (const char* words : {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81 (0.7 to 0.95)",
                               "could not be judged", "1a2b3c4d", "crc32", "diagnosis_extended.toml", "sweep, 1 to 8 Hz",
                               "18364758544493064720", "stylobate diagnose &#39;col&quot;umn &amp; co.h5&#39;"})
@@ -472,6 +472,15 @@ TEST(CalibrationFile, ReadsBackWhatWasWritten)
         EXPECT_EQ(form.runs[7].calibrated, want.runs[7].calibrated);
     }
     EXPECT_EQ(stored.best().name, "area");
+    ASSERT_TRUE(stored.motion);
+    EXPECT_EQ(stored.motion->blocks, c.motion->blocks);
+    ASSERT_EQ(stored.motion->windows.size(), 2U);
+    const WindowMotion &window = stored.motion->windows[1], &want = c.motion->windows[1];
+    EXPECT_EQ(window.choice, WindowChoice::typical);
+    EXPECT_EQ(window.run, want.run);
+    EXPECT_EQ(window.samples[5].time_s, want.samples[5].time_s);
+    EXPECT_EQ(window.tracks[2].excess, want.tracks[2].excess);
+    EXPECT_EQ(window.tracks[2].places.back().theta_rad, want.tracks[2].places.back().theta_rad);
 }
 
 TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
@@ -503,7 +512,8 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
                              "drum_height_m"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_EQ(page.find("run 40<"), std::string::npos);
-    EXPECT_EQ(count_of(page, "<svg"), 2U); // a profile of each parameter
+    EXPECT_EQ(count_of(page, "<svg"), 2U + 3U); // a profile of each parameter; two windows and what is about them
+    EXPECT_NE(page.find("id=\"animations\""), std::string::npos);
 
     // nothing left out, one form, all determined
     Calibration c = sample_calibration();
@@ -512,10 +522,12 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
     c.forms[0].correlation = {1};
     c.forms[0].held_out = {};
     c.notes.clear();
+    c.motion.reset(); // as in a file of format version 3
     const std::string plain = calibration_page(stored_sample(c), "c.h5").text();
     expect_balanced(plain);
     for (const char* part : {"These data determine the fitted parameter.", "was not tested on held-out",
-                             "--form all compares them", "All data could be used"})
+                             "--form all compares them", "All data could be used",
+                             "not shown in motion: c.h5 was written by an earlier version of the program (1.2.3)"})
         EXPECT_NE(plain.find(part), std::string::npos) << part;
 }
 

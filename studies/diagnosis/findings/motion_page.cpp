@@ -1,0 +1,160 @@
+#include "studies/diagnosis/findings/motion_page.hpp"
+
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/diagnosis/findings/motion_picture.hpp"
+#include "studies/diagnosis/findings/motion_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stylobate {
+namespace {
+
+constexpr double least_watched_s = 3; ///< that the longest window lasts on the screen
+constexpr double quanta_a_px = 100;   ///< of what is drawn: the reader may enlarge it more
+
+std::string excess_words(const MotionTrack& track)
+{
+    return track.excess ? fmt::format("{:.1f} ({}, {})", *track.excess, block_words(track.block), track.coordinate)
+                        : std::string("not known");
+}
+
+std::string title_of(const WindowMotion& window)
+{
+    std::string errors;
+    for (std::size_t i = 1; i < window.tracks.size(); ++i)
+        errors += fmt::format("{} of {} {}", i == 1 ? "excess" : ",", model_words(window.tracks[i].model),
+                              excess_words(window.tracks[i]));
+    return fmt::format("Run {}, {:.2f} to {:.2f} s, {}: {}", window.run, window.from_s, window.to_s,
+                       choice_words(window), errors);
+}
+
+/// Samples at which a block of the drawing is not known: [[block, first, last]].
+Json gone_json(const Trajectory& t)
+{
+    Json gone = Json::list();
+    const std::size_t blocks = t.blocks(), n = t.time_s.size();
+    for (std::size_t b = 0; b < blocks; ++b)
+        for (std::size_t k = 0; k < n; ++k) {
+            if (is_known(t, k * blocks + b))
+                continue;
+            const std::size_t first = k;
+            while (k + 1 < n && !is_known(t, (k + 1) * blocks + b))
+                ++k;
+            gone.item_as_is(fmt::format("[{},{},{}]", b, first, k));
+        }
+    return gone;
+}
+
+/// The fastest of the player's speeds at which the longest window can be watched.
+double watched_speed(const WindowMotions& motion)
+{
+    double longest = 0;
+    for (const WindowMotion& window : motion.windows)
+        longest = std::max(longest, window.samples.back().time_s - window.samples.front().time_s);
+    for (const double speed : {1.0, 0.5, 0.25, 0.1})
+        if (longest >= speed * least_watched_s)
+            return speed;
+    return 0.05;
+}
+
+std::string size_words(const MotionStage& stage)
+{
+    if (stage.apart() == 1)
+        return "All is drawn to scale.";
+    if (stage.apart() == stage.larger())
+        return fmt::format("Displacements from rest are drawn {:g} times as large.", stage.larger());
+    return fmt::format(
+        "Displacements from rest are drawn {}, differences from the measured blocks {:g} times as large.",
+        stage.larger() == 1 ? "to scale" : fmt::format("{:g} times as large", stage.larger()), stage.apart());
+}
+
+std::string motion_json(const WindowMotions& motion, const MotionStage& stage)
+{
+    AnimationStage scale = stage.scale();
+    scale.quantum_px = 1 / (quanta_a_px * stage.apart());
+    Json list = Json::list(), layers = Json::list(), rest = Json::list();
+    for (const WindowMotion& window : motion.windows) {
+        const Trajectory t = stage.trajectory(window);
+        const Animation animation = animation_of(t, scale, 1);
+        const double spacing = (t.time_s.back() - t.time_s.front()) / static_cast<double>(animation.samples - 1);
+        list.item(Json::object()
+                      .member("title", title_of(window))
+                      .member("start_s", t.time_s.front())
+                      .member("rate_hz", 1 / spacing)
+                      .member("samples", animation.samples)
+                      .member("gone", gone_json(t))
+                      .member("falls", Json::list())
+                      .member("data", animation.data));
+    }
+    for (const MotionLayer& layer : stage.layers())
+        layers.item(Json::object()
+                        .member("name", layer.name)
+                        .member("look", layer.look)
+                        .member("first", layer.first)
+                        .member("count", motion.free_blocks()));
+    for (const auto& [x, y] : stage.rest_px())
+        rest.item_as_is(fmt::format("[{:.6g},{:.6g}]", x, y));
+    return animation_store(scale, 0, stage.blocks())
+        .member("layers", layers)
+        .member("rest", rest)
+        .member("larger", stage.larger())
+        .member("apart", stage.apart())
+        .member("speed", watched_speed(motion))
+        .member("list", list)
+        .text();
+}
+
+HtmlTable motion_table(const WindowMotions& motion)
+{
+    HtmlTable table{"nlrr", {"window", "run", "from [s]", "to [s]"}, {}, ""};
+    const std::vector<MotionTrack>& tracks = motion.windows.front().tracks;
+    for (std::size_t i = 1; i < tracks.size(); ++i) {
+        table.align += 'l';
+        table.head.emplace_back("excess of " + model_words(tracks[i].model));
+    }
+    table.align += 'r';
+    table.head.emplace_back("rank");
+    for (const WindowMotion& window : motion.windows) {
+        std::vector<Html> row{choice_words(window), window.run, fmt::format("{:.2f}", window.from_s),
+                              fmt::format("{:.2f}", window.to_s)};
+        for (std::size_t i = 1; i < window.tracks.size(); ++i)
+            row.emplace_back(excess_words(window.tracks[i]));
+        row.emplace_back(fmt::format("{} of {}", window.rank, window.ranked));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+} // namespace
+
+void add_motion(HtmlPage& page, const WindowMotions& motion)
+{
+    const MotionStage stage(motion);
+    page.heading("Measured and simulated blocks in motion");
+    page.paragraph("Outlined: the measured blocks. Filled: simulations, which followed the measured motion up to the "
+                   "start of a window and run freely from there to its end. " +
+                   size_words(stage));
+    page.data("animations", motion_json(motion, stage));
+    page.player();
+    page.figure(motion_svg(motion, stage), fmt::format("The moment of each window at which {} is farthest from the "
+                                                       "measured blocks.",
+                                                       model_words(motion.windows.front().tracks[1].model)));
+    page.table(motion_table(motion));
+    page.note(fmt::format("Excess: error in units of what noise and a lag of some milliseconds cause, of the block and "
+                          "coordinate that is off most; a fast block may be far off and within it. Rank: by the excess "
+                          "of {} among all windows. Shown are the worst window of all, the median one, and the worst "
+                          "ones of other runs.",
+                          model_words(motion.windows.front().tracks[1].model)));
+}
+
+std::string no_motion_words(const std::string& file, const std::string& code_version)
+{
+    return fmt::format(
+        "The measured and simulated blocks are not shown in motion: {} was written by an earlier version "
+        "of the program ({}), which did not store them. Make it again to see them.",
+        file, code_version);
+}
+
+} // namespace stylobate

@@ -1,0 +1,12 @@
+#pragma once
+/// A moment of each window side by side: what is printed, and seen where no scripts run.
+
+#include "studies/diagnosis/findings/motion_stage.hpp"
+#include "studies/report/html.hpp"
+
+namespace stylobate {
+
+/// Where the first model is farthest from what was measured, in the sizes with which the player (windows.js) begins.
+Html motion_svg(const WindowMotions& motion, const MotionStage& stage);
+
+} // namespace stylobate
