@@ -10,10 +10,10 @@
 #include "io/tables/markdown.hpp"
 #include "kernels/isa.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Dense>

@@ -8,8 +8,8 @@
 #include "io/measured/measured_file.hpp"
 #include "kernels/isa.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

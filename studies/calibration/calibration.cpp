@@ -7,9 +7,10 @@
 #include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/calibration_search.hpp"
 #include "studies/calibration/kept_evidence.hpp"
-#include "studies/calibration/window_motions.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/version.hpp"
+#include "studies/windows/quietly.hpp"
+#include "studies/windows/window_motions.hpp"
 
 #include <fmt/format.h>
 
@@ -304,7 +305,7 @@ void show_windows(Calibration& result, const Campaign& campaign, const Study& no
     const ModelVariant best{{}, result.forms[result.best].study, {}, {}}, start{{}, nominal, {}, {}};
     Quietly quietly(observer);
     const std::vector<WindowResiduals> residuals = comparison.residuals({best}, run, quietly);
-    EvidenceCost cost{comparison.simulations(), comparison.window_simulations(), comparison.block_steps()};
+    SimulationCount cost{comparison.simulations(), comparison.window_simulations(), comparison.block_steps()};
     if (!residuals.empty())
         result.motion =
             window_motions(choose_windows(comparison.windows(),

@@ -8,7 +8,7 @@
 /// specimen, however narrow their intervals are. Stiffness and damping of a contact law that the specimen does not have
 /// cannot be anything else.
 ///
-/// Evidence is either histories, scored window by window (`calibration_windows.hpp`), or outcomes (fell or stood),
+/// Evidence is either histories, scored window by window (`window_comparison.hpp`), or outcomes (fell or stood),
 /// scored by the share of falls in small ensembles. The search is a scan over the whole range (friction is a cliff:
 /// below some value all slides, above another nothing does, and between them there is no slope to follow), then points
 /// about the best ones, then a quadratic form through them (`calibration_surface.hpp`), then the profile of every
@@ -19,9 +19,9 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/calibration/fit_keys.hpp"
-#include "studies/diagnosis/findings/window_motion.hpp"
+#include "studies/windows/window_comparison.hpp"
+#include "studies/windows/window_motion.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,8 @@
 #include "studies/calibration/calibration_evidence.hpp"
 
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/calibration/calibration_windows.hpp"
+#include "studies/windows/quietly.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>

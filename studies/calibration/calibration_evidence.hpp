@@ -20,16 +20,6 @@ struct EvidenceCost {
     std::uint64_t block_steps = 0;
 };
 
-/// Passes on the wish to stop, not the progress of one small ensemble.
-class Quietly : public Observer {
-public:
-    explicit Quietly(Observer& outer) : outer_(outer) {}
-    bool stop_requested() override { return outer_.stop_requested(); }
-
-private:
-    Observer& outer_;
-};
-
 /// Candidates are added, and kept with what they predict; their scores are asked for as often as needed.
 class CalibrationEvidence {
 public:

@@ -4,8 +4,8 @@
 #include "io/files/hdf5.hpp"
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/findings/field_table.hpp"
-#include "studies/diagnosis/findings/window_motion_fields.hpp"
+#include "studies/windows/field_table.hpp"
+#include "studies/windows/window_motion_fields.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "studies/calibration/calibration_page.hpp"
 
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/findings/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/words.hpp"
+#include "studies/windows/motion_page.hpp"
 
 #include <fmt/format.h>
 

@@ -361,11 +361,7 @@ void Pipeline::show_windows(const std::vector<ChosenWindow>& chosen)
     if (std::any_of(decided_.named.begin(), decided_.named.end(),
                     [](const JudgedCause& j) { return !unrecorded_vertical(j.fit.cause); }))
         models.push_back({"extended", campaign_, with_causes(study_, built_, model_causes(decided_.named))});
-    EvidenceCost cost;
-    d_.motion = window_motions(chosen, models, {}, options_.run, cost, observer_);
-    count_.simulations += cost.simulations;
-    count_.window_simulations += cost.window_simulations;
-    count_.block_steps += cost.block_steps;
+    d_.motion = window_motions(chosen, models, {}, options_.run, count_, observer_);
 }
 
 /// What the extension by the named causes gains on runs left out, and its study.

@@ -6,11 +6,11 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include <optional>
 #include <string>
@@ -26,11 +26,6 @@ ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std
 
 /// Sizes of causes that act in the model; those that act on the base's horizontal motion are in its correction.
 std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named);
-
-/// Counts of what was simulated, added to.
-struct SimulationCount {
-    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
-};
 
 /// Every second motion is left out; the causes are sized by the others.
 /// @return nothing where there are fewer than two motions, or the observer stopped it

@@ -1,9 +1,9 @@
 #include "studies/diagnosis/decision/wrong_windows.hpp"
 
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/calibration/calibration_windows.hpp"
-#include "studies/calibration/window_motions.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/windows/window_comparison.hpp"
+#include "studies/windows/window_motions.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/calibration/window_motions.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
+#include "studies/windows/window_motions.hpp"
 
 #include <cstddef>
 #include <vector>

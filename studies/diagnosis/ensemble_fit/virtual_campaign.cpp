@@ -6,8 +6,8 @@
 #include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/store/result_seal.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/version.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

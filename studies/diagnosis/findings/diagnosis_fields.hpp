@@ -4,8 +4,8 @@
 /// `visit_fields(std::type_identity<T>(), f)` calls f(name, &T::field) for each field of T, in the order of the file.
 
 #include "studies/diagnosis/findings/diagnosis.hpp"
-#include "studies/diagnosis/findings/field_table.hpp"
-#include "studies/diagnosis/findings/window_motion_fields.hpp"
+#include "studies/windows/field_table.hpp"
+#include "studies/windows/window_motion_fields.hpp"
 
 #include <type_traits>
 

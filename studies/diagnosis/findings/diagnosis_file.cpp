@@ -6,7 +6,7 @@
 #include "io/files/hdf5.hpp"
 #include "io/store/result_seal.hpp"
 #include "studies/diagnosis/findings/diagnosis_fields.hpp"
-#include "studies/diagnosis/findings/field_table.hpp"
+#include "studies/windows/field_table.hpp"
 
 #include <system_error>
 

@@ -1,8 +1,8 @@
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/findings/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/windows/motion_page.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 #include "studies/diagnosis/tests/law_family.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include <gtest/gtest.h>
 

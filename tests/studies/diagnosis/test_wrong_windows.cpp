@@ -2,8 +2,8 @@
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/calibration/calibration_windows.hpp"
 #include "studies/diagnosis/decision/wrong_windows.hpp"
+#include "studies/windows/window_comparison.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
-#include "studies/diagnosis/findings/motion_page.hpp"
+#include "studies/windows/motion_page.hpp"
 
-#include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/findings/motion_picture.hpp"
-#include "studies/diagnosis/findings/motion_stage.hpp"
+#include "studies/windows/motion_picture.hpp"
+#include "studies/windows/motion_stage.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +15,7 @@ constexpr double quanta_a_px = 100;   ///< of what is drawn: the reader may enla
 
 std::string excess_words(const MotionTrack& track)
 {
-    return track.excess ? fmt::format("{:.1f} ({}, {})", *track.excess, block_words(track.block), track.coordinate)
+    return track.excess ? fmt::format("{:.1f} (block {}, {})", *track.excess, track.block, track.coordinate)
                         : std::string("not known");
 }
 

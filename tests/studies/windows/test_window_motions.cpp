@@ -6,7 +6,7 @@
 #include "ensemble/tracking/following_targets.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "studies/calibration/calibration.hpp"
-#include "studies/calibration/window_motions.hpp"
+#include "studies/windows/window_motions.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -165,7 +165,7 @@ protected:
     std::vector<WindowExcess> excess_;
     std::vector<WindowPlace> places_;
     std::vector<ChosenWindow> chosen_;
-    EvidenceCost cost_;
+    SimulationCount cost_;
     Observer observer_;
 };
 

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/findings/window_motion.hpp"
+#include "studies/windows/window_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 /// The fields of windows in motion with their names in files, written once for the writer and the reader.
 
-#include "studies/diagnosis/findings/field_table.hpp"
-#include "studies/diagnosis/findings/window_motion.hpp"
+#include "studies/windows/field_table.hpp"
+#include "studies/windows/window_motion.hpp"
 
 #include <type_traits>
 

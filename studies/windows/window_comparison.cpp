@@ -1,4 +1,4 @@
-#include "studies/calibration/calibration_windows.hpp"
+#include "studies/windows/window_comparison.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/sampling/sampler.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 /// A moment of each window side by side: what is printed, and seen where no scripts run.
 
-#include "studies/diagnosis/findings/motion_stage.hpp"
 #include "studies/report/html.hpp"
+#include "studies/windows/motion_stage.hpp"
 
 namespace stylobate {
 

@@ -1,6 +1,5 @@
-#include "studies/diagnosis/findings/motion_picture.hpp"
+#include "studies/windows/motion_picture.hpp"
 
-#include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -77,9 +76,10 @@ Html motion_svg(const WindowMotions& motion, const MotionStage& stage)
     out += legend(stage, heading_px + height + 14);
     return Html::ready(fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"stage\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-        "role=\"img\" aria-label=\"Measured and simulated blocks of {2}; the table below has their errors\" "
+        "role=\"img\" aria-label=\"Measured and simulated blocks in {2} of the windows; the table below has their "
+        "errors\" "
         "font-family=\"inherit\" font-size=\"13\">\n{3}</svg>",
-        picture_px, heading_px + height + legend_px, count_words(motion.windows.size(), "one window", "windows"), out));
+        picture_px, heading_px + height + legend_px, motion.windows.size(), out));
 }
 
 } // namespace stylobate

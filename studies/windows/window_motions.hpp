@@ -5,9 +5,8 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/tracking/specimen.hpp"
-#include "studies/calibration/calibration_evidence.hpp"
-#include "studies/calibration/calibration_windows.hpp"
-#include "studies/diagnosis/findings/window_motion.hpp"
+#include "studies/windows/window_comparison.hpp"
+#include "studies/windows/window_motion.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -64,7 +63,7 @@ struct ShownModel {
 /// @return nothing where no window was chosen, or the observer stopped it
 std::optional<WindowMotions> window_motions(const std::vector<ChosenWindow>& chosen,
                                             const std::vector<ShownModel>& models, const WindowOptions& windows,
-                                            const RunOptions& options, EvidenceCost& cost, Observer& observer,
+                                            const RunOptions& options, SimulationCount& cost, Observer& observer,
                                             double budget_mb = shown_windows_mb);
 
 } // namespace stylobate

@@ -2,8 +2,8 @@
 /// errors and a moment of each window.
 
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
-#include "studies/diagnosis/findings/motion_page.hpp"
-#include "studies/diagnosis/findings/motion_stage.hpp"
+#include "studies/windows/motion_page.hpp"
+#include "studies/windows/motion_stage.hpp"
 #include "tests/program/json.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 #include "tests/studies/report/animation_reader.hpp"

@@ -105,6 +105,11 @@ private:
     std::unique_ptr<Prepared> prepared_;
 };
 
+/// Counts of what was simulated, added to.
+struct SimulationCount {
+    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
+};
+
 /// A paired difference with its interval.
 struct PairedGain {
     double total = 0; ///< sum of score_b - score_a over the windows [nats]

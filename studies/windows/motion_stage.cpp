@@ -1,7 +1,6 @@
-#include "studies/diagnosis/findings/motion_stage.hpp"
+#include "studies/windows/motion_stage.hpp"
 
 #include "ensemble/model/structure.hpp"
-#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
 
@@ -80,7 +79,7 @@ MotionStage::MotionStage(const WindowMotions& motion) : motion_(motion), free_(m
         layers_.push_back({track, name, track == 0 ? "measured" : fmt::format("model{}", track), shown_.size()});
         for (std::size_t b = 0; b < free_; ++b) {
             shown_.push_back(b);
-            blocks_.push_back({block_words(static_cast<int>(b)), layers_.back().look});
+            blocks_.push_back({fmt::format("block {}", b), layers_.back().look});
         }
     }
     for (const std::size_t b : shown_)

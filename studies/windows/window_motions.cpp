@@ -1,6 +1,7 @@
-#include "studies/calibration/window_motions.hpp"
+#include "studies/windows/window_motions.hpp"
 
 #include "ensemble/model/structure.hpp"
+#include "studies/windows/quietly.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +103,7 @@ public:
     }
 
     /// @return false if the observer stopped it
-    bool add(const ShownModel& model, const WindowOptions& windows, const RunOptions& options, EvidenceCost& cost,
+    bool add(const ShownModel& model, const WindowOptions& windows, const RunOptions& options, SimulationCount& cost,
              Observer& observer)
     {
         WindowOptions which = windows;
@@ -237,7 +238,7 @@ std::vector<ChosenWindow> choose_windows(const std::vector<WindowPlace>& windows
 
 std::optional<WindowMotions> window_motions(const std::vector<ChosenWindow>& chosen,
                                             const std::vector<ShownModel>& models, const WindowOptions& windows,
-                                            const RunOptions& options, EvidenceCost& cost, Observer& observer,
+                                            const RunOptions& options, SimulationCount& cost, Observer& observer,
                                             double budget_mb)
 {
     const Campaign& measured = models.front().campaign;

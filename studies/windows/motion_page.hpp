@@ -1,8 +1,8 @@
 #pragma once
 /// Windows in motion as a part of a page: measured blocks over simulated ones.
 
-#include "studies/diagnosis/findings/window_motion.hpp"
 #include "studies/report/html.hpp"
+#include "studies/windows/window_motion.hpp"
 
 #include <string>
 

@@ -2,8 +2,8 @@
 /// The drawing in which windows are shown in motion: the blocks of all tracks over each other.
 
 #include "io/store/result_store.hpp"
-#include "studies/diagnosis/findings/window_motion.hpp"
 #include "studies/report/animation.hpp"
+#include "studies/windows/window_motion.hpp"
 
 #include <array>
 #include <cstddef>
