@@ -53,6 +53,7 @@ public:
         states_.emplace(row.index, row.outcome.state);
         rows_.push_back(row);
     }
+    using RunStore::add;
     void add(const inner::Trajectory&) override {}
     void finish(const inner::Kind&) override {}
     void flush() override {}

@@ -19,12 +19,7 @@ public:
     }
     void add(const ResultRow& row) override { writer_->add(row); }
     void add(const Trajectory& trajectory) override { writer_->add(trajectory); }
-    void add(const ResultReader& other) override
-    {
-        for (const std::uint64_t index : other.trajectory_indices())
-            writer_->add(other.trajectory(index));
-        other.for_each_row([&](const ResultRow& row) { writer_->add(row); });
-    }
+    using RunStore::add;
     void finish(const Kind& kind) override
     {
         const std::optional<SurfaceTable> surface = kind.surface();
@@ -54,6 +49,13 @@ private:
 };
 
 } // namespace
+
+void RunStore::add(const ResultReader& other)
+{
+    for (const std::uint64_t index : other.trajectory_indices())
+        add(other.trajectory(index));
+    other.for_each_row([&](const ResultRow& row) { add(row); });
+}
 
 std::unique_ptr<RunStore> open_store(const std::string& file, const ResultHeader& header, bool found)
 {

@@ -24,7 +24,7 @@ public:
     virtual void add(const ResultRow& row) = 0;
     virtual void add(const Trajectory& trajectory) = 0;
     /// Takes what another file of the study has. @pre none of it is there already
-    virtual void add(const ResultReader& other) = 0;
+    virtual void add(const ResultReader& other);
     /// All is there: the file becomes complete, with what the kind makes of it.
     virtual void finish(const Kind& kind) = 0;
     /// Keeps what is there for another run.
