@@ -10,8 +10,8 @@ namespace stylobate {
 
 namespace {
 
-__extension__ typedef unsigned __int128 Wide;
-__extension__ typedef __int128 Signed;
+__extension__ using Wide = unsigned __int128;
+__extension__ using Signed = __int128;
 
 bool is_prime(std::uint64_t n)
 {
