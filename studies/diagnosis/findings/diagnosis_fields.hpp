@@ -35,7 +35,7 @@ struct FieldWords<FigurePlace> {
 template <>
 struct ListOf<DiagnosisCost> {
     using Item = DiagnosisCost;
-    static void add(DiagnosisCost& part, DiagnosisCost item) { part = std::move(item); }
+    static void add(DiagnosisCost& part, const DiagnosisCost& item) { part = item; }
 };
 
 template <class F>
