@@ -122,8 +122,7 @@ int main(int argc, char** argv)
     app.add_option("--draws", draws, "realizations")->check(CLI::Range(1, 1000000));
     app.add_option("--first", first, "index of the first one");
     app.add_option("--cell", cell_name, "structure and shaking");
-    app.add_option("--law", law, "of impacts")
-        ->check(CLI::IsMember({"together", "sequential", "viscous", "compliant"}));
+    app.add_option("--law", law, "of impacts")->check(CLI::IsMember(laws));
     app.add_option("--along-ratio", impacts.along_ratio, "viscous: dashpot along the face over that across it");
     app.add_option("--damping-ratio", impacts.damping_ratio, "compliant: of the contacts")->check(CLI::Range(0.0, 1e3));
     app.add_option("--rate", rate, "steps per second");

@@ -52,7 +52,8 @@ StudyCheck::StudyCheck(LoadedStudy loaded, std::string file, CheckPlan plan, con
     report_.warnings = loaded_.warnings(report_.file);
     pilot_ = pilot_of(plan_, report_.study, report_.file);
     report_.why_no_pilot = pilot_ == 0 ? "--pilot 0." : no_pilot(report_.study);
-    kind_ = make_kind(loaded_.study(), loaded_.result_header());
+    header_ = loaded_.result_header();
+    kind_ = make_kind(loaded_.study(), header_);
     report_.notice = kind_->prepare(loaded_.experiment(), report_.file);
     trajectories_ = trajectories_of_run(loaded_, report_.file);
 }

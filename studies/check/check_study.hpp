@@ -32,6 +32,9 @@ public:
     /// @throws InputError also if a part of the study cannot be run twice but is to be, and for a plan out of range
     StudyCheck(LoadedStudy loaded, std::string file, CheckPlan plan, const RunOptions& run);
 
+    StudyCheck(const StudyCheck&) = delete; // the kind refers to what lies here
+    StudyCheck& operator=(const StudyCheck&) = delete;
+
     const Study& study() const { return report_.study; }
     const std::vector<std::string>& warnings() const { return report_.warnings; }
 
@@ -47,7 +50,8 @@ private:
     LoadedStudy loaded_;
     CheckPlan plan_;
     CheckReport report_;
-    std::unique_ptr<Kind> kind_;
+    ResultHeader header_;
+    std::unique_ptr<Kind> kind_; ///< of the loaded study and the header
     std::uint64_t pilot_ = 0, trajectories_ = 0;
     double drawing_s_ = 0;
 };
