@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import shutil
 import subprocess
 
 import pytest
@@ -21,33 +22,14 @@ SMALL_FRAGILITY = {
     "fragility.intensity": {"measure": "pgv", "from": 0.5, "to": 3.0, "count": 3, "spacing": "log"},
 }
 
-TWO_DRUMS = """[study]
-kind = "single"
-[structure]
-kind = "column"
-blocks = 3
-fixed_blocks = 1
-drum_width_m = 0.05
-drum_height_m = 0.05
-depth_m = 0.05
-drum_mass_kg = 0.4
-[contact]
-normal_stiffness_n_m2 = 2e6
-tangential_stiffness_n_m = 1e5
-normal_damping_ratio = 0.1
-tangential_damping_ratio = 0.1
-friction = 0.7
-[excitation]
-kind = "full_sine"
-frequency_hz = 3
-pga_m_s2 = 4
-"""
+TWO_DRUMS_FOLDER = SOURCES / "tests" / "library" / "two_drums"
+TWO_DRUMS = (TWO_DRUMS_FOLDER / "two_drums.toml").read_text()
 
 
 def write_tests(folder):
     """A table of outcomes of two drums, tests.csv, and the study that it needs, two_drums.toml."""
-    (folder / "two_drums.toml").write_text(TWO_DRUMS)
-    (folder / "tests.csv").write_text("pga_m_s2,frequency_hz,fell\n8,3,no\n14,3,yes\n20,4,yes\n12,5,no\n")
+    for name in ("two_drums.toml", "tests.csv"):
+        shutil.copy(TWO_DRUMS_FOLDER / name, folder)
 
 
 def toml_text(value):

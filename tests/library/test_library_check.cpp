@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -142,33 +141,23 @@ TEST_F(LibraryCheck, OfAMotionOfOnesOwn)
         EXPECT_NE(spot.name, "below_limit");
 }
 
+/// What is stopped here would else take longer than a test may.
 TEST_F(LibraryCheck, CanBeStopped)
 {
-    using Clock = std::chrono::steady_clock;
     api::Study study = api::Study::from_file(inputs + "small_scale_column.toml");
-    const auto seconds_since = [](Clock::time_point begin) {
-        return std::chrono::duration<double>(Clock::now() - begin).count();
-    };
-    constexpr double soon_s = slow_build ? 60 : 5;
     const auto stop_at = [&](const std::string& line, const api::CheckOptions& wanted) {
         api::CheckOptions options = wanted;
-        Clock::time_point since = Clock::time_point::max();
-        options.tell = [&](const std::string& told) {
-            if (told.starts_with(line))
-                since = std::min(since, Clock::now());
-        };
-        options.go_on = [&] { return since == Clock::time_point::max(); };
+        bool told = false;
+        options.tell = [&](const std::string& said) { told = told || said.starts_with(line); };
+        options.go_on = [&] { return !told; };
         EXPECT_FALSE(api::check(study, options)) << line;
-        ASSERT_NE(since, Clock::time_point::max()) << line;
-        EXPECT_LT(seconds_since(since), soon_s) << line;
+        EXPECT_TRUE(told) << line;
     };
     stop_at("trial", {.trial_seconds = 3600});
     stop_at("pilot", {.pilot = 10'000'000, .trial_seconds = 0});
-    study.set("study.realizations=10000"); // to draw them all takes half a minute
+    study.set("study.realizations=1000000"); // to draw them all takes most of an hour
     int asked = 0;
-    const Clock::time_point begin = Clock::now();
     EXPECT_FALSE(api::check(study, {.trial_seconds = 0, .go_on = [&] { return ++asked < 3; }}));
-    EXPECT_LT(seconds_since(begin), soon_s);
     EXPECT_EQ(asked, 3) << "no is for ever";
 }
 
