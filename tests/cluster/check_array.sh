@@ -10,13 +10,26 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
+# The program; at its first start the third task is held when it has some rows, so that it does not end before the
+# requeue.
+cat >program.sh <<'HOLD'
+#!/usr/bin/env bash
+if [[ ${SLURM_ARRAY_TASK_ID:-} == 3 && ${SLURM_RESTART_COUNT:-0} == 0 ]]; then
+    "$PROGRAM" "$@" &
+    until [[ $(stat -c %s study_3_of_8.h5 2>/dev/null || echo 0) -gt 60000 ]]; do sleep 0.01; done
+    kill -STOP $! && touch third_is_held
+    wait
+fi
+exec "$PROGRAM" "$@"
+HOLD
+chmod +x program.sh
+
 cat >inside.sh <<'INSIDE'
 set -euo pipefail
 "$STYLOBATE" run "$STUDY" -o whole.h5 --quiet
 job=$(sbatch --parsable --array=1-8 "$SOURCE/scripts/slurm/array.sh")
-for ((i = 0; ; ++i)); do # until the third task is running and has some rows
-    size=$(stat -c %s study_3_of_8.h5 2>/dev/null || echo 0)
-    [[ $size -gt 60000 && $(squeue --noheader --format=%T --jobs="${job}_3") == RUNNING ]] && break
+for ((i = 0; ; ++i)); do # until the third task is held
+    [[ -e third_is_held ]] && break
     [[ $i -lt 3000 ]] || { echo "the third task did not run"; squeue; tail ./*.log; exit 1; }
     sleep 0.1
 done
@@ -37,6 +50,6 @@ INSIDE
 
 sed 's/^realizations = .*/realizations = 400/' "$source/studies/inputs/small_scale_column.toml" |
     sed 's/^frequency_hz = .*/frequency_hz = { from = 4.0, to = 8.0, count = 2 }/; s/^pga_m_s2 = .*/pga_m_s2 = { from = 4.0, to = 12.0, count = 2 }/' >study.toml
-export STYLOBATE=$program STUDY=study.toml SOURCE=$source
+export PROGRAM=$program STYLOBATE=$folder/program.sh STUDY=study.toml SOURCE=$source
 "$source/tests/cluster/slurm.sh" "$folder/slurm" bash inside.sh
 echo "the same bytes"

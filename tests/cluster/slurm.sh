@@ -51,11 +51,14 @@ PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 export SLURM_CONF=$folder/slurm.conf
 
+# Waits for the daemons: until they have ended they write into the folder.
 stop() {
+    local daemon pid
     for daemon in slurmd slurmctld munged; do
-        [[ -s $folder/$daemon.pid ]] && kill "$(cat "$folder/$daemon.pid")" 2>/dev/null
+        pid=$(cat "$folder/$daemon.pid" 2>/dev/null) || continue
+        kill "$pid" 2>/dev/null || continue
+        while kill -0 "$pid" 2>/dev/null; do sleep 0.1; done
     done
-    return 0
 }
 trap stop EXIT
 munged --force --socket="$folder/munge.socket" --key-file="$folder/munge.key" --pid-file="$folder/munged.pid" \

@@ -156,6 +156,7 @@ TEST_F(LibraryCheck, CanBeStopped)
     stop_at("trial", {.trial_seconds = 3600});
     stop_at("pilot", {.pilot = 10'000'000, .trial_seconds = 0});
     study.set("study.realizations=1000000"); // to draw them all takes most of an hour
+    study.set("output.realizations=\"none\"");
     int asked = 0;
     EXPECT_FALSE(api::check(study, {.trial_seconds = 0, .go_on = [&] { return ++asked < 3; }}));
     EXPECT_EQ(asked, 3) << "no is for ever";
