@@ -102,13 +102,15 @@ public:
     const Topology& topology() const { return topology_; }
     std::size_t rigid_order_size() const { return rigid_order_.list.size(); }
     /// All of a realization's numbers, in the order of a slot's column (`slot_tasks.hpp`).
-    /// @param column (column_rows)
-    void write_column(int lane, double* column) const;
+    /// @param column (column_rows);  @param samples where the device has those of the base's motion; null: nowhere
+    void write_column(int lane, double* column, const double* samples) const;
     /// Takes its state and its watch over from a column.
     void read_column(int lane, const double* column);
     std::uint64_t steps(int lane) const { return places_[static_cast<std::size_t>(lane)].watch.steps; }
     /// The check after `done` steps of a chunk, as `advance` does it; every `check_steps` there is one.
     void check(int lane, int done);
+    /// What its base goes along (`BaseMotion::along_shared_samples`).
+    SampledMotion samples(int lane) const { return motion(lane).samples(); }
     /// Whether the tables of its base motion are made on the host.
     bool tables_given(int lane) const;
     /// Makes them, for the chunk that begins at a step.

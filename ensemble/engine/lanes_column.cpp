@@ -17,7 +17,7 @@ constexpr double height_tolerance = 1e-9;
 
 } // namespace
 
-void LaneSet::write_column(int lane, double* column) const
+void LaneSet::write_column(int lane, double* column, const double* samples) const
 {
     const Place& place = places_[static_cast<std::size_t>(lane)];
     const auto at = static_cast<std::size_t>(lane);
@@ -26,8 +26,15 @@ void LaneSet::write_column(int lane, double* column) const
         *column++ = memory_[i * lanes_ + at];
     for (std::size_t i = 0; i < formula_rows; ++i) // they lie one behind the other
         *column++ = parameters_.cycles_per_step[i * lanes_ + at];
-    for (const std::uint64_t word : std::bit_cast<detail::WatchWords>(place.watch).word)
-        *column++ = std::bit_cast<double>(word);
+    SampledMotion motion;
+    if (samples != nullptr) {
+        motion = place.motion.samples();
+        motion.sample = samples;
+    }
+    detail::store_rows(column, 1, 0, motion);
+    column += sampled_rows;
+    detail::store_rows(column, 1, 0, place.watch);
+    column += watch_rows;
     for (int k = 0; k < topology_.blocks; ++k) {
         const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
         const Block& block = place.realization.blocks[i];
@@ -44,18 +51,16 @@ void LaneSet::read_column(int lane, const double* column)
     const std::size_t state = bundle_registers(topology_) - table_registers(topology_);
     for (std::size_t i = 0; i < state; ++i)
         memory_[i * lanes_ + static_cast<std::size_t>(lane)] = *column++;
-    column += formula_rows;
-    detail::WatchWords words;
-    for (std::uint64_t& word : words.word)
-        word = std::bit_cast<std::uint64_t>(*column++);
-    places_[static_cast<std::size_t>(lane)].watch = std::bit_cast<Watch>(words);
+    column += formula_rows + sampled_rows;
+    places_[static_cast<std::size_t>(lane)].watch = detail::load_rows<Watch>(column, 1, 0);
 }
 
 bool LaneSet::tables_given(int lane) const
 {
     const Place& place = places_[static_cast<std::size_t>(lane)];
     const BaseExtension& base = place.realization.base;
-    return BaseMotion::on_host(study_) || place.vertical || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
+    const bool on_device = !BaseMotion::on_host(study_) || BaseMotion::along_shared_samples(study_);
+    return !on_device || place.vertical || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
 }
 
 void LaneSet::write_tables(int lane, std::uint64_t step, double* tables)

@@ -8,6 +8,7 @@
 #include "ensemble/engine/watch.hpp"
 #include "kernels/base_motion.hpp"
 #include "kernels/instances/instantiate.hpp"
+#include "kernels/sampled_motion.hpp"
 
 #include <bit>
 #include <cstdint>
@@ -16,6 +17,8 @@ namespace stylobate {
 
 /// Rows of a column behind those of the bundle's state.
 inline constexpr int formula_rows = 8;
+inline constexpr int sampled_rows = static_cast<int>(sizeof(SampledMotion) / 8);
+static_assert(sizeof(SampledMotion) == 8 * sampled_rows);
 inline constexpr int watch_rows = static_cast<int>(sizeof(Watch) / 8);
 static_assert(sizeof(Watch) % 8 == 0);
 /// Rows of alarms, of each block: what tells a device that the limit states want to be looked at.
@@ -30,7 +33,7 @@ struct OfAlarm {
 /// Rows of a column in all.
 inline std::size_t column_rows(const Topology& topology)
 {
-    return bundle_registers(topology) - table_registers(topology) + formula_rows + watch_rows +
+    return bundle_registers(topology) - table_registers(topology) + formula_rows + sampled_rows + watch_rows +
            static_cast<std::size_t>(topology.blocks * OfAlarm::count);
 }
 
@@ -40,42 +43,60 @@ enum class SlotState : int {
     asks ///< the host is to check it: its watch is that of before the last chunk's check
 };
 
+/// Where the tables of the base's motion come from.
+enum class BaseTables : int {
+    by_formula,
+    along_samples,
+    given ///< the host has made them
+};
+
 /// A device's memory. Every pointer is the device's.
 struct SlotMemory {
     int slots = 0;
     Topology topology{};
     Bundle bundle{};
     FormulaParameters formula{}; ///< each (slots)
-    MotionFormula motion{};      ///< by which the base's tables are made,
-    bool tables_given = false;   ///< unless the host has made them
-    double* watch = nullptr;     ///< (watch_rows x slots) `Watch`, number by number
-    double* alarms = nullptr;    ///< (blocks x OfAlarm::count x slots)
-    double* tables = nullptr;    ///< (chunks of a launch x table_registers x slots)
-    SlotState* state = nullptr;  ///< (slots)
-    const int* seats = nullptr;  ///< (seat_count) the beds on which epistyles lie
+    MotionFormula motion{};      ///< by which the base's tables are made, if by one
+    BaseTables base = BaseTables::by_formula;
+    double* samples = nullptr;  ///< (sampled_rows x slots) `SampledMotion`, number by number
+    double* watch = nullptr;    ///< (watch_rows x slots) `Watch`, number by number
+    double* alarms = nullptr;   ///< (blocks x OfAlarm::count x slots)
+    double* tables = nullptr;   ///< (chunks of a launch x table_registers x slots)
+    SlotState* state = nullptr; ///< (slots)
+    const int* seats = nullptr; ///< (seat_count) the beds on which epistyles lie
     int seat_count = 0;
 };
 
 namespace detail {
 
-/// A watch's numbers, whatever they stand for.
-struct WatchWords {
-    std::uint64_t word[watch_rows];
+/// The numbers of a plain struct of 8-byte members, whatever they stand for.
+template <class Plain>
+struct Words {
+    static_assert(sizeof(Plain) % 8 == 0);
+    std::uint64_t word[sizeof(Plain) / 8];
 };
 
-STYLOBATE_INLINE Watch load_watch(const SlotMemory& m, int slot)
+/// One slot's struct from, and to, its rows.
+template <class Plain>
+STYLOBATE_INLINE Plain load_rows(const double* rows, int slots, int slot)
 {
-    WatchWords words;
-    for (int i = 0; i < watch_rows; ++i)
-        words.word[i] = std::bit_cast<std::uint64_t>(m.watch[static_cast<long>(i) * m.slots + slot]);
-    return std::bit_cast<Watch>(words);
+    Words<Plain> words;
+    long at = slot;
+    for (std::uint64_t& word : words.word) {
+        word = std::bit_cast<std::uint64_t>(rows[at]);
+        at += slots;
+    }
+    return std::bit_cast<Plain>(words);
 }
 
-STYLOBATE_INLINE void store_watch(const SlotMemory& m, int slot, const Watch& w)
+template <class Plain>
+STYLOBATE_INLINE void store_rows(double* rows, int slots, int slot, const Plain& plain)
 {
-    const WatchWords words = std::bit_cast<WatchWords>(w);
-    for (int i = 0; i < watch_rows; ++i)
-        m.watch[static_cast<long>(i) * m.slots + slot] = std::bit_cast<double>(words.word[i]);
+    long at = slot;
+    for (const std::uint64_t word : std::bit_cast<Words<Plain>>(plain).word) {
+        rows[at] = std::bit_cast<double>(word);
+        at += slots;
+    }
 }
 
 /// Whether an epistyle may have lost a seat: as `LimitStates` has it, with an eye to what the two compute otherwise.
@@ -137,15 +158,18 @@ struct AdvanceSlot {
     {
         if (m.state[slot] != SlotState::busy)
             return;
-        Watch w = detail::load_watch(m, slot);
+        Watch w = detail::load_rows<Watch>(m.watch, m.slots, slot);
         const FormulaParameters mine = m.formula.of_lane(slot);
         Bundle all = m.bundle;
         for (int chunk = 0; chunk < chunks; ++chunk) {
             const int tables = chunk_steps * (m.topology.model.extended() ? 2 + OfPitch::count : 1);
             bind_tables(m.topology, all, m.tables + static_cast<long>(chunk) * tables * m.slots);
             const Bundle b = lane_of(all, slot);
-            if (!m.tables_given)
+            if (m.base == BaseTables::by_formula)
                 fill_base_rows<double>(m.motion, mine, static_cast<double>(w.steps), b.base_table, m.slots);
+            else if (m.base == BaseTables::along_samples)
+                fill_sampled_rows(detail::load_rows<SampledMotion>(m.samples, m.slots, slot),
+                                  static_cast<double>(w.steps), b.base_table, m.slots);
             if constexpr (Mechanism::form == ContactForm::rigid)
                 RigidStepper<double, Mechanism, Strided>(m.topology, b).run(0, check_steps(m.topology));
             else
@@ -157,7 +181,7 @@ struct AdvanceSlot {
             }
             w = next;
         }
-        detail::store_watch(m, slot, w);
+        detail::store_rows(m.watch, m.slots, slot, w);
     }
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace stylobate {
@@ -37,8 +38,9 @@ struct SlotSet::Memory {
     Doubles host_packed;
     Ints host_list;
     States host_state;
-    std::unique_ptr<Doubles> packed_tables, host_tables; ///< once they are needed
-    std::unique_ptr<Ints> all;                           ///< 0, 1, 2 and so on
+    std::unique_ptr<Doubles> packed_tables, host_tables;       ///< once they are needed
+    std::unique_ptr<Ints> all;                                 ///< 0, 1, 2 and so on
+    std::map<const double*, std::unique_ptr<Doubles>> samples; ///< of base motions, by where the host has them
 };
 
 void SlotSet::each(std::size_t count, const std::function<void(std::size_t)>& f)
@@ -56,6 +58,7 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     tables_ = static_cast<int>(table_registers(host));
     memory_.topology = host;
     memory_.motion = BaseMotion::formula(study.excitation.kind);
+    memory_.base = BaseMotion::along_shared_samples(study) ? BaseTables::along_samples : BaseTables::by_formula;
     const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(2 * rows_ + chunks_per_launch * tables_);
     if (slots <= 0)
         slots = device.best_slots(memory_, bytes);
@@ -94,6 +97,8 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
         *row = at;
         at += stride;
     }
+    memory_.samples = at;
+    at += sampled_rows * stride;
     memory_.watch = at;
     memory_.alarms = at + watch_rows * stride;
     memory_.tables = own.tables.data();
@@ -198,6 +203,24 @@ void SlotSet::close_gaps()
         std::swap(slots_[static_cast<std::size_t>(from[i])], slots_[static_cast<std::size_t>(to[i])]);
 }
 
+/// The samples that a slot's base goes along come to the device once, and stay there.
+void SlotSet::keep_samples(int slot)
+{
+    const SampledMotion motion = lane(slot).samples(0);
+    std::unique_ptr<Memory::Doubles>& kept = own_->samples[motion.sample];
+    if (kept)
+        return;
+    const auto count = static_cast<std::size_t>(motion.last) + 1;
+    kept = std::make_unique<Memory::Doubles>(device_, count);
+    device_.upload(kept->data(), motion.sample, count * sizeof(double));
+}
+
+/// Where the device has them; null where the base goes along none.
+const double* SlotSet::samples(int slot) const
+{
+    return BaseMotion::along_shared_samples(study_) ? own_->samples.at(lane(slot).samples(0).sample)->data() : nullptr;
+}
+
 void SlotSet::upload_columns()
 {
     std::vector<int> changed;
@@ -207,7 +230,12 @@ void SlotSet::upload_columns()
     if (changed.empty())
         return;
     const auto rows = static_cast<std::size_t>(rows_);
-    each(changed.size(), [&](std::size_t i) { lane(changed[i]).write_column(0, own_->host_packed.data() + i * rows); });
+    if (BaseMotion::along_shared_samples(study_))
+        for (const int slot : changed)
+            keep_samples(slot);
+    each(changed.size(), [&](std::size_t i) {
+        lane(changed[i]).write_column(0, own_->host_packed.data() + i * rows, samples(changed[i]));
+    });
     for (const int slot : changed) {
         tables_given_ = tables_given_ || lane(slot).tables_given(0);
         slots_[static_cast<std::size_t>(slot)].changed = false;
@@ -233,7 +261,7 @@ void SlotSet::upload_tables()
         std::iota(all.begin(), all.end(), 0);
         device_.upload(own.all->data(), all.data(), slots * sizeof(int));
         device_.download(own.host_state.data(), own.state.data(), sizeof(SlotState));
-        memory_.tables_given = true;
+        memory_.base = BaseTables::given;
     }
     each(static_cast<std::size_t>(used_), [&](std::size_t slot) {
         Slot& s = slots_[slot];

@@ -87,6 +87,8 @@ private:
     /// Calls f(i) for i from 0 to count - 1, on several threads of the host.
     static void each(std::size_t count, const std::function<void(std::size_t)>& f);
     void close_gaps();
+    void keep_samples(int slot);
+    const double* samples(int slot) const;
     void upload_columns();
     void upload_tables();
     void take_those_that_ask();

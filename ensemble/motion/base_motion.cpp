@@ -90,6 +90,13 @@ bool BaseMotion::on_host(const Study& study)
            study.names(Mechanism::harmonic_distortion);
 }
 
+bool BaseMotion::along_shared_samples(const Study& study)
+{
+    const ExcitationKind kind = study.excitation.kind;
+    const bool shared = study.fragility || kind == ExcitationKind::record || kind == ExcitationKind::table;
+    return shared && !study.names(Mechanism::time_offset) && !study.names(Mechanism::harmonic_distortion);
+}
+
 void BaseMotion::follow(const Motion& motion, double stretch, double scale)
 {
     record_ = &motion;
@@ -147,38 +154,28 @@ void BaseMotion::fill_synthetic(double first_step, double* table, int lanes) con
     }
 }
 
+SampledMotion BaseMotion::samples() const
+{
+    const std::vector<double>& a = record_->acceleration_m_s2;
+    return {a.data(), static_cast<double>(a.size() - 1), step_s_ / spacing_s_, step_s_ * step_s_ * scale_};
+}
+
 void BaseMotion::fill_sampled(double first_step, double* table, int lanes) const
 {
-    // The second difference of a displacement with piecewise linear acceleration is dt2 times the acceleration, plus
-    // what the bend at the nearest sample adds within one step of it: (change of slope) x (dt - distance)^3 / 6.
-    const std::vector<double>& a = record_->acceleration_m_s2;
-    const double last = static_cast<double>(a.size() - 1);
-    const double ratio = step_s_ / spacing_s_; // steps in samples
+    const SampledMotion m = samples();
+    if (change_.offset_s == 0)
+        return fill_sampled_rows(m, first_step, table, lanes);
     const double shift = change_.offset_s / spacing_s_;
-    const double dt2 = step_s_ * step_s_ * scale_;
-    const auto sample = [&](double i) { return i < 0 || i > last ? 0.0 : a[static_cast<std::size_t>(i)]; };
     for (int k = 0; k < chunk_steps; ++k) {
-        const double position = (first_step + k) * ratio + shift;
-        if (shift != 0 && position < ratio) {
-            // about the start, where the acceleration may jump: the displacement is too small there to lose digits
-            const double t = position * spacing_s_;
-            table[k * lanes] = (own_displacement_m(t + step_s_) - own_displacement_m(t)) -
-                               (own_displacement_m(t) - own_displacement_m(t - step_s_));
+        const double position = (first_step + k) * m.ratio + shift;
+        if (position >= m.ratio) {
+            table[k * lanes] = sampled_difference(m, position);
             continue;
         }
-        if (position - ratio > last + 1) { // the motion ends one sample after its last, at rest
-            table[k * lanes] = 0;
-            continue;
-        }
-        const double i = std::floor(position);
-        const double a0 = sample(i), a1 = sample(i + 1);
-        double difference = dt2 * std::fma(position - i, a1 - a0, a0);
-        for (double knot = std::ceil(position - ratio); knot < position + ratio; ++knot) {
-            const double reach = ratio - std::fabs(position - knot);
-            const double bend = sample(knot + 1) - 2 * sample(knot) + sample(knot - 1);
-            difference += dt2 * bend * reach * reach * reach / (6 * ratio * ratio);
-        }
-        table[k * lanes] = difference;
+        // about the start, where the acceleration may jump: the displacement is too small there to lose digits
+        const double t = position * spacing_s_;
+        table[k * lanes] = (own_displacement_m(t + step_s_) - own_displacement_m(t)) -
+                           (own_displacement_m(t) - own_displacement_m(t - step_s_));
     }
 }
 

@@ -17,6 +17,7 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "kernels/base_motion.hpp"
+#include "kernels/sampled_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,6 +39,12 @@ public:
     static MotionFormula formula(ExcitationKind kind);
     /// Whether `fill` computes the table, not the kernels: the same for all realizations of a study.
     static bool on_host(const Study& study);
+    /// Whether the realizations of a study go along samples that they share and that outlive them, from the beginning
+    /// of the samples on: a record, a table, the motions of a fragility study.
+    static bool along_shared_samples(const Study& study);
+    /// What it goes along.
+    /// @pre it goes along samples, and `sample` is read no longer than these live
+    SampledMotion samples() const;
 
     /// Writes this realization's parameters into its lane.
     void store(const FormulaParameters& parameters, int lane) const;

@@ -20,9 +20,9 @@ struct EnsembleRun {
     Progress progress;
 };
 
-inline EnsembleRun run_all(const Study& study, const RunOptions& options, const Motion* record = nullptr)
+inline EnsembleRun run_all(const Study& study, const RunOptions& options, const Motions& motions = {})
 {
-    const Experiment experiment(study, {.record = record ? std::optional(*record) : std::nullopt});
+    const Experiment experiment(study, motions);
     EnsembleRun result;
     RunPlan plan;
     plan.total = study.total();

@@ -4,6 +4,7 @@
 #include "ensemble/engine/host_device.hpp"
 #include "ensemble/engine/slots.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
@@ -36,12 +37,12 @@ RunOptions on_devices(int devices, int slots)
 }
 
 /// Compares lanes and slots; what the lanes gave.
-EnsembleRun same_in_slots(const Study& study, const Motion* record = nullptr)
+EnsembleRun same_in_slots(const Study& study, const Motions& motions = {})
 {
-    const EnsembleRun want = run_all(study, {best_isa(), 2}, record);
+    const EnsembleRun want = run_all(study, {best_isa(), 2}, motions);
     EXPECT_EQ(want.outcomes.size(), study.total());
     for (const auto& [devices, slots] : {std::pair{1, 5}, std::pair{2, 0}}) {
-        const EnsembleRun got = run_all(study, on_devices(devices, slots), record);
+        const EnsembleRun got = run_all(study, on_devices(devices, slots), motions);
         EXPECT_EQ(got.outcomes, want.outcomes) << devices << " devices, " << slots << " slots";
         EXPECT_EQ(got.progress.done, study.total());
         EXPECT_EQ(got.progress.collapsed, want.progress.collapsed);
@@ -67,6 +68,67 @@ Study colonnade(const std::vector<std::string>& more)
     settings.insert(settings.end(), more.begin(), more.end());
     return read_study(inputs + "small_scale_colonnade_drums.toml", settings);
 }
+
+/// Two seconds of a chirp of 1 to 5 Hz and up to 1 m/s2, with a jump at its beginning, samples 0.01 s apart.
+Motion chirp()
+{
+    std::vector<double> samples;
+    for (int i = 0; i < 200; ++i) {
+        const double t = 0.01 * i;
+        samples.push_back(std::cos(2 * std::numbers::pi * (1 + t) * t) * std::exp(-t));
+    }
+    Motion motion = motion_of(samples, 0.01);
+    motion.predominant_frequency_hz = 2;
+    return motion;
+}
+
+Study along_chirp(const std::vector<std::string>& more)
+{
+    Study study = column(more);
+    study.excitation.kind = ExcitationKind::record;
+    return study;
+}
+
+/// Fourteen pulses, each of several strengths.
+Study under_pulses()
+{
+    return read_study(inputs + "fragility_column.toml",
+                      {"study.realizations=1", "fragility.contacts=1", "fragility.twins=1", "fragility.motions=14",
+                       "fragility.intensity.count=3"});
+}
+
+/// Another device's deeds, and how many bytes went up to it.
+class Forwarding : public Device {
+public:
+    std::string name() const override { return inner_->name(); }
+    int best_slots(const SlotMemory&, std::size_t) const override { return 4; }
+    void* allocate(std::size_t bytes) override { return inner_->allocate(bytes); }
+    void release(void* memory) noexcept override { inner_->release(memory); }
+    void* allocate_host(std::size_t bytes) override { return inner_->allocate_host(bytes); }
+    void release_host(void* memory) noexcept override { inner_->release_host(memory); }
+    void upload(void* to, const void* from, std::size_t bytes) override
+    {
+        uploaded_ += bytes;
+        inner_->upload(to, from, bytes);
+    }
+    void download(void* to, const void* from, std::size_t bytes) override { inner_->download(to, from, bytes); }
+    void advance(const SlotMemory& memory, int chunks, int count) override
+    {
+        ++launches_;
+        inner_->advance(memory, chunks, count);
+    }
+    void run(const MoveColumns& task, int count) override { inner_->run(task, count); }
+    void run(const MarkSlots& task, int count) override { inner_->run(task, count); }
+    void run(const MultiplyAdds& task, int count) override { inner_->run(task, count); }
+
+    int launches() const { return launches_; }
+    std::size_t uploaded() const { return uploaded_; }
+
+private:
+    std::shared_ptr<Device> inner_ = host_device();
+    int launches_ = 0;
+    std::size_t uploaded_ = 0;
+};
 
 } // namespace
 
@@ -101,6 +163,56 @@ TEST(Slots, NoiseHasTheBitsOfTheLanes)
                              {"study.realizations=3", "excitation.rise_s=0.5", "excitation.strong_s=1",
                               "excitation.decay_s=0.3", "surface.frequency_hz={ from = 1.0, to = 3.0, count = 2 }",
                               "surface.pga_m_s2={ from = 4.0, to = 12.0, count = 2 }"}));
+}
+
+/// A shared record, stretched and scaled from cell to cell: the device goes along its samples.
+TEST(Slots, ARecordHasTheBitsOfTheLanes)
+{
+    EXPECT_GT(same_in_slots(along_chirp({}), {.record = chirp()}).states.at(State::collapsed), 0);
+    same_in_slots(rigid_of(along_chirp({"study.realizations=1"})), {.record = chirp()});
+}
+
+/// Where realizations go along a record otherwise, or where it moves the base vertically too, the host makes the
+/// tables.
+TEST(Slots, AChangedRecordHasTheBitsOfTheLanes)
+{
+    for (const char* mechanism :
+         {"mechanisms.time_offset={ offset_s = 0.013 }", "mechanisms.sensor_gain={ gain = 1.1 }",
+          "mechanisms.harmonic_distortion={ second = 0.05 }", "mechanisms.vertical_motion={ ratio = 0.3 }"})
+        same_in_slots(along_chirp({"study.realizations=1", mechanism}), {.record = chirp()});
+}
+
+/// Many motions, each at several strengths.
+TEST(Slots, AFragilityStudyHasTheBitsOfTheLanes)
+{
+    const Study study = under_pulses();
+    MotionSet pulses = drawn_motions(study);
+    pulses.measures.push_back({"pgv_m_s", 1, {}});
+    for (const auto& motion : pulses.motions)
+        pulses.measures.back().value.push_back(peak(motion->velocity_m_s));
+    const auto drawn = std::make_shared<const MotionSet>(std::move(pulses));
+    EXPECT_GE(same_in_slots(study, {.drawn = drawn}).states.size(), 2U);
+}
+
+/// Samples go up once for each device, however long the realizations are and however many there are.
+TEST(Slots, SamplesStayOnTheDevice)
+{
+    const auto uploaded = [](const Study& study, const Motions& motions) {
+        const auto device = std::make_shared<Forwarding>();
+        RunOptions options{Isa::scalar, 1};
+        options.devices.push_back(device);
+        run_all(study, options, motions);
+        return std::pair{device->uploaded(), device->launches()};
+    };
+    const Motions motions{.record = chirp()};
+    const auto [plain, launches] = uploaded(column({}), {});
+    const auto [record, more_launches] = uploaded(along_chirp({}), motions);
+    EXPECT_GT(launches, 100);
+    EXPECT_GT(more_launches, 100);
+    const auto tables = static_cast<std::size_t>(more_launches) * SlotSet::chunks_per_launch * chunk_steps * 8;
+    EXPECT_LT(record, plain + 200 * 8 + tables / 4) << "a table for each launch is more";
+    EXPECT_GT(uploaded(along_chirp({"mechanisms.time_offset={ offset_s = 0.013 }"}), motions).first,
+              plain + tables / 2);
 }
 
 /// Every form, and mechanisms that act in the joints, on the blocks and through the base.
@@ -228,10 +340,10 @@ TEST(Slots, AColumnHoldsALane)
     for (int chunk = 0; chunk < 20; ++chunk)
         a.advance();
     std::vector<double> column(column_rows(a.topology())), again(column.size());
-    a.write_column(0, column.data());
+    a.write_column(0, column.data(), nullptr);
     b.load(0, sampler.realization(7));
     b.read_column(0, column.data());
-    b.write_column(0, again.data());
+    b.write_column(0, again.data(), nullptr);
     for (std::size_t i = 0; i < column.size(); ++i)
         EXPECT_EQ(std::bit_cast<std::uint64_t>(column[i]), std::bit_cast<std::uint64_t>(again[i])) << "row " << i;
     EXPECT_EQ(b.steps(0), 20U * chunk_steps);
@@ -240,29 +352,13 @@ TEST(Slots, AColumnHoldsALane)
 /// What the device fails at ends the run with its message, and no thread is left waiting.
 TEST(Slots, AFailureOfADeviceEndsTheRun)
 {
-    class Failing : public Device {
-    public:
-        std::string name() const override { return inner_->name(); }
-        int best_slots(const SlotMemory&, std::size_t) const override { return 4; }
-        void* allocate(std::size_t bytes) override { return inner_->allocate(bytes); }
-        void release(void* memory) noexcept override { inner_->release(memory); }
-        void* allocate_host(std::size_t bytes) override { return inner_->allocate_host(bytes); }
-        void release_host(void* memory) noexcept override { inner_->release_host(memory); }
-        void upload(void* to, const void* from, std::size_t bytes) override { inner_->upload(to, from, bytes); }
-        void download(void* to, const void* from, std::size_t bytes) override { inner_->download(to, from, bytes); }
+    class Failing : public Forwarding {
         void advance(const SlotMemory& memory, int chunks, int count) override
         {
-            if (++launches_ > 3)
+            if (launches() > 3)
                 throw std::runtime_error("the GPU failed: it fell off the bus");
-            inner_->advance(memory, chunks, count);
+            Forwarding::advance(memory, chunks, count);
         }
-        void run(const MoveColumns& task, int count) override { inner_->run(task, count); }
-        void run(const MarkSlots& task, int count) override { inner_->run(task, count); }
-        void run(const MultiplyAdds& task, int count) override { inner_->run(task, count); }
-
-    private:
-        std::shared_ptr<Device> inner_ = host_device();
-        int launches_ = 0;
     };
     const Study study = column({});
     RunOptions options = on_devices(1, 0);
