@@ -110,12 +110,12 @@ namespace detail {
 /// between the ramps of a harmonic the second difference is a sine itself, -4 A sin2(pi f dt) sin(2 pi c + phase), with
 /// s(n+1) - 2 s(n) + s(n-1) = -4 sin2(pi f dt) s(n); after the motion it is 0.
 template <class Real, class Here>
-void fill_base_table_fast(MotionFormula formula, const FormulaParameters& p, const double* first_step, double* table)
+STYLOBATE_INLINE void fill_base_rows_fast(MotionFormula formula, const FormulaParameters& p, Real first, double* table,
+                                          int stride)
 {
     using L = Lanes<Real>;
     const Real zero(0.0), one(1.0);
     const Real rate = L::load(p.cycles_per_step), cycles = L::load(p.cycles);
-    const Real first = L::load(first_step);
     // from one step before the chunk to one after it
     const Real begin = (first - one) * rate, end = (first + Real(static_cast<double>(chunk_steps))) * rate;
     const auto between =
@@ -125,7 +125,7 @@ void fill_base_table_fast(MotionFormula formula, const FormulaParameters& p, con
     const Real known = select(over, one, harmonic ? select(between, one, zero) : zero);
     const bool full = any(known < one);
     if (full)
-        fill_base_table<Real, Here>(formula, p, first_step, table);
+        fill_base_rows<Real>(formula, p, first, table, stride);
     if (!any(known > zero))
         return;
     const auto sine = [&](Real n) {
@@ -138,7 +138,7 @@ void fill_base_table_fast(MotionFormula formula, const FormulaParameters& p, con
     const Real size = select(over, zero, zero - L::load(p.amplitude_m) * square);
     Real now = sine(first), step = now - sine(first - one);
     for (int k = 0; k < chunk_steps; ++k) {
-        double* const to = table + k * L::count;
+        double* const to = table + k * stride;
         L::store(to, select(known > zero, size * now, full ? L::load(to) : zero));
         step = fnma(square, now, step);
         now = now + step;
@@ -155,7 +155,8 @@ void fill_single_base_table(MotionFormula formula, const FormulaParameters& p, c
     constexpr int lanes = Lanes<Single>::count, group = Lanes<Real>::count;
     alignas(64) double values[chunk_steps * group];
     for (int from = 0; from < lanes; from += group) {
-        detail::fill_base_table_fast<Real, Here>(formula, p.of_lane(from), first_step + from, values);
+        detail::fill_base_rows_fast<Real, Here>(formula, p.of_lane(from), Lanes<Real>::load(first_step + from), values,
+                                                group);
         for (int step = 0; step < chunk_steps; ++step)
             for (int lane = 0; lane < group; ++lane)
                 table[step * lanes + from + lane] = static_cast<float>(values[step * group + lane]);

@@ -338,14 +338,14 @@ struct BundleOf {
 using Bundle = BundleOf<double>;
 
 /// Registers of the tables of the base's motion.
-inline std::size_t table_registers(const Topology& topology)
+constexpr std::size_t table_registers(const Topology& topology)
 {
     return static_cast<std::size_t>(chunk_steps * (topology.model.extended() ? 2 + OfPitch::count : 1));
 }
 
 /// Registers that a bundle needs, each of `lanes` numbers; the tables are the last of them.
 template <class Number = double>
-std::size_t bundle_registers(const Topology& topology)
+constexpr std::size_t bundle_registers(const Topology& topology)
 {
     const int extensions = topology.model.extended()
                                ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
@@ -411,7 +411,8 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
 
 /// The bundle as seen from one of its lanes, for a stepper of that lane alone (`Strided`): the rows begin at its place,
 /// and are `lanes` numbers apart as before. Where there are watched pairs, `close` has (watched x lanes) integers.
-constexpr Bundle lane_of(Bundle b, int lane)
+template <class Number>
+constexpr BundleOf<Number> lane_of(BundleOf<Number> b, int lane)
 {
     const auto move = [lane](auto*& rows) { rows = rows == nullptr ? nullptr : rows + lane; };
     move(b.blocks);
@@ -419,6 +420,7 @@ constexpr Bundle lane_of(Bundle b, int lane)
     move(b.realizations);
     move(b.close);
     move(b.base_table);
+    move(b.remainders);
     move(b.block_extensions);
     move(b.joint_extensions);
     move(b.realization_extensions);

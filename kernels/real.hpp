@@ -161,11 +161,23 @@ STYLOBATE_INLINE float select(bool mask, float yes, float no)
 }
 STYLOBATE_INLINE float min_of(float a, float b)
 {
+#if defined(__CUDA_ARCH__)
+    float least;
+    asm("{ .reg .pred p; setp.lt.f32 p, %1, %2; selp.f32 %0, %1, %2, p; }" : "=f"(least) : "f"(a), "f"(b));
+    return least;
+#else
     return a < b ? a : b;
+#endif
 }
 STYLOBATE_INLINE float max_of(float a, float b)
 {
+#if defined(__CUDA_ARCH__)
+    float most;
+    asm("{ .reg .pred p; setp.gt.f32 p, %1, %2; selp.f32 %0, %1, %2, p; }" : "=f"(most) : "f"(a), "f"(b));
+    return most;
+#else
     return a > b ? a : b;
+#endif
 }
 STYLOBATE_INLINE float abs_of(float a)
 {

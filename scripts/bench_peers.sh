@@ -33,10 +33,10 @@ cmake --build build/release --target peers --parallel "$(nproc)"
 peers=build/release/bench/peers/peers
 [[ $# -eq 0 ]] || exec "$peers" "$@"
 
-processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1 | tr -cs 'A-Za-z0-9.\n' '-' | sed 's/^-*//; s/-*$//')
+processor=$("$peers" --processor | tr -cs 'A-Za-z0-9.\n' '-' | sed 's/^-*//; s/-*$//')
 mkdir -p bench/results
 for test in "${tests[@]}"; do
-    out=bench/results/peers-${processor:-unknown}
+    out=bench/results/peers-$processor
     [[ $test == rocking ]] || out+=-$test
     options=(--test "$test")
     [[ $test != collapse ]] || options+=(--processes "$(nproc)")

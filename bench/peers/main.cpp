@@ -35,7 +35,7 @@ struct Options {
     std::string json_path, markdown_path;
     double seconds = 1, patience_s = 10;
     CollapseOptions collapse;
-    bool all_settings = false;
+    bool all_settings = false, name_processor = false;
     std::vector<std::string> cells;
 };
 
@@ -168,7 +168,12 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_option("--minutes", options.collapse.minutes, "collapse: no work begins after so long")
         ->check(CLI::PositiveNumber);
+    app.add_flag("--processor", options.name_processor, "print the processor's name, as the results state it, alone");
     CLI11_PARSE(app, argc, argv);
+    if (options.name_processor) {
+        fmt::print("{}\n", processor());
+        return 0;
+    }
     try {
         const std::vector<Contender> chosen = wanted(options);
         const Page page = options.test == Test::rocking       ? rocking(chosen, options)

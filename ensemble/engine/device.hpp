@@ -10,7 +10,8 @@
 namespace stylobate {
 
 struct SlotMemory;
-struct MoveColumns;
+template <class Number>
+struct MoveColumnsOf;
 struct MarkSlots;
 struct MultiplyAdds;
 
@@ -22,7 +23,7 @@ public:
     /// What it is, for people.
     virtual std::string name() const = 0;
     /// How many realizations it steps best at a time.
-    /// @param bytes of memory for each;  @param model, watched pairs and so on: which step will run
+    /// @param memory its topology, model and precision say which step will run;  @param bytes of memory for each
     virtual int best_slots(const SlotMemory& memory, std::size_t bytes) const = 0;
 
     /// @return memory of the device, all zero
@@ -38,7 +39,8 @@ public:
 
     /// `AdvanceSlot` for slots 0 .. count - 1.
     virtual void advance(const SlotMemory& memory, int chunks, int count) = 0;
-    virtual void run(const MoveColumns& task, int count) = 0;
+    virtual void run(const MoveColumnsOf<double>& task, int count) = 0;
+    virtual void run(const MoveColumnsOf<float>& task, int count) = 0;
     virtual void run(const MarkSlots& task, int count) = 0;
     virtual void run(const MultiplyAdds& task, int count) = 0;
 };

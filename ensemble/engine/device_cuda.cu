@@ -123,6 +123,7 @@ public:
         with_model<OnCuda>(memory, chunks, [&](const auto& task) { launch(task, count); });
     }
     void run(const MoveColumns& task, int count) override { launch(task, count); }
+    void run(const MoveSingleColumns& task, int count) override { launch(task, count); }
     void run(const MarkSlots& task, int count) override { launch(task, count); }
     void run(const MultiplyAdds& task, int count) override { launch(task, count); }
 

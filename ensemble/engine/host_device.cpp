@@ -35,6 +35,7 @@ public:
         with_model<Here>(memory, chunks, [count](const auto& task) { loop(task, count); });
     }
     void run(const MoveColumns& task, int count) override { loop(task, count); }
+    void run(const MoveSingleColumns& task, int count) override { loop(task, count); }
     void run(const MarkSlots& task, int count) override { loop(task, count); }
     void run(const MultiplyAdds& task, int count) override { loop(task, count); }
 

@@ -27,9 +27,6 @@ public:
     void run(int first, int last);
 
 private:
-    void give(bool checked) const;
-    void give_beds() const;
-
     const Topology& topology_;
     const Bundle& host_;
     const KernelTable& kernels_;

@@ -5,6 +5,7 @@
 /// A slot is a place for one realization. Its numbers are a column of the device's memory: row r of slot s is number
 /// r * slots + s, so that threads side by side read and write side by side.
 
+#include "ensemble/engine/single_lanes.hpp"
 #include "ensemble/engine/watch.hpp"
 #include "kernels/base_motion.hpp"
 #include "kernels/instances/instantiate.hpp"
@@ -12,6 +13,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 namespace stylobate {
 
@@ -55,6 +57,8 @@ struct SlotMemory {
     int slots = 0;
     Topology topology{};
     Bundle bundle{};
+    bool in_single = false;
+    BundleOf<float> single{};    ///< what is stepped, in single precision; `bundle` is then what a check reads
     FormulaParameters formula{}; ///< each (slots)
     MotionFormula motion{};      ///< by which the base's tables are made, if by one
     BaseTables base = BaseTables::by_formula;
@@ -148,9 +152,10 @@ STYLOBATE_INLINE bool asks(const SlotMemory& m, int slot, Watch& w)
 } // namespace detail
 
 /// Steps a slot by up to `chunks` chunks, of as many steps as lie between two checks: less if the host is to check it.
-/// @tparam Mechanism, watching, stack as in `Stepper`
-template <class Mechanism, bool watching, bool stack>
+/// @tparam Real, Mechanism, watching, stack as in `Stepper`
+template <class Real, class Mechanism, bool watching, bool stack>
 struct AdvanceSlot {
+    static constexpr bool single = std::is_same_v<Real, float>;
     SlotMemory m;
     int chunks = 1;
 
@@ -159,21 +164,11 @@ struct AdvanceSlot {
         if (m.state[slot] != SlotState::busy)
             return;
         Watch w = detail::load_rows<Watch>(m.watch, m.slots, slot);
-        const FormulaParameters mine = m.formula.of_lane(slot);
-        Bundle all = m.bundle;
+        if constexpr (single)
+            if (w.steps == 0) // it has just been loaded
+                round_lanes(m.topology, m.bundle, m.single, slot, slot + 1);
         for (int chunk = 0; chunk < chunks; ++chunk) {
-            const int tables = chunk_steps * (m.topology.model.extended() ? 2 + OfPitch::count : 1);
-            bind_tables(m.topology, all, m.tables + static_cast<long>(chunk) * tables * m.slots);
-            const Bundle b = lane_of(all, slot);
-            if (m.base == BaseTables::by_formula)
-                fill_base_rows<double>(m.motion, mine, static_cast<double>(w.steps), b.base_table, m.slots);
-            else if (m.base == BaseTables::along_samples)
-                fill_sampled_rows(detail::load_rows<SampledMotion>(m.samples, m.slots, slot),
-                                  static_cast<double>(w.steps), b.base_table, m.slots);
-            if constexpr (Mechanism::form == ContactForm::rigid)
-                RigidStepper<double, Mechanism, Strided>(m.topology, b).run(0, check_steps(m.topology));
-            else
-                Stepper<double, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
+            step(slot, chunk, w.steps);
             Watch next = w;
             if (detail::asks<Mechanism>(m, slot, next)) {
                 m.state[slot] = SlotState::asks;
@@ -183,13 +178,60 @@ struct AdvanceSlot {
         }
         detail::store_rows(m.watch, m.slots, slot, w);
     }
+
+    /// A chunk from the realization's step `done` on.
+    STYLOBATE_INLINE void step(int slot, int chunk, std::uint64_t done) const
+    {
+        const int tables = chunk_steps * (m.topology.model.extended() ? 2 + OfPitch::count : 1);
+        Bundle all = m.bundle;
+        bind_tables(m.topology, all, m.tables + static_cast<long>(chunk) * tables * m.slots);
+        const Bundle b = lane_of(all, slot);
+        const int begin = fill_base(slot, done, b.base_table);
+        if constexpr (single) {
+            const BundleOf<float> rounded = lane_of(m.single, slot);
+            for (long k = 0; k < check_steps(m.topology); ++k)
+                rounded.base_table[k * m.slots] = static_cast<float>(b.base_table[(begin + k) * m.slots]);
+            run(rounded);
+            give_lanes(m.topology, m.single, m.bundle, slot, slot + 1, true);
+        } else {
+            run(b);
+        }
+    }
+
+    /// @return the row that step `done` has: the recurrence for single precision goes through tables as lanes have them
+    STYLOBATE_INLINE int fill_base(int slot, std::uint64_t done, double* table) const
+    {
+        const double first = static_cast<double>(done);
+        if (m.base == BaseTables::by_formula) {
+            const FormulaParameters mine = m.formula.of_lane(slot);
+            if constexpr (single) {
+                const int begin = static_cast<int>(done % chunk_steps);
+                detail::fill_base_rows_fast<double, Mechanism>(m.motion, mine, first - begin, table, m.slots);
+                return begin;
+            } else {
+                fill_base_rows<double>(m.motion, mine, first, table, m.slots);
+            }
+        } else if (m.base == BaseTables::along_samples) {
+            fill_sampled_rows(detail::load_rows<SampledMotion>(m.samples, m.slots, slot), first, table, m.slots);
+        }
+        return 0;
+    }
+
+    STYLOBATE_INLINE void run(const BundleOf<Real>& b) const
+    {
+        if constexpr (Mechanism::form == ContactForm::rigid)
+            RigidStepper<Real, Mechanism, Strided>(m.topology, b).run(0, check_steps(m.topology));
+        else
+            Stepper<Real, Mechanism, watching, stack, Strided>(m.topology, b).run(0, chunk_steps);
+    }
 };
 
 /// Between packed columns, one whole column after the other, and those of slots; index i is row i / columns of column
 /// i % columns.
-struct MoveColumns {
-    double* packed = nullptr;        ///< (columns x rows)
-    double* rows_of_slots = nullptr; ///< (rows x slots)
+template <class Number>
+struct MoveColumnsOf {
+    Number* packed = nullptr;        ///< (columns x rows)
+    Number* rows_of_slots = nullptr; ///< (rows x slots)
     const int* slot = nullptr;       ///< (columns) the slot of each
     int columns = 0, rows = 0, slots = 0;
     bool into_slots = false;
@@ -198,14 +240,17 @@ struct MoveColumns {
     STYLOBATE_INLINE void operator()(int i) const
     {
         const int row = i / columns, column = i % columns;
-        double& one = packed[static_cast<long>(column) * rows + row];
-        double& other = rows_of_slots[static_cast<long>(row) * slots + slot[column]];
+        Number& one = packed[static_cast<long>(column) * rows + row];
+        Number& other = rows_of_slots[static_cast<long>(row) * slots + slot[column]];
         if (into_slots)
             other = one;
         else
             one = other;
     }
 };
+
+using MoveColumns = MoveColumnsOf<double>;
+using MoveSingleColumns = MoveColumnsOf<float>;
 
 /// Marks slots.
 struct MarkSlots {
@@ -222,33 +267,40 @@ struct MultiplyAdds {
     STYLOBATE_INLINE void operator()(int i) const { out[i] = multiply_adds<double>(count); }
 };
 
-/// Calls f(AdvanceSlot<...>) of the model and topology that the memory has.
+/// Calls f(AdvanceSlot<...>) of the precision, model and topology that the memory has.
 /// @tparam Here as in `kernel_table`
 template <class Here, class F>
 void with_model(const SlotMemory& m, int chunks, F&& f)
 {
     const Topology& t = m.topology;
-    const auto of_topology = [&]<class Mechanism, bool stack>() {
+    const bool single = m.in_single; // it has the paper's model and rigid blocks
+    const auto of_pairs = [&]<class Real, class Mechanism, bool stack>() {
         using Own = OfFile<Here, Mechanism>;
-        t.watched > 0 ? f(AdvanceSlot<Own, true, stack>{m, chunks}) : f(AdvanceSlot<Own, false, stack>{m, chunks});
+        t.watched > 0 ? f(AdvanceSlot<Real, Own, true, stack>{m, chunks})
+                      : f(AdvanceSlot<Real, Own, false, stack>{m, chunks});
+    };
+    const auto plain = [&]<class Real, ContactForm form>() {
+        t.stack ? of_pairs.template operator()<Real, Plain<form>, true>()
+                : of_pairs.template operator()<Real, Plain<form>, false>();
     };
     const auto of_form = [&]<ContactForm form>() {
         if (t.model.mechanisms)
-            of_topology.template operator()<Extended<form>, false>();
-        else if (t.stack)
-            of_topology.template operator()<Plain<form>, true>();
+            of_pairs.template operator()<double, Extended<form>, false>();
         else
-            of_topology.template operator()<Plain<form>, false>();
+            plain.template operator()<double, form>();
     };
+    using Rigid = OfFile<Here, Plain<ContactForm::rigid>>;
     switch (t.model.form) {
     case ContactForm::area:
-        return of_form.template operator()<ContactForm::area>();
+        return single ? plain.template operator()<float, ContactForm::area>()
+                      : of_form.template operator()<ContactForm::area>();
     case ContactForm::two_corner:
         return of_form.template operator()<ContactForm::two_corner>();
     case ContactForm::points:
         return of_form.template operator()<ContactForm::points>();
     case ContactForm::rigid:
-        return f(AdvanceSlot<OfFile<Here, Plain<ContactForm::rigid>>, false, false>{m, chunks});
+        return single ? f(AdvanceSlot<float, Rigid, false, false>{m, chunks})
+                      : f(AdvanceSlot<double, Rigid, false, false>{m, chunks});
     }
 }
 

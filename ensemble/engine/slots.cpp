@@ -12,17 +12,20 @@ namespace stylobate {
 
 struct SlotSet::Memory {
     using Doubles = DeviceArray<double>;
+    using Singles = DeviceArray<float>;
     using Ints = DeviceArray<int>;
     using States = DeviceArray<SlotState>;
 
     /// @param rigid_numbers of the rigid form's order
+    /// @param single_rows of the bundle in single precision; 0: there is none
     Memory(Device& device, std::size_t slots, std::size_t rows, std::size_t table_rows, const Topology& topology,
-           std::size_t rigid_numbers)
+           std::size_t rigid_numbers, std::size_t single_rows)
         : columns(device, rows * slots), close(device, static_cast<std::size_t>(topology.watched) * slots),
           state(device, slots), tables(device, chunks_per_launch * table_rows * slots),
           joints(device, static_cast<std::size_t>(topology.joints)),
           bed_lists(device, static_cast<std::size_t>(bed_lists_size(topology))), rigid_order(device, rigid_numbers),
           seats(device, static_cast<std::size_t>(topology.beds())), packed(device, rows * slots), list(device, slots),
+          singles(device, single_rows * slots), packed_singles(device, single_rows * slots),
           host_packed(device, rows * slots, Doubles::Where::host), host_list(device, slots, Ints::Where::host),
           host_state(device, slots, States::Where::host)
     {
@@ -35,6 +38,7 @@ struct SlotSet::Memory {
     Ints bed_lists, rigid_order, seats;
     Doubles packed; ///< columns on their way, one after the other
     Ints list;
+    Singles singles, packed_singles; ///< (single_rows x slots), and on their way
     Doubles host_packed;
     Ints host_list;
     States host_state;
@@ -59,7 +63,11 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     memory_.topology = host;
     memory_.motion = BaseMotion::formula(study.excitation.kind);
     memory_.base = BaseMotion::along_shared_samples(study) ? BaseTables::along_samples : BaseTables::by_formula;
-    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(2 * rows_ + chunks_per_launch * tables_);
+    memory_.in_single = study.run.precision == Precision::single;
+    if (memory_.in_single)
+        single_rows_ = static_cast<int>(bundle_registers<float>(host));
+    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(2 * rows_ + chunks_per_launch * tables_) +
+                              sizeof(float) * static_cast<std::size_t>(2 * single_rows_);
     if (slots <= 0)
         slots = device.best_slots(memory_, bytes);
     // a place within the rows is counted by an int
@@ -67,7 +75,8 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     slots_.resize(static_cast<std::size_t>(slots));
 
     own_ = std::make_unique<Memory>(device, static_cast<std::size_t>(slots), static_cast<std::size_t>(rows_),
-                                    static_cast<std::size_t>(tables_), host, first.rigid_order_size());
+                                    static_cast<std::size_t>(tables_), host, first.rigid_order_size(),
+                                    static_cast<std::size_t>(single_rows_));
     Memory& own = *own_;
     std::vector<int> seats;
     for (int j = 0; j < host.beds(); ++j)
@@ -88,6 +97,8 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     memory_.topology.bed_lists = own.bed_lists.data();
     memory_.topology.rigid_order = own.rigid_order.data();
     memory_.bundle = bind_bundle(memory_.topology, slots, own.columns.data(), own.close.data());
+    if (memory_.in_single)
+        memory_.single = bind_bundle(memory_.topology, slots, own.singles.data(), own.close.data());
     const auto stride = static_cast<std::ptrdiff_t>(slots);
     double* at =
         own.columns.data() + static_cast<std::ptrdiff_t>(bundle_registers(host) - table_registers(host)) * stride;
@@ -152,15 +163,25 @@ void SlotSet::upload_list(const std::vector<int>& which)
     device_.upload(own_->list.data(), own_->host_list.data(), which.size() * sizeof(int));
 }
 
-void SlotSet::move(const std::vector<int>& which, bool into_slots)
+/// Columns of the slots that the device's list names.
+void SlotSet::move(std::size_t count, bool into_slots)
 {
-    const MoveColumns task{own_->packed.data(),
-                           own_->columns.data(),
-                           own_->list.data(),
-                           static_cast<int>(which.size()),
-                           rows_,
-                           memory_.slots,
-                           into_slots};
+    const MoveColumns task{
+        own_->packed.data(), own_->columns.data(), own_->list.data(), static_cast<int>(count), rows_, memory_.slots,
+        into_slots};
+    device_.run(task, task.count());
+}
+
+/// What is stepped in single precision, where it is: it stays on the device.
+void SlotSet::move_singles(std::size_t count, bool into_slots)
+{
+    const MoveSingleColumns task{own_->packed_singles.data(),
+                                 own_->singles.data(),
+                                 own_->list.data(),
+                                 static_cast<int>(count),
+                                 single_rows_,
+                                 memory_.slots,
+                                 into_slots};
     device_.run(task, task.count());
 }
 
@@ -191,12 +212,14 @@ void SlotSet::close_gaps()
     if (from.empty())
         return;
     upload_list(from);
-    move(from, false);
+    move(from.size(), false);
+    move_singles(from.size(), false);
     mark(from, SlotState::empty);
     // (waits: the list is to be written again)
     device_.download(own_->host_state.data(), own_->state.data(), sizeof(SlotState));
     upload_list(to);
-    move(to, true);
+    move(to.size(), true);
+    move_singles(to.size(), true);
     mark(to, SlotState::busy);
     device_.download(own_->host_state.data(), own_->state.data(), sizeof(SlotState));
     for (std::size_t i = 0; i < from.size(); ++i)
@@ -242,7 +265,7 @@ void SlotSet::upload_columns()
     }
     device_.upload(own_->packed.data(), own_->host_packed.data(), changed.size() * rows * sizeof(double));
     upload_list(changed);
-    move(changed, true);
+    move(changed.size(), true);
     mark(changed, SlotState::busy);
 }
 
@@ -295,7 +318,7 @@ void SlotSet::take_those_that_ask()
     if (asking.empty())
         return;
     upload_list(asking);
-    move(asking, false);
+    move(asking.size(), false);
     mark(asking, SlotState::empty);
     device_.download(own_->host_packed.data(), own_->packed.data(), asking.size() * rows * sizeof(double));
     each(asking.size(), [&](std::size_t i) {

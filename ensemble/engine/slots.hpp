@@ -92,7 +92,8 @@ private:
     void upload_columns();
     void upload_tables();
     void take_those_that_ask();
-    void move(const std::vector<int>& which, bool into_slots);
+    void move(std::size_t count, bool into_slots);
+    void move_singles(std::size_t count, bool into_slots);
     void mark(const std::vector<int>& which, SlotState state);
     void upload_list(const std::vector<int>& which);
 
@@ -102,8 +103,9 @@ private:
     Device& device_;
     std::vector<Slot> slots_;
     int used_ = 0;
-    int rows_ = 0;   ///< of a column
-    int tables_ = 0; ///< numbers of the tables of one chunk
+    int rows_ = 0;        ///< of a column
+    int single_rows_ = 0; ///< of one in single precision; 0: there is none
+    int tables_ = 0;      ///< numbers of the tables of one chunk
     bool tables_given_ = false;
     std::vector<int> ended_;
     SlotMemory memory_;

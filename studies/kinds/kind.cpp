@@ -33,12 +33,6 @@ void Kind::add(const Tally& tally)
     take(tally);
 }
 
-std::string Kind::needs_processor() const
-{
-    return study_.run.precision == Precision::single ? "asks for run.precision = \"single\", which is the processor's"
-                                                     : "";
-}
-
 std::string Kind::prepare(const Experiment&, const std::string&)
 {
     return {};

@@ -75,7 +75,7 @@ public:
     /// How many realizations a shard has.
     virtual std::uint64_t size_of(const Shard& shard) const { return RunOrder(study_.total()).places(shard).size(); }
     /// What keeps the study from being stepped on a device: "has [twins], ..."; empty: nothing does.
-    virtual std::string needs_processor() const;
+    virtual std::string needs_processor() const { return {}; }
     /// Looks at the study before its run. @param file of the study, for messages
     /// @returns what the user should know, or nothing   @throws InputError if it cannot be run so
     virtual std::string prepare(const Experiment&, const std::string& file);

@@ -13,7 +13,7 @@ public:
 
     std::string needs_processor() const override
     {
-        return "has [twins], some of which are the processor's (run.precision)";
+        return "has [twins], whose pairs are followed step by step on the processor";
     }
     std::uint64_t size_of(const Shard& shard) const override;
     /// Kind by kind of replica: each bundle has one contact form and one precision. Pairs are followed at the end, and

@@ -118,6 +118,7 @@ public:
         inner_->advance(memory, chunks, count);
     }
     void run(const MoveColumns& task, int count) override { inner_->run(task, count); }
+    void run(const MoveSingleColumns& task, int count) override { inner_->run(task, count); }
     void run(const MarkSlots& task, int count) override { inner_->run(task, count); }
     void run(const MultiplyAdds& task, int count) override { inner_->run(task, count); }
 
@@ -252,6 +253,20 @@ TEST(Slots, RigidBlocksHaveTheBitsOfTheLanes)
 {
     EXPECT_GT(same_in_slots(rigid_of(column({}))).states.at(State::collapsed), 0);
     EXPECT_GT(same_in_slots(rigid_of(colonnade({}))).states.at(State::collapsed), 0);
+}
+
+/// What is stepped in single precision is refilled, moved and checked like the rest.
+TEST(Slots, SinglePrecisionHasTheBitsOfTheLanes)
+{
+    const auto in_single = [](Study study) {
+        study.run.precision = Precision::single;
+        return study;
+    };
+    EXPECT_GT(same_in_slots(in_single(column({}))).states.at(State::collapsed), 0);
+    EXPECT_GT(same_in_slots(in_single(rigid_of(column({})))).states.at(State::collapsed), 0);
+    EXPECT_GT(same_in_slots(in_single(colonnade({}))).states.at(State::collapsed), 0);
+    same_in_slots(in_single(rigid_of(colonnade({"study.realizations=1"}))));
+    same_in_slots(in_single(along_chirp({"study.realizations=1"})), {.record = chirp()});
 }
 
 TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
