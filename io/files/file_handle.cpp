@@ -159,6 +159,12 @@ void FileHandle::sync()
         throw std::system_error(errno, std::generic_category(), path_.string() + ": cannot be written");
 }
 
+void FileHandle::cut(std::uint64_t size)
+{
+    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0)
+        throw std::system_error(errno, std::generic_category(), path_.string() + ": cannot be written");
+}
+
 bool FileHandle::try_lock()
 {
 #ifdef F_OFD_SETLK

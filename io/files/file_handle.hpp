@@ -35,6 +35,9 @@ public:
     void reserve(std::uint64_t appended = 0);
     /// Waits until the disk has what was written.
     void sync();
+    /// Removes what comes behind the first so many bytes.
+    /// @throws std::system_error if the file cannot be written
+    void cut(std::uint64_t size);
 
     /// One writer at a time, among processes and within one; given up when the handle closes.
     /// @returns false if another handle has the lock

@@ -47,10 +47,27 @@ void RowJournal::read(const FileHandle& file, const std::function<void(const Rec
     }
 }
 
+RowJournal::Rest RowJournal::rest(const FileHandle& file, std::uint64_t row_bytes) const
+{
+    const std::uint64_t size = file.size();
+    Rest rest{size > end_ ? size - end_ : 0, false};
+    if (rest.bytes < sizeof(Head))
+        return rest;
+    Head head = {};
+    file.read(end_, std::as_writable_bytes(std::span(&head, 1)));
+    const auto kind = static_cast<Kind>(head.kind);
+    rest.damaged = head.size <= rest.bytes - sizeof head || (kind != Kind::row && kind != Kind::trajectory) ||
+                   (kind == Kind::row && head.size != row_bytes);
+    return rest;
+}
+
 RowJournal::Record RowJournal::append(FileHandle& file, Kind kind, std::span<const std::byte> content)
 {
     Head head = {content.size(), static_cast<std::uint32_t>(kind), 0};
     head.crc = crc_of(head, content);
+    if (!cut_ && file.size() > end_)
+        file.cut(end_);
+    cut_ = true;
     buffer_.resize(sizeof head + content.size());
     std::memcpy(buffer_.data(), &head, sizeof head);
     std::ranges::copy(content, buffer_.begin() + sizeof head);

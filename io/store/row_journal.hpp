@@ -3,7 +3,8 @@
 /// has their bytes.
 ///
 /// A record is written as a whole and is there when its checksum is right, so that a process that is killed at any
-/// moment loses nothing that was added; what it wrote of a last one is ignored, and overwritten when the run goes on.
+/// moment loses nothing that was added; what it wrote of a last one is ignored, and removed when the run goes on:
+/// behind a damaged record there may be whole ones, which would be found again behind new ones of the same size.
 
 #include "io/files/file_handle.hpp"
 
@@ -33,6 +34,14 @@ public:
     /// Goes through the records, from where the last one ended that is known. What comes behind the first one that is
     /// not whole is not there. @param f takes each and its content
     void read(const FileHandle& file, const std::function<void(const Record&, std::span<const std::byte>)>& f);
+    /// What comes behind the last whole record, once all have been read.
+    struct Rest {
+        std::uint64_t bytes = 0;
+        /// Whether it is more than the beginning of a record, which is what a process leaves that is killed.
+        bool damaged = false;
+    };
+    /// @param row_bytes of the content of a row
+    Rest rest(const FileHandle& file, std::uint64_t row_bytes) const;
     /// Writes a record, and now and then waits until the disk has what was written.
     /// @throws std::system_error if it cannot be written: what is there stays
     Record append(FileHandle& file, Kind kind, std::span<const std::byte> content);
@@ -41,6 +50,7 @@ public:
 
 private:
     std::uint64_t end_ = 0;
+    bool cut_ = false; ///< whether nothing is behind `end_` any more
     std::vector<std::byte> buffer_;
     std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now() + std::chrono::seconds(2);
 };

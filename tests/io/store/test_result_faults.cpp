@@ -404,5 +404,39 @@ TEST_F(ResultStore, ATornEndOfAnUnfinishedFileIsNotThere)
     EXPECT_GT(refused, 50);
 }
 
+/// A run that goes on behind a damaged record must not find the whole ones that lay behind it again: another order of
+/// the realizations would have two rows of one.
+TEST_F(ResultStore, RowsBehindADamagedOneDoNotComeBack)
+{
+    const std::uint64_t total = 20;
+    std::size_t beginning = 0;
+    {
+        const auto writer = ResultWriter::create(file, sample_header(total));
+        beginning = fs::file_size(file);
+        add_rows(*writer, 0, 10);
+    }
+    std::string bytes = contents(file);
+    const std::size_t record = (bytes.size() - beginning) / 10;
+    EXPECT_EQ(ResultReader(file).unread().bytes, 0U);
+
+    put(file, bytes.substr(0, bytes.size() - 3)); // a kill
+    EXPECT_EQ(ResultReader(file).unread().bytes, record - 3);
+    EXPECT_FALSE(ResultReader(file).unread().damaged);
+
+    bytes[beginning + 4 * record + 40] ^= 1;
+    put(file, bytes);
+    EXPECT_EQ(ResultReader(file).rows().size(), 4U);
+    EXPECT_EQ(ResultReader(file).unread().bytes, 6 * record);
+    EXPECT_TRUE(ResultReader(file).unread().damaged);
+    {
+        const auto writer = ResultWriter::resume(file, sample_header(total));
+        writer->add(sample_row(9)); // as long as the damaged one; the old row 9 lies behind it
+    }
+    const ResultReader reader(file);
+    EXPECT_EQ(reader.rows().size(), 5U);
+    EXPECT_EQ(reader.unread().bytes, 0U);
+    EXPECT_EQ(bits(reader.row(9)), bits(sample_row(9)));
+}
+
 } // namespace
 } // namespace stylobate
