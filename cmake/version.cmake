@@ -1,4 +1,4 @@
-# Writes OUTPUT with the version and the commit, and leaves it alone if nothing has changed.
+# Writes OUTPUT with the version, the commit and the build, and leaves it alone if nothing has changed.
 set(version "${VERSION}")
 find_package(Git QUIET)
 if(GIT_FOUND)
@@ -9,6 +9,7 @@ if(GIT_FOUND)
   endif()
 endif()
 set(text "#include \"studies/version.hpp\"\n\nconst char* stylobate::code_version()\n{\n    return \"${version}\";\n}\n")
+string(APPEND text "\nconst char* stylobate::code_build()\n{\n    return \"${BUILD}\";\n}\n")
 set(old "")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} old)

@@ -32,6 +32,10 @@ ResultHeader read_header(hid_t file)
     header.study_toml = hdf5::read_text(file, "study_toml");
     header.seed = hdf5::read_number(file, "seed");
     header.code_version = hdf5::read_text(file, "code_version");
+    if (hdf5::has_attribute(file, names::build))
+        header.build = hdf5::read_text(file, names::build);
+    if (hdf5::has_attribute(file, names::study_crc32))
+        header.study_crc32 = static_cast<std::uint32_t>(hdf5::read_number(file, names::study_crc32));
     header.total = hdf5::read_number(file, "realizations");
     header.first = hdf5::read_number(file, "first_realization");
     header.selected = hdf5::has_attribute(file, names::selected);
@@ -112,6 +116,11 @@ std::filesystem::path beside(const std::filesystem::path& file, const char* suff
     return file.parent_path() / (file.filename().string() + suffix);
 }
 
+std::uint32_t study_crc32_of(const ResultHeader& header)
+{
+    return crc32_of(std::as_bytes(std::span(header.study_toml)));
+}
+
 std::string joined_inputs(const ResultHeader& header)
 {
     std::string order;
@@ -127,7 +136,10 @@ void write_header(hid_t file, const ResultHeader& header, bool complete)
     hdf5::write_text(file, "kind", header.kind);
     hdf5::write_text(file, "study_toml", header.study_toml);
     hdf5::write_number(file, "seed", H5T_STD_U64LE, header.seed);
+    hdf5::write_number(file, names::study_crc32, H5T_STD_U32LE, study_crc32_of(header));
     hdf5::write_text(file, "code_version", header.code_version);
+    if (!header.build.empty())
+        hdf5::write_text(file, names::build, header.build);
     hdf5::write_number(file, "realizations", H5T_STD_U64LE, header.total);
     hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
     if (header.selected)

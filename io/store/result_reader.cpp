@@ -129,6 +129,14 @@ const DoneSet* ResultReader::counted() const
     return impl_->counted ? &impl_->counted->done : nullptr;
 }
 
+ResultReader::Unread ResultReader::unread() const
+{
+    if (complete() || !header().has_rows())
+        return {};
+    const RowJournal::Rest rest = impl_->file.journal.rest(impl_->file.handle, impl_->file.layout.row_bytes());
+    return {rest.bytes, rest.damaged};
+}
+
 std::uint64_t ResultReader::done() const
 {
     return impl_->counted ? impl_->counted->tally.added() : impl_->rows;

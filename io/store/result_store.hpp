@@ -34,8 +34,10 @@ struct ResultHeader {
     std::string study_toml;
     std::uint64_t seed = 0;
     std::string code_version;
-    std::uint64_t first = 0; ///< index of the first row: 0 but for a replay
-    std::uint64_t total = 0; ///< rows
+    std::string build;                        ///< compiler, processor, type and flags of the program; empty: not known
+    std::optional<std::uint32_t> study_crc32; ///< of `study_toml`, as the file states it; the writer computes it anew
+    std::uint64_t first = 0;                  ///< index of the first row: 0 but for a replay
+    std::uint64_t total = 0;                  ///< rows
     bool selected =
         false; ///< the rows are some of the study's realizations, each row has its index: an adaptive surface, rare
                ///< events. `total` is how many they can become at most, in a finished file how many they are
@@ -52,6 +54,9 @@ struct ResultHeader {
     /// Whether there is a row of each realization.
     bool has_rows() const { return limit_states.empty(); }
 };
+
+/// CRC-32 of the text of the study: `ResultHeader::study_crc32` of a file whose text is the one that was written.
+std::uint32_t study_crc32_of(const ResultHeader& header);
 
 /// In what the study of a file is another one than that which is asked for, in words; empty: it is the same.
 /// @param complete whether the file is: where rows are selected, it then has those that were needed
@@ -174,6 +179,13 @@ public:
     /// The same one by one, in the order of the file, which is that in which they came if it is not complete: for what
     /// must not grow with their number.
     void for_each_row(const std::function<void(const ResultRow&)>& f) const;
+    /// Of an unfinished file with rows: the bytes behind its last whole record, and whether they are more than what a
+    /// process leaves that is killed while it writes. They are not read.
+    struct Unread {
+        std::uint64_t bytes = 0;
+        bool damaged = false;
+    };
+    Unread unread() const;
     /// Realizations that are done: rows that are there, or that have been counted.
     std::uint64_t done() const;
     /// What was counted where there are no rows, else null.

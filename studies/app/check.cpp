@@ -1,4 +1,4 @@
-/// `stylobate check`.
+/// `stylobate check` and `stylobate verify-file`: a study before its run, and its results afterwards.
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"
@@ -6,6 +6,7 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/check/check_study.hpp"
+#include "studies/verify/verify_file.hpp"
 
 #include <fmt/format.h>
 
@@ -58,6 +59,23 @@ int check_command(const CommonOptions& options, const std::string& file, const C
     report->picture = picture.string();
     fmt::print("{}", options.json ? check_json(*report).text() + "\n" : check_text(*report));
     return report->missed() ? exit_invalid : exit_done;
+}
+
+int verify_command(const CommonOptions& options, const std::string& file, const VerifyChoice& wanted)
+{
+    check_kind(file, "verify-file");
+    VerifyOptions verify{.settings = options.set, .run = options.run_options()};
+    verify.replay = wanted.replay.value_or(VerifyOptions::usual_replay);
+    verify.seed = wanted.seed;
+    Console console(options.quiet);
+    const FileVerification found = verify_file(file, verify, console);
+    if (options.json)
+        fmt::print("{}\n", json_of(found).text());
+    else if (!options.quiet || !found.well())
+        fmt::print("{}", text_of(found));
+    if (!found.well())
+        return exit_failed;
+    return found.stopped ? exit_interrupted : exit_done;
 }
 
 } // namespace stylobate

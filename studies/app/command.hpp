@@ -52,6 +52,12 @@ struct CheckOptions {
     std::string output;                 ///< the drawing; empty and no format: none
 };
 
+/// What `verify-file` is asked for.
+struct VerifyChoice {
+    std::optional<std::uint64_t> replay; ///< realizations that are run again
+    std::uint64_t seed = 1;              ///< of their choice
+};
+
 /// What `report` is asked for.
 struct ReportOptions {
     std::string output;                    ///< the page; empty: beside the file, with .html
@@ -89,6 +95,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
                   bool partial);
 int check_command(const CommonOptions& options, const std::string& study, const CheckOptions& wanted);
+int verify_command(const CommonOptions& options, const std::string& results, const VerifyChoice& wanted);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory);
 /// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none

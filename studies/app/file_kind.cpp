@@ -61,6 +61,7 @@ constexpr Use uses[] = {
     {FileKind::results, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::results, "replay", "stylobate replay {} --realization I",
      "runs one realization again, with its trajectory"},
+    {FileKind::results, "verify-file", "stylobate verify-file {}", "verifies it, and runs some realizations again"},
     {FileKind::results, "merge", "stylobate merge {} OTHERS -o ALL.h5", "joins it with the other shards of its study"},
     {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},

@@ -92,6 +92,7 @@ public:
         add_merge();
         add_check();
         add_replay();
+        add_verify();
         add_record();
         add_calibrate();
         add_diagnose();
@@ -209,6 +210,20 @@ private:
         add_set(*replay, options_);
         add_common(*replay, options_);
         replay->callback([this] { status_ = replay_command(options_, file_, choice_, output_); });
+    }
+
+    void add_verify()
+    {
+        auto* verify = app_.add_subcommand(
+            "verify-file", "verify a result: its checksums, its values against each other and against the study, and "
+                           "some realizations by running them again");
+        verify->add_option("RESULTS", file_, "results file (HDF5)")->required();
+        verify->add_option("--replay", verify_.replay,
+                           "realizations to run again, spread over the cells (default: 20; 0: none)");
+        verify->add_option("--seed", verify_.seed, "seed of their choice")->capture_default_str();
+        add_set(*verify, options_);
+        add_common(*verify, options_);
+        verify->callback([this] { status_ = verify_command(options_, file_, verify_); });
     }
 
     void add_record()
@@ -419,6 +434,7 @@ private:
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
     CommonOptions options_;
     CheckOptions check_;
+    VerifyChoice verify_;
     int status_ = exit_done;
 
     std::string file_, study_, output_; // what a verb reads, besides, and writes

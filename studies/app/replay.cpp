@@ -197,6 +197,7 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.frequency_hz.clear();
     one.pga_m_s2.clear();
     one.code_version = code_version();
+    one.build = code_build();
     const FollowedRealization f = follow(experiment, index, options.isa());
     const ResultRow row = result_row(experiment.study(), f.realization, f.outcome);
     if (!trajectory.empty()) // made only now: an interrupted replay leaves no file

@@ -136,6 +136,7 @@ int merge_command(const CommonOptions& options, const std::vector<std::string>& 
     }
     header.shard = {};
     header.code_version = code_version(); // what is made of the rows is made by this one
+    header.build = code_build();
     const Study study = parse_study(header.study_toml, files.front() + " (its study)");
     const LoadedStudy loaded = LoadedStudy::from_results(study, header, files.front(), options.set);
     const std::unique_ptr<Kind> kind = make_kind(loaded.study(), header);

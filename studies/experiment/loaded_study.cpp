@@ -191,6 +191,7 @@ ResultHeader LoadedStudy::plain_header() const
     header.study_toml = text_;
     header.seed = study().seed;
     header.code_version = code_version();
+    header.build = code_build();
     header.total = most_realizations(study());
     header.selected = (study().surface && study().surface->adaptive) || study().rare;
     if (study().kept == KeptRealizations::none)

@@ -9,7 +9,7 @@ const std::vector<UsageSection>& usage_notes()
     static const std::vector<UsageSection> sections{
         {"Exit status",
          {{"0", "done"},
-          {"1", "a failure that is none of the following, such as a full disk"},
+          {"1", "a failure that is none of the following, such as a full disk; of verify-file: a difference was found"},
           {"2", "bad input: one message on standard error, nothing written or changed"},
           {"3",
            "done, but more realizations are invalid than run.max_invalid_fraction allows; of check: run.accuracy is "
@@ -33,7 +33,9 @@ const std::vector<UsageSection>& usage_notes()
           {"stylobate report surface.h5", "write surface.html, a page for a browser"},
           {"stylobate export surface.h5 --to png", "draw the probability of collapse over frequency and PGA"},
           {"stylobate replay surface.h5 --frequency 3 --pga 9.8 --fallen -o fall.h5",
-           "run a realization of that cell again that collapsed, and keep its trajectory"}}},
+           "run a realization of that cell again that collapsed, and keep its trajectory"},
+          {"stylobate verify-file surface.h5",
+           "verify the file against itself, its study, and 20 realizations that are run again"}}},
     };
     return sections;
 }

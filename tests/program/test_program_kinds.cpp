@@ -51,8 +51,11 @@ struct Sample {
 };
 const Sample samples[] = {
     {"study.toml", "is a study file", "study", {"check", "run"}},
-    {"results.h5", "is the results of a study of kind 'single'", "results", {"export", "report", "replay"}},
-    {"replay.h5", "is one realization that was run again", "results", {"export", "report", "replay"}},
+    {"results.h5",
+     "is the results of a study of kind 'single'",
+     "results",
+     {"export", "report", "replay", "verify-file"}},
+    {"replay.h5", "is one realization that was run again", "results", {"export", "report", "replay", "verify-file"}},
     {"diagnosis.h5", "is a diagnosis", "diagnosis", {"report"}},
     {"calibration.h5", "is a calibration", "calibration", {"report"}},
     {"campaign.h5", "is a measured campaign", "measured campaign", {"diagnose", "calibrate"}},
@@ -96,7 +99,8 @@ TEST_F(Kinds, AVerbSaysWhatAnotherFileIs)
 {
     const std::map<std::string, Words> more = {{"replay", {"--realization", "0"}}, {"export", {"--to", "csv"}}};
     for (const Sample& sample : samples)
-        for (const std::string verb : {"run", "replay", "export", "report", "record", "diagnose", "calibrate"}) {
+        for (const std::string verb :
+             {"run", "replay", "verify-file", "export", "report", "record", "diagnose", "calibrate"}) {
             if (sample.verbs.contains(verb))
                 continue;
             Words words = {verb, sample.file};

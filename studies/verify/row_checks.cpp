@@ -1,0 +1,213 @@
+#include "studies/verify/row_checks.hpp"
+
+#include "io/store/result_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <type_traits>
+
+namespace stylobate {
+
+namespace {
+
+template <class Value>
+std::string shown(const Value& value)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return to_string(value);
+    else
+        return fmt::format("{}", value);
+}
+
+bool same_value(double a, double b)
+{
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+template <class Value>
+bool same_value(const Value& a, const Value& b)
+{
+    return a == b;
+}
+
+/// Numbers of a row that may be negative; all others may not.
+bool may_be_negative(std::string_view path)
+{
+    constexpr std::string_view signed_paths[] = {"outcome/residual_top_displacement_m",
+                                                 "outcome/energy_potential_j",
+                                                 "outcome/energy_spring_j",
+                                                 "outcome/energy_friction_j",
+                                                 "outcome/energy_damping_j",
+                                                 "outcome/energy_base_work_j",
+                                                 "outcome/energy_residual"};
+    return std::ranges::find(signed_paths, path) != std::end(signed_paths);
+}
+
+/// What is wrong with one row, value by value.
+class RowLook {
+public:
+    RowLook(const ResultRow& row, FileCheck& check) : row_(row), check_(check) {}
+
+    template <class Value>
+    void expect(const char* where, const Value& stored, const Value& expected)
+    {
+        if (!same_value(stored, expected))
+            check_.add({where, row_.index, shown(stored), shown(expected)});
+    }
+    void require(const std::string& where, double stored, bool holds, const char* expected)
+    {
+        if (!holds)
+            check_.add({where, row_.index, shown(stored), expected});
+    }
+
+    /// Of any valid realization: finite, and not negative where it is no signed quantity. -1 stands for none.
+    void numbers()
+    {
+        visit_fields(row_, [&](const char* path, const char*, const auto& value) {
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+                const bool none = value == -1 && !meaning_of_none(path).empty();
+                require(path, value, std::isfinite(value), "a finite number");
+                require(path, value, none || may_be_negative(path) || !(value < 0), "a number that is not negative");
+            }
+        });
+        const Outcome& o = row_.outcome;
+        require("outcome/step_s", o.step_s, o.step_s > 0, "a number above 0");
+        for (const double time : {o.collapse_time_s, o.unseating_time_s, o.total_collapse_time_s})
+            require("outcome/end_time_s", o.end_time_s, !(o.end_time_s < time), "a time that is not before the falls");
+    }
+
+    /// What the fall times say once more.
+    void falls()
+    {
+        const Outcome& o = row_.outcome;
+        double first = -1;
+        std::int32_t fallen = 0, first_block = -1;
+        for (std::size_t i = 0; i < o.fall_time_s.size(); ++i) {
+            const double time = o.fall_time_s[i];
+            require(fmt::format("outcome/fall_time_s[{}]", i), time, std::isfinite(time) && (time >= 0 || time == -1),
+                    "a time, or none");
+            fallen += time >= 0;
+            if (time >= 0 && (first < 0 || time < first)) {
+                first = time;
+                first_block = static_cast<std::int32_t>(i);
+            } else if (time >= 0 && time == first) {
+                first_block = several_blocks;
+            }
+        }
+        expect("outcome/collapse_time_s", o.collapse_time_s, first);
+        expect("outcome/first_collapse_block", o.first_collapse_block, first_block);
+        expect("outcome/fallen_blocks", o.fallen_blocks, fallen);
+        if ((o.state == State::collapsed) != (first >= 0))
+            check_.add(
+                {"outcome/state", row_.index, shown(o.state), first >= 0 ? "collapsed" : "a state without fall"});
+        require("outcome/unseated_block", o.unseated_block, (o.unseated_block == -1) == (o.unseating_time_s < 0),
+                "a block where there is a time of unseating, and -1 elsewhere");
+    }
+
+private:
+    const ResultRow& row_;
+    FileCheck& check_;
+};
+
+} // namespace
+
+RowChecks check_rows(const Study& study, const ResultReader& reader)
+{
+    RowChecks checks;
+    FileCheck& check = checks.check;
+    check.name = "rows";
+    std::uint64_t rows = 0;
+    reader.for_each_row([&](const ResultRow& row) {
+        ++rows;
+        RowLook look(row, check);
+        if (row.index >= study.total())
+            check.add({"index", row.index, shown(row.index), fmt::format("an index below {}", study.total())});
+        checks.wrong_cell = checks.wrong_cell || row.index >= study.total() || row.cell != study.cell(row.index);
+        look.expect("cell", row.cell, study.cell(row.index));
+        const Outcome& o = row.outcome;
+        const bool invalid = o.state == State::invalid;
+        if (invalid != (o.invalid_reason != InvalidReason::none))
+            check.add({"outcome/invalid_reason", row.index, shown(o.invalid_reason),
+                       invalid ? "the reason of an invalid realization" : "none"});
+        if (invalid)
+            return; // nothing is said of it
+        look.numbers();
+        look.falls();
+    });
+    const std::uint64_t wanted = reader.header().total;
+    if (reader.complete() && rows != wanted)
+        check.add({"realizations", std::nullopt, shown(rows), shown(wanted)});
+    check.text =
+        fmt::format("the values of {} row{}: ranges, and falls derived from fall times", rows, rows == 1 ? "" : "s");
+    return checks;
+}
+
+void compare_rows(const ResultHeader& header, const ResultRow& stored, const ResultRow& again, FileCheck& check)
+{
+    if (same_bits(stored, again))
+        return;
+    struct Value {
+        std::string text;
+        std::uint64_t bits = 0;
+    };
+    std::vector<Value> expected;
+    const auto bits_of = [](const auto& value) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
+            return std::bit_cast<std::uint64_t>(value);
+        else
+            return static_cast<std::uint64_t>(value);
+    };
+    visit_fields(again, [&](const char*, const char*, const auto& value) {
+        expected.push_back({shown(value), bits_of(value)});
+    });
+    std::size_t k = 0;
+    visit_fields(stored, [&](const char* path, const char*, const auto& value) {
+        if (const Value& other = expected[k++]; bits_of(value) != other.bits)
+            check.add({path, stored.index, shown(value), other.text});
+    });
+    const auto lists = [&](const std::vector<double>& a, const std::vector<double>& b, const auto& name) {
+        for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+            if (i >= a.size() || i >= b.size() || !same_value(a[i], b[i]))
+                check.add(
+                    {name(i), stored.index, i < a.size() ? shown(a[i]) : "none", i < b.size() ? shown(b[i]) : "none"});
+    };
+    lists(stored.outcome.fall_time_s, again.outcome.fall_time_s,
+          [](std::size_t i) { return fmt::format("outcome/fall_time_s[{}]", i); });
+    lists(stored.inputs, again.inputs, [&](std::size_t i) {
+        return i < header.input_names.size() ? "input/" + header.input_names[i] : fmt::format("input {}", i);
+    });
+}
+
+void compare_trajectories(const Trajectory& stored, const Trajectory& again, FileCheck& check)
+{
+    const auto lists = [&](const char* name, const auto& a, const auto& b) {
+        const std::string where = fmt::format("trajectories/{}/{}", stored.index, name);
+        if (a.size() != b.size()) {
+            check.add({where, stored.index, fmt::format("{} values", a.size()), fmt::format("{} values", b.size())});
+            return;
+        }
+        for (std::size_t i = 0; i < a.size(); ++i)
+            if (!same_value(a[i], b[i])) {
+                check.add({fmt::format("{}[{}]", where, i), stored.index, shown(a[i]), shown(b[i])});
+                return;
+            }
+    };
+    lists("time_s", stored.time_s, again.time_s);
+    lists("x_m", stored.x_m, again.x_m);
+    lists("y_m", stored.y_m, again.y_m);
+    lists("theta_rad", stored.theta_rad, again.theta_rad);
+    lists("base_x_m", stored.base_x_m, again.base_x_m);
+    lists("rest_x_m", stored.rest_x_m, again.rest_x_m);
+    lists("rest_y_m", stored.rest_y_m, again.rest_y_m);
+    lists("half_width_m", stored.half_width_m, again.half_width_m);
+    lists("half_height_m", stored.half_height_m, again.half_height_m);
+    lists("column", stored.column, again.column);
+    lists("blocks", stored.name, again.name);
+    if (stored.role != again.role)
+        check.add({fmt::format("trajectories/{}/role", stored.index), stored.index, "other roles", "the study's"});
+}
+
+} // namespace stylobate

@@ -1,0 +1,26 @@
+#pragma once
+/// Rows of a results file, against the study, each other, and the same realization run again.
+
+#include "ensemble/model/study.hpp"
+#include "io/store/result_store.hpp"
+#include "studies/verify/verification.hpp"
+
+namespace stylobate {
+
+/// Every row: its cell, its state and the reason of an invalid one, and of a valid one that its numbers are finite,
+/// that lengths, times and counts are not negative, and that the fall times say the same as what is derived from them.
+/// @returns the check "rows"; a row with another cell than its index's is `wrong_cell`
+struct RowChecks {
+    FileCheck check;
+    bool wrong_cell = false;
+};
+RowChecks check_rows(const Study& study, const ResultReader& reader);
+
+/// Adds each value of which the bits differ, by its name in the file.
+/// @pre both are of one study
+void compare_rows(const ResultHeader& header, const ResultRow& stored, const ResultRow& again, FileCheck& check);
+
+/// The same of two trajectories; of each list the first difference.
+void compare_trajectories(const Trajectory& stored, const Trajectory& again, FileCheck& check);
+
+} // namespace stylobate

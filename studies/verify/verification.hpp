@@ -1,0 +1,59 @@
+#pragma once
+/// What was found of a results file, check by check, as data, text and JSON.
+
+#include "studies/report/json.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+enum class CheckVerdict {
+    passed,
+    differs, ///< the file is not what the program makes of its study
+    not_done ///< could not be looked at; the text says why
+};
+
+/// One value of the file and what it should be.
+struct ValueDifference {
+    std::string where;                        ///< "outcome/end_time_s", "surface/trials[3]"
+    std::optional<std::uint64_t> realization; ///< whose value it is
+    std::string stored, expected;             ///< without an expected value `stored` says all
+};
+
+struct FileCheck {
+    static constexpr std::size_t most_differences = 20; ///< that are kept; the others are counted
+
+    std::string name{}; ///< "rows"
+    CheckVerdict verdict = CheckVerdict::passed;
+    std::string text{}; ///< what was looked at, or why it was not
+    std::vector<ValueDifference> differences{};
+    std::uint64_t more = 0; ///< differences that are not kept
+
+    void add(ValueDifference difference);
+    std::uint64_t found() const { return differences.size() + more; }
+    bool full() const { return differences.size() >= most_differences; }
+};
+
+struct FileVerification {
+    std::string file;
+    std::string kind; ///< of the study
+    std::uint64_t realizations = 0, done = 0;
+    bool complete = false;
+    std::string code_version, build; ///< of the program that began the file; `build` may be empty
+    std::string study_crc32;         ///< eight hexadecimal digits
+    bool same_version = false;       ///< whether it was this one
+    bool stopped = false;            ///< at the user's request, before the end
+    std::vector<FileCheck> checks;
+
+    /// Whether no check has found a difference.
+    bool well() const;
+};
+
+/// A line for each check, and below it one for each difference.
+std::string text_of(const FileVerification& verification);
+Json json_of(const FileVerification& verification);
+
+} // namespace stylobate
