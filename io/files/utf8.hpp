@@ -1,7 +1,9 @@
 #pragma once
 /// Characters of texts that come from elsewhere.
 
+#include <algorithm>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace stylobate {
@@ -21,6 +23,40 @@ inline std::size_t utf8_length(std::string_view text)
     const bool overlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
     const bool no_character = (lead == 0xed && byte(1) > 0x9f) || (lead == 0xf4 && byte(1) > 0x8f);
     return overlong || no_character ? 0 : length;
+}
+
+/// Whether it begins with a control character, which no name needs and a terminal may obey.
+inline bool begins_with_control(std::string_view text)
+{
+    return !text.empty() && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7f);
+}
+
+/// Whether a text is UTF-8 without control characters, so that every format that we write can hold it.
+inline bool is_plain_text(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        if (length == 0 || begins_with_control(text))
+            return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
+/// The text with a replacement character (U+FFFD) for each byte that is no UTF-8, and for each control character but
+/// line break and tabulator, as XML allows no others.
+inline std::string replaced_text(std::string_view text)
+{
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        if (length == 0 || (begins_with_control(text) && text[0] != '\n' && text[0] != '\t'))
+            out += "\xef\xbf\xbd";
+        else
+            out += text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return out;
 }
 
 } // namespace stylobate

@@ -1,8 +1,23 @@
 #include "io/tables/csv.hpp"
 
+#include "io/files/utf8.hpp"
+
 #include <stdexcept>
 
 namespace stylobate {
+
+std::string csv_field(std::string_view value)
+{
+    std::string text = replaced_text(value);
+    if (!text.empty() && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos)
+        text.insert(0, "'");
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string out = "\"";
+    for (const char c : text)
+        out.append(c == '"' ? 2 : 1, c);
+    return out + '"';
+}
 
 std::string csv_text(const Table& table)
 {

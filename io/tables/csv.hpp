@@ -12,6 +12,11 @@
 
 namespace stylobate {
 
+/// A text as a field, in quotation marks where it needs them. What is no UTF-8 is replaced. One that begins as a
+/// formula does in a spreadsheet (=, +, -, @) has an apostrophe before it, so that the name of a file can start nothing
+/// there.
+std::string csv_field(std::string_view text);
+
 /// One line of a table, field by field.
 class CsvRow {
 public:
@@ -31,14 +36,7 @@ public:
     CsvRow& operator<<(std::string_view value)
     {
         separate();
-        if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
-            text_ += value;
-            return *this;
-        }
-        text_ += '"';
-        for (const char c : value)
-            text_.append(c == '"' ? 2 : 1, c);
-        text_ += '"';
+        text_ += csv_field(value);
         return *this;
     }
     CsvRow& operator<<(const char* value) { return *this << std::string_view(value); }

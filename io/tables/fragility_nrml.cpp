@@ -1,5 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
+#include "io/files/utf8.hpp"
 #include "io/tables/fragility_exchange.hpp"
 #include "io/tables/fragility_measure.hpp"
 
@@ -18,7 +19,7 @@ constexpr const char* nrml_namespace = "http://openquake.org/xmlns/nrml/0.5";
 
 void set(pugi::xml_node node, const char* name, const std::string& value)
 {
-    node.append_attribute(name).set_value(value.c_str());
+    node.append_attribute(name).set_value(replaced_text(value).c_str());
 }
 
 /// Two hyphens end a comment.
@@ -28,7 +29,7 @@ void append_comment(pugi::xml_node node, std::string text)
         text.replace(at, 2, "- ");
     if (text.ends_with('-'))
         text += ' ';
-    node.append_child(pugi::node_comment).set_value((" " + text + " ").c_str());
+    node.append_child(pugi::node_comment).set_value((" " + replaced_text(text) + " ").c_str());
 }
 
 std::string interval(const FragilityValue& value, double scale)

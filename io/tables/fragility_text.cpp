@@ -1,3 +1,5 @@
+#include "io/files/utf8.hpp"
+#include "io/tables/csv.hpp"
 #include "io/tables/fragility_exchange.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +13,7 @@ namespace {
 std::string quoted(const std::string& text)
 {
     std::string out = "\"";
-    for (const char c : text)
+    for (const char c : replaced_text(text))
         if (c == '"' || c == '\\')
             out += {'\\', c};
         else if (static_cast<unsigned char>(c) < 0x20)
@@ -39,16 +41,6 @@ std::string list(const char* name, const std::vector<FragilityValue>& values, do
     for (std::size_t i = 0; i < values.size(); ++i)
         out += (i > 0 ? ", " : "") + number(values[i].*part);
     return out + ']';
-}
-
-std::string csv_field(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out.append(c == '"' ? 2 : 1, c);
-    return out + '"';
 }
 
 } // namespace

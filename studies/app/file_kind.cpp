@@ -232,7 +232,9 @@ void check_kind(const std::string& file, std::string_view verb)
     if (found.kind == FileKind::unknown)
         return;
     std::string instead;
-    for (const FileUse& use : uses_of(found, file))
+    std::vector<FileUse> others = uses_of(found, file);
+    std::erase_if(others, [](const FileUse& use) { return use.verb == "merge"; }); // few results are shards
+    for (const FileUse& use : others)
         instead += fmt::format("\n  {}: {}", use.command, use.purpose);
     throw InputError(file, 0,
                      fmt::format("is {}; stylobate {} takes {}.{}\n  stylobate info {}: prints its content",

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
+#include "io/files/utf8.hpp"
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/experiment/limit_state.hpp"
@@ -452,6 +453,18 @@ private:
     ReportOptions report_;
 };
 
+/// A message on standard error; names in it come from files, and a terminal obeys control characters.
+void print_error(std::string message)
+{
+    std::ranges::replace_if(
+        message,
+        [](char c) {
+            return c != '\n' && c != '\t' && begins_with_control({&c, 1});
+        },
+        '?');
+    fmt::print(stderr, "stylobate: {}\n", message);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -462,10 +475,10 @@ int main(int argc, char** argv)
             throw std::system_error(errno, std::generic_category(), "standard output cannot be written");
         return status;
     } catch (const InputError& error) {
-        fmt::print(stderr, "stylobate: {}\n", error.what());
+        print_error(error.what());
         return exit_bad_input;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "stylobate: {}\n", error.what());
+        print_error(error.what());
         return exit_failed;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
+#include "io/files/utf8.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record.hpp"
 
@@ -38,6 +39,11 @@ MotionSet read_motions(const Study& study)
         std::string name = std::filesystem::path(record.file).filename().string();
         if (!record.component.empty())
             name += " " + record.component;
+        if (!is_plain_text(name)) // else the results, whose study has it in a comment, could not be read again
+            throw InputError(
+                fmt::format("{}: the name of a motion is that of its file{}, and has a line break, another "
+                            "control character or a byte that is no UTF-8.\n  Rename the file.",
+                            record.file, record.component.empty() ? "" : " with its component"));
         set.names.push_back(std::move(name));
         set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
     }

@@ -30,14 +30,8 @@ std::string cells(const HtmlTable& table, const std::vector<Html>& row, const ch
 std::string html_escaped(std::string_view text)
 {
     std::string out;
-    while (!text.empty()) {
-        const std::size_t length = utf8_length(text);
-        const char c = text[0];
-        if (length > 1)
-            out += text.substr(0, length);
-        else if (length == 0 || c == 0x7f || (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'))
-            out += "\xef\xbf\xbd";
-        else if (c == '&')
+    for (const char c : replaced_text(text))
+        if (c == '&')
             out += "&amp;";
         else if (c == '<')
             out += "&lt;";
@@ -49,8 +43,6 @@ std::string html_escaped(std::string_view text)
             out += "&#39;";
         else
             out += c;
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
     return out;
 }
 
