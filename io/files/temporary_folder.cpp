@@ -13,7 +13,9 @@ namespace stylobate {
 TemporaryFolder::TemporaryFolder()
 {
     std::error_code error;
-    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    if (const char* const named = std::getenv("TMPDIR"); error && named != nullptr)
+        parent = named;
     std::string name = (parent / "stylobate-XXXXXX").string();
     if (error || ::mkdtemp(name.data()) == nullptr)
         throw InputError(fmt::format("cannot make a temporary folder in '{}': {}.\n  Set TMPDIR to a folder that "

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -148,9 +149,10 @@ std::string describe_interval(const std::string& interval)
     const std::size_t blank = interval.find(' ');
     if (blank == std::string::npos || blank == 0)
         return interval;
-    char* end = nullptr;
-    const double level = std::strtod(interval.c_str() + blank, &end);
-    if (*end != '\0' || !(level > 0 && level < 1))
+    double level = 0; // not by strtod: the locale of a program that uses the library may have commas
+    const char* const all = interval.data() + interval.size();
+    const auto [end, error] = std::from_chars(interval.data() + blank + 1, all, level);
+    if (error != std::errc{} || end != all || !(level > 0 && level < 1))
         return interval;
     std::string name = interval.substr(0, blank);
     if (name == "motions")

@@ -433,7 +433,12 @@ std::optional<ResultFile> try_to_open(const std::filesystem::path& path, bool wr
                          "is being written by another run; wait for its end, or choose another output");
     const std::vector<Extent> extents = check_seal(result.handle, path.string());
     try {
-        result.hdf5 = hdf5::open_file(path, false);
+        try {
+            result.hdf5 = hdf5::open_file(path, false);
+        } catch (const hdf5::Error&) {
+            FileHandle::open(path, false); // refuses where the process may open no more files, which is no damage
+            throw;
+        }
         if (!result.handle.is_at(path))
             return std::nullopt;
         const hid_t file = result.hdf5.id();

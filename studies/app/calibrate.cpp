@@ -32,7 +32,7 @@ public:
         if (quiet_ || p.done == 0 || (p.seconds < next_s_ && p.done < p.total))
             return;
         next_s_ = p.seconds + between_lines_s;
-        fmt::print(stderr, "{}\n", calibration_progress(stage_, p));
+        say(calibration_progress(stage_, p) + "\n");
     }
     std::uint64_t planned() const { return planned_; }
     void warn(const std::string& text) override { console_.warn(text); }
@@ -79,10 +79,9 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     const Calibration found = data.calibrated(start, search, run, console);
     if (!found.complete) {
         if (!options.quiet)
-            fmt::print(
-                stderr,
+            say(fmt::format(
                 "Interrupted: {} of at most {} parameter sets are kept in {}. The same command continues from there.\n",
-                found.kept_sets, console.planned(), search.kept.string());
+                found.kept_sets, console.planned(), search.kept.string()));
         return exit_interrupted;
     }
     const std::string text = calibrated_text(found, measured);

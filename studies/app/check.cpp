@@ -53,7 +53,7 @@ int check_command(const CommonOptions& options, const std::string& file, const C
         report = check.run(console);
     }
     if (!report) {
-        fmt::print(stderr, "Interrupted; the study is not checked.\n");
+        say("Interrupted; the study is not checked.\n");
         return exit_interrupted;
     }
     report->picture = picture.string();

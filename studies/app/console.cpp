@@ -25,6 +25,12 @@ extern "C" void on_signal(int signal)
 
 } // namespace
 
+void say(const std::string& text)
+{
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
 Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1)
 {
     std::signal(SIGINT, on_signal);
@@ -39,7 +45,7 @@ Console::~Console()
 void Console::clear_line()
 {
     if (line_open_)
-        std::fputs("\r\033[K", stderr);
+        say("\r\033[K");
     line_open_ = false;
 }
 
@@ -49,12 +55,11 @@ void Console::progress(const Progress& progress)
         return;
     const auto now = std::chrono::steady_clock::now();
     if (terminal_) {
-        fmt::print(stderr, "\r\033[K{}", progress_line(progress));
-        std::fflush(stderr);
+        say("\r\033[K" + progress_line(progress));
         line_open_ = true;
     } else if (now - last_line_ >= std::chrono::seconds(10)) {
         if (last_line_ != std::chrono::steady_clock::time_point{}) // not at the very start
-            fmt::print(stderr, "{}\n", progress_line(progress));
+            say(progress_line(progress) + "\n");
         last_line_ = now;
     }
 }
@@ -62,7 +67,7 @@ void Console::progress(const Progress& progress)
 void Console::warn(const std::string& text)
 {
     clear_line();
-    fmt::print(stderr, "warning: {}\n", text);
+    say(fmt::format("warning: {}\n", text));
 }
 
 bool Console::stop_requested()

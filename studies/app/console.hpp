@@ -8,6 +8,9 @@
 
 namespace stylobate {
 
+/// Writes to standard error. Where that is closed or full the text is lost, and the work goes on.
+void say(const std::string& text);
+
 /// Progress on standard error: one line that is rewritten on a terminal, a plain line every ten seconds otherwise.
 class Console : public Observer {
 public:

@@ -70,7 +70,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) {
         if (!options.quiet)
-            fmt::print(stderr, "{}\n", line);
+            say(line + "\n");
     };
     class Quiet : public Observer {
     public:

@@ -184,7 +184,7 @@ fs::path export_vtk(const CommonOptions& options, const std::string& file, const
     check_not_input(file, folder);
     write_vtk(folder, fmt::format("realization_{}", index), followed_motion(results, options.isa(), index).trajectory);
     if (!options.quiet)
-        fmt::print(stderr, "Forces and openings of joints are not part of a trajectory; they are left out.\n");
+        say("Forces and openings of joints are not part of a trajectory; they are left out.\n");
     return folder;
 }
 

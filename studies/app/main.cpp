@@ -5,6 +5,7 @@
 #include "io/files/utf8.hpp"
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/results/kept_animations.hpp"
 #include "studies/usage/bash_completion.hpp"
@@ -17,9 +18,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 
 using namespace stylobate;
 
@@ -453,8 +458,10 @@ private:
     ReportOptions report_;
 };
 
-/// A message on standard error; names in it come from files, and a terminal obeys control characters.
-void print_error(std::string message)
+/// Ends with a message on standard error; names in it come from files, and a terminal obeys control characters. Nothing
+/// runs at the exit: a file that could not be written whole is still open in the HDF5 library, which would write it
+/// again and break.
+[[noreturn]] void end_with(std::string message, int status)
 {
     std::ranges::replace_if(
         message,
@@ -462,23 +469,35 @@ void print_error(std::string message)
             return c != '\n' && c != '\t' && begins_with_control({&c, 1});
         },
         '?');
-    fmt::print(stderr, "stylobate: {}\n", message);
+    say(fmt::format("stylobate: {}\n", message));
+    std::fflush(stdout);
+    std::_Exit(status);
+}
+
+/// What the caller may have left undone. A descriptor of the standard streams that is closed would be given to the next
+/// file that is opened, so that messages went into results: what is written to the output then fails, and to the errors
+/// is lost. A file that grows beyond the limit of the process (ulimit -f) gives a message instead of a signal.
+void prepare_process()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            continue; // nothing can be said about it
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
+    prepare_process();
     try {
         const int status = CommandLine().run(argc, argv);
         if (std::fflush(stdout) != 0)
             throw std::system_error(errno, std::generic_category(), "standard output cannot be written");
         return status;
     } catch (const InputError& error) {
-        print_error(error.what());
-        return exit_bad_input;
+        end_with(error.what(), exit_bad_input);
     } catch (const std::exception& error) {
-        print_error(error.what());
-        return exit_failed;
+        end_with(error.what(), exit_failed);
     }
 }

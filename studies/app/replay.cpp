@@ -4,6 +4,7 @@
 #include "io/store/result_layout.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/experiment/trajectory.hpp"
@@ -219,10 +220,9 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     else if (!options.quiet)
         print_text(replayed);
     if (known && !same) {
-        fmt::print(
-            stderr,
+        say(fmt::format(
             "stylobate: realization {} differs from the one in {}, which was computed by version {} (this is {})\n",
-            index, results, header.code_version, code_version());
+            index, results, header.code_version, code_version()));
         return exit_failed;
     }
     return exit_done;

@@ -107,7 +107,7 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         for (const std::string& warning : warnings) // now that nothing is refused any more
             console.warn(warning);
         if (!options.quiet && !notice.empty())
-            fmt::print(stderr, "{}\n", notice);
+            say(notice + "\n");
         store->give_to(*kind);
         ran = run_study(loaded.experiment(), *kind, *store, run, console, shard);
     }
@@ -172,7 +172,7 @@ int merge_command(const CommonOptions& options, const std::vector<std::string>& 
         stopped = !ran.complete;
     }
     if (stopped) {
-        fmt::print(stderr, "Interrupted; nothing was written.\n");
+        say("Interrupted; nothing was written.\n");
         return exit_interrupted;
     }
     if (ran.complete) {

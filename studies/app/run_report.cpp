@@ -1,6 +1,7 @@
 #include "studies/app/run_report.hpp"
 
 #include "io/keys/words.hpp"
+#include "studies/app/console.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 
@@ -94,7 +95,7 @@ int report_run(const CommonOptions& options, const RunReport& r)
     const std::string message = too_many_invalid(r.study, p.invalid, p.total, r.results);
     if (message.empty())
         return exit_done;
-    fmt::print(stderr, "stylobate: {}\n", message);
+    say(fmt::format("stylobate: {}\n", message));
     return exit_invalid;
 }
 
