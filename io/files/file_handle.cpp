@@ -165,6 +165,11 @@ void FileHandle::cut(std::uint64_t size)
         throw std::system_error(errno, std::generic_category(), path_.string() + ": cannot be written");
 }
 
+void FileHandle::refuse_content(const std::string& why) const
+{
+    refuse(path_, why);
+}
+
 bool FileHandle::try_lock()
 {
 #ifdef F_OFD_SETLK

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace stylobate {
 
@@ -44,6 +45,9 @@ public:
     bool try_lock();
     /// True if the path still leads to this file.
     bool is_at(const std::filesystem::path& file) const;
+
+    /// What was found in it is not to be used. @throws InputError, which names it
+    [[noreturn]] void refuse_content(const std::string& why) const;
 
 private:
     explicit FileHandle(int descriptor, std::filesystem::path path);

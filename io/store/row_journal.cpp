@@ -84,8 +84,14 @@ RowJournal::Record RowJournal::append(FileHandle& file, Kind kind, std::span<con
 
 std::vector<std::byte> RowJournal::content(const FileHandle& file, const Record& record)
 {
+    Head head = {};
     std::vector<std::byte> bytes(record.size);
+    file.read(record.offset - sizeof head, std::as_writable_bytes(std::span(&head, 1)));
     file.read(record.offset, bytes);
+    if (head.size != record.size || head.crc != crc_of(head, bytes))
+        file.refuse_content(
+            "was changed by something else while it was in use; run the study again: it goes on with what is "
+            "left in the file");
     return bytes;
 }
 

@@ -45,7 +45,7 @@ public:
     /// Writes a record, and now and then waits until the disk has what was written.
     /// @throws std::system_error if it cannot be written: what is there stays
     Record append(FileHandle& file, Kind kind, std::span<const std::byte> content);
-    /// The content of a record again. @throws InputError if it is not there
+    /// The content of a record again. @throws InputError if it is not there, or not as it was
     static std::vector<std::byte> content(const FileHandle& file, const Record& record);
 
 private:

@@ -148,6 +148,25 @@ TEST_F(ResultStore, SurvivesBeingKilledWhileItIsFinished)
     EXPECT_LT(complete, 20) << "the kills must strike in the middle to show anything";
 }
 
+/// Rows that something else has cut off are not taken for rows: what comes behind them would stand in a gap of zeros.
+TEST_F(ResultStore, NoticesThatItWasCutUnderTheRun)
+{
+    auto writer = ResultWriter::create(file, sample_header(40));
+    const auto empty = fs::file_size(file);
+    add_rows(*writer, 0, 30);
+    fs::resize_file(file, empty + (fs::file_size(file) - empty) / 2);
+    add_rows(*writer, 30, 40);
+    expect_part(refusal([&] { writer->finish(nullptr); }), "was changed by something else");
+    writer.reset();
+    EXPECT_FALSE(fs::exists(file.string() + ".finishing"));
+    writer = ResultWriter::resume(file, sample_header(40));
+    EXPECT_GT(writer->rows(), 0U);
+    EXPECT_LT(writer->rows(), 16U) << "what was cut off is not there";
+    add_rows(*writer, 0, 40);
+    writer->finish(nullptr);
+    EXPECT_EQ(ResultReader(file).rows().size(), 40U);
+}
+
 TEST_F(ResultStore, HasOneWriterAtATime)
 {
     auto writer = ResultWriter::create(file, sample_header(10));

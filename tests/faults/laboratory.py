@@ -1,0 +1,127 @@
+"""Runs of the program that are disturbed, and what is seen of them."""
+
+import hashlib
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+SURFACE = {
+    "structure.blocks": "4",
+    "contact.normal_stiffness_n_m2": "4e6",
+    "contact.tangential_stiffness_n_m": "2e5",
+    "excitation.cycles": "4",
+    "surface.frequency_hz": "{from=4.0,to=8.0,count=4}",
+    "surface.pga_m_s2": "{from=4.0,to=25.0,count=4}",
+}
+
+# What is run of each kind of study: a second or so of one thread.
+STUDIES = {
+    "surface, rows": ("small_scale_column.toml", {**SURFACE, "study.realizations": "40"}),
+    "surface, counts": (
+        "small_scale_column.toml",
+        {**SURFACE, "study.realizations": "40", "output.realizations": "none"},
+    ),
+    "surface, adaptive": (
+        "small_scale_column_adaptive.toml",
+        {**SURFACE, "study.realizations": "64", "surface.frequency_hz": "{from=4.0,to=8.0,count=3}"},
+    ),
+    "single": ("free_rocking.toml", {"study.realizations": "24"}),
+    "twins": (
+        "twins_column.toml",
+        {
+            "study.realizations": "4",
+            "twins.followed": "2",
+            "run.max_invalid_fraction": "0.5",
+            "surface.frequency_hz": "{from=2.0,to=4.0,count=2}",
+            "surface.pga_m_s2": "{from=2.0,to=9.0,count=2}",
+        },
+    ),
+    "fragility": (
+        "fragility_column.toml",
+        {"study.realizations": "2", "fragility.motions": "8", "fragility.contacts": "1"},
+    ),
+    "sensitivity": ("sensitivity_column.toml", {"sensitivity.samples": "16"}),
+    "rare": ("rare_collapse.toml", {"rare.samples": "100"}),
+    "rigid blocks": ("rigid_column.toml", {"study.realizations": "2"}),
+}
+
+
+class Ended:
+    """How a run ended. `status` is negative where a signal ended it."""
+
+    def __init__(self, status, out, err, seconds):
+        self.status, self.out, self.err, self.seconds = status, out, err, seconds
+
+    def __str__(self):
+        return f"status {self.status}: {(self.err or self.out).strip()[-300:]}"
+
+
+class Laboratory:
+    """The program under test, in a folder of its own."""
+
+    def __init__(self, program, inputs, folder):
+        self.program, self.inputs = str(program), pathlib.Path(inputs)
+        self.folder = pathlib.Path(folder)
+        self.simd = [
+            name
+            for name in ("scalar", "avx2", "avx512", "neon")
+            if self.call(["info"]).out.split("\n")[1].split("(")[0].find(name) >= 0
+        ]
+
+    def words(self, study, results, more=()):
+        name, settings = STUDIES[study]
+        words = ["run", str(self.inputs / name), "-o", str(results), "--quiet", *more]
+        for key, value in settings.items():
+            words += ["--set", f"{key}={value}"]
+        return words
+
+    def start(self, words, environment=None, before=None, **streams):
+        return subprocess.Popen(
+            [self.program, *words],
+            cwd=self.folder,
+            env={**os.environ, **(environment or {})},
+            preexec_fn=before,
+            stdin=subprocess.DEVNULL,
+            stdout=streams.get("stdout", subprocess.PIPE),
+            stderr=streams.get("stderr", subprocess.PIPE),
+            text=True,
+            errors="replace",
+        )
+
+    def call(self, words, environment=None, before=None, patience_s=300, **streams):
+        """Runs the program to its end; one that hangs is killed, and its status is None."""
+        begin = time.monotonic()
+        process = self.start(words, environment, before, **streams)
+        try:
+            out, err = process.communicate(timeout=patience_s)
+            status = process.returncode
+        except subprocess.TimeoutExpired:
+            process.kill()
+            out, err = process.communicate()
+            status = None
+        return Ended(status, out or "", err or "", time.monotonic() - begin)
+
+    def killed(self, words, after_s):
+        """Starts it and kills it after a time. @returns whether it was killed, and had not ended before."""
+        process = self.start(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            process.wait(timeout=after_s)
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+        return process.wait() == -signal.SIGKILL
+
+    def path(self, name):
+        return self.folder / name
+
+    def remove(self, *names):
+        for name in names:
+            path = self.path(name)
+            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+
+
+def digest(path):
+    path = pathlib.Path(path)
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else None
