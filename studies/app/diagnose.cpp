@@ -58,6 +58,8 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     how.extension = beside / (stem + "_extended.toml");
     check_output(measured, output, options.force);
     check_output(measured, how.extension, options.force);
+    how.cache = beside / (stem + "_campaigns.txt");
+    check_cache(how);
     track_scales(campaign); // refuses data that cannot be diagnosed, before anything is touched
     {                       // refuses before the work is done, not after it
         const AtomicFile writable(output);
@@ -65,7 +67,6 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
 
     how.seed = static_cast<std::uint64_t>(wanted.seed);
     how.plan = EnsemblePlan::with(static_cast<std::uint64_t>(wanted.nulls));
-    how.cache = beside / (stem + "_campaigns.txt");
     how.run = {options.isa(), options.thread_count()};
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) {

@@ -455,9 +455,15 @@ void Pipeline::tell_method_and_cost()
 
 } // namespace
 
+void check_cache(const DiagnosisOptions& options)
+{
+    refuse_foreign_cache(options.cache);
+}
+
 std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, const DiagnosisOptions& options,
                                   const Tell& tell, Observer& observer)
 {
+    check_cache(options);
     return Pipeline(measured, start, options, tell, observer).run();
 }
 

@@ -29,6 +29,10 @@ struct DiagnosisOptions {
 /// Told what is being done, one line at a time.
 using Tell = std::function<void(const std::string&)>;
 
+/// @throws InputError if the file of the cache keeps something else. `diagnose` does so too, later than some callers
+/// want to know it
+void check_cache(const DiagnosisOptions& options);
+
 /// @param study contacts to begin with; its structure is replaced by the specimen's
 /// @return nothing if the observer stopped it: the simulated campaigns are kept in the cache, and the same call
 /// continues

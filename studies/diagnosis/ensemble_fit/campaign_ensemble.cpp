@@ -1,5 +1,6 @@
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 
@@ -12,6 +13,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 namespace stylobate {
 
@@ -62,11 +64,13 @@ bool read_line(const std::string& line, const RowShape& shape, SimulatedCampaign
     return true;
 }
 
+constexpr std::string_view head = "# stylobate simulated campaigns ";
+
 /// What a file of rows is of: another campaign, plan or version has another key.
 std::string key_of(const Campaign& measured, const Study& study, const std::vector<CandidateCause>& causes,
                    const std::vector<SizedCause>& known, const EnsemblePlan& plan, const CampaignStatistics& shown)
 {
-    std::string key = "# stylobate simulated campaigns " + campaign_key(measured, study, plan.seed) +
+    std::string key = std::string(head) + campaign_key(measured, study, plan.seed) +
                       fmt::format(" {} {} {} {} {} {} {}", plan.wide, plan.pairs, plan.rounds, plan.of_each_round,
                                   plan.parents, plan.nulls, plan.of_each_cause);
     for (const ContactForm form : plan.family.forms)
@@ -175,6 +179,18 @@ std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& ca
     const std::uint64_t rank = place / sides + 1;
     const double part = static_cast<double>(rank) / static_cast<double>(of_a_side);
     return {static_cast<int>(cause), (place % sides == 0 ? c.most : c.least) * part};
+}
+
+void refuse_foreign_cache(const std::filesystem::path& cache)
+{
+    std::ifstream in(cache);
+    std::string line;
+    std::getline(in, line);
+    // (of one that was cut there may be a part of the first line)
+    if (!line.empty() && !line.starts_with(head) && !head.starts_with(line))
+        throw InputError(cache.string(), 1,
+                         "keeps no simulated campaigns of a diagnosis, and nothing was written.\n  Remove it, or name "
+                         "another output.");
 }
 
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,

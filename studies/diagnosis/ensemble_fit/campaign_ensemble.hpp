@@ -70,6 +70,9 @@ using NumbersOf = std::vector<double> (*)(const std::vector<StatisticLabel>& lab
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,
                         const std::vector<SimulatedCampaign>& rows, NumbersOf numbers, double kept);
 
+/// @throws InputError if there is a file that keeps something else: it would be overwritten. Empty: no file
+void refuse_foreign_cache(const std::filesystem::path& cache);
+
 /// @param known    causes that act in every campaign: what direct tests found and no correction takes away
 /// @param shown    of the measured campaign
 /// @param cache    file that keeps the rows; empty: none

@@ -119,6 +119,13 @@ TEST_F(DiagnosisProgram, BadInputLeavesNothing)
     expect_refused({"diagnose", campaign(4), "--study", "absent.toml", "-o", "d.h5"}, {"absent.toml"});
     expect_refused({"diagnose", campaign(4), "-o", folder.string()}, {"Is a directory"});
 
+    // what is to keep the simulated campaigns is somebody's own
+    const std::string own = "my campaigns of last year\n";
+    write_bytes(folder / "d_campaigns.txt", own);
+    expect_refused({"diagnose", campaign(4), "-o", "d.h5", "--quiet"}, {"d_campaigns.txt", "keeps no simulated"});
+    EXPECT_EQ(read_bytes(folder / "d_campaigns.txt"), own);
+    fs::remove(folder / "d_campaigns.txt");
+
     // blocks of which x and y were measured, but not how they turn: no forces
     Campaign blind = sample_campaign();
     for (MeasuredRun& run : blind.runs)
