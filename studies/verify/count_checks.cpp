@@ -110,7 +110,7 @@ CountReplay::CountReplay(const Study& study, const ResultReader& reader, std::ui
             indices_.push_back(cell * each + k);
     indices_.insert(indices_.end(), singles_.begin(), singles_.end());
     std::ranges::sort(indices_);
-    indices_.erase(std::ranges::unique(indices_).begin(), indices_.end());
+    indices_.erase(std::unique(indices_.begin(), indices_.end()), indices_.end());
 }
 
 void CountReplay::take(const ResultRow& row)
