@@ -84,7 +84,8 @@ void compare_tables(const Table& stored, const Table& again, FileCheck& check)
             column.values);
     }
     for (const auto& [name, value] : again.attributes()) {
-        const auto found = std::ranges::find_if(stored.attributes(), [&](const auto& a) { return a.first == name; });
+        const auto found =
+            std::ranges::find(stored.attributes(), name, &std::pair<std::string, Table::Attribute>::first);
         const std::string where = fmt::format("attribute {} of {}", name, again.name());
         if (found == stored.attributes().end() || found->second.index() != value.index()) {
             check.add({where, std::nullopt, "nothing", "what the realizations make"});
