@@ -168,7 +168,7 @@ def campaign(lab, library, random, thorough, tell):
     wanted, size = undisturbed(lab)
     size //= 1024
     sizes = [size * i // (40 if thorough else 5) for i in range(1, 40 if thorough else 5)]
-    rows = failing_calls(lab, library, wanted, 200 if thorough else 4, tell)
+    rows = failing_calls(lab, library, wanted, 100 if thorough else 4, tell)
     full = full_disk(lab, wanted, sizes, tell)
     if full is None:
         tell("a full disk: skipped, no file system can be mounted here")

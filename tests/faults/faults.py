@@ -27,7 +27,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--library", type=pathlib.Path, required=True)
     parser.add_argument("--kills", type=int, default=27, help="in all (default: 27)")
-    parser.add_argument("--thorough", action="store_true", help="of each call on files up to 200 fail, not a few of them")
+    parser.add_argument("--thorough", action="store_true", help="of each call on files up to 100 fail, not a few of them")
     parser.add_argument("--only", choices=PARTS, help="one part alone")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--page", type=pathlib.Path, help="Markdown page to write the tables into")

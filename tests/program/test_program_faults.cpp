@@ -118,7 +118,8 @@ TEST_F(Faults, WrongCommandLines)
     write_results({"-o", "out.h5"});
     expect_refused(
         Words{},
-        {"command", "run, merge, check, replay, record, calibrate, diagnose, export, report, new, schema, info"});
+        {"command",
+         "run, merge, check, replay, verify-file, record, calibrate, diagnose, export, report, new, schema, info"});
     expect_refused({"rum", column_study}, {"'rum'", "Did you mean run"});
     expect_refused({"simulate"}, {"'simulate'"});
     expect_refused({"run"}, {"STUDY", "stylobate run --help"});
@@ -129,8 +130,8 @@ TEST_F(Faults, WrongCommandLines)
     expect_refused({"run", column_study, "--threads", "two"}, {"--threads", "two"});
     expect_refused({"run", column_study, "--backend", "gpu"}, {"--backend", "gpu", "cpu", "cuda"});
     expect_refused({"replay", "out.h5", "--realization", "0", "--backend", "cuda"}, {"--backend", "cuda", "cpu"});
-    expect_refused({"run", column_study, "--backend", "cuda", "--set", "run.precision=single"},
-                   {"--backend cuda", "precision"});
+    expect_refused({"run", STYLOBATE_SOURCE_DIR "/studies/inputs/twins_column.toml", "--backend", "cuda"},
+                   {"--backend cuda", "[twins]"});
     if (const CudaDevices gpus = cuda_devices(); gpus.names.empty())
         expect_refused({"run", column_study, "--backend", "cuda"}, {"--backend cuda", gpus.reason});
     expect_refused({"replay", "out.h5"}, {"--realization"});
