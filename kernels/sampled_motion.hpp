@@ -3,6 +3,9 @@
 /// realization, on the host and on a device.
 
 #include "kernels/bundle.hpp"
+#include "kernels/real.hpp"
+
+#include <cmath>
 
 namespace stylobate {
 

@@ -5,6 +5,8 @@
 #include "ensemble/engine/watch.hpp"
 #include "kernels/bundle.hpp"
 
+#include <initializer_list>
+
 namespace stylobate {
 
 namespace detail {
