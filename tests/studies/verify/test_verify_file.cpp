@@ -168,9 +168,9 @@ TEST_F(VerifyFile, FindsAnotherStudyThanTheText)
     alter(file, folder / "seed.h5", {.header = [](ResultHeader& header) { ++header.seed; }});
     EXPECT_EQ(check_of(verified(folder / "seed.h5"), "study").differences.at(0).where, "seed");
     alter(file, folder / "block.h5", {.header = [](ResultHeader& header) { header.block_names[0] += '!'; }});
-    const FileVerification block = verified(folder / "block.h5");
-    EXPECT_EQ(check_of(block, "study").differences.at(0).stored, "its blocks have other names") << text_of(block);
-    EXPECT_EQ(check_of(block, "replay").verdict, CheckVerdict::not_done);
+    const FileVerification renamed = verified(folder / "block.h5");
+    EXPECT_EQ(check_of(renamed, "study").differences.at(0).stored, "its blocks have other names") << text_of(renamed);
+    EXPECT_EQ(check_of(renamed, "replay").verdict, CheckVerdict::not_done);
 
     // the text changed in place, its checksum left, and the file sealed again
     std::string bytes = bytes_of(file);
