@@ -149,6 +149,10 @@ std::vector<T> read_whole(hid_t parent, const std::string& path, hid_t stored, h
     return values;
 }
 
+// Whether a data set or an attribute could not be closed since a file was opened: its last bytes were written then, and
+// a destructor cannot say so. Who closes the file says it.
+thread_local bool lost_write = false;
+
 } // namespace
 
 Handle& Handle::operator=(Handle&& other) noexcept
@@ -165,7 +169,8 @@ void Handle::reset() noexcept
 {
     if (id_ >= 0) {
         const Quiet quiet;
-        closer_(std::exchange(id_, H5I_INVALID_HID));
+        if (closer_(std::exchange(id_, H5I_INVALID_HID)) < 0)
+            lost_write = true;
     }
 }
 
@@ -173,10 +178,13 @@ void Handle::close()
 {
     const hid_t id = std::exchange(id_, H5I_INVALID_HID);
     call("cannot close", [&] { return closer_(id); });
+    if (std::exchange(lost_write, false))
+        throw Error("a part of it could not be written");
 }
 
 Handle create_file(const std::filesystem::path& file, std::uint64_t user_block)
 {
+    lost_write = false;
     const Handle access = file_access();
     const Handle creation = handle("no file creation list", H5Pclose, [] { return H5Pcreate(H5P_FILE_CREATE); });
     call("bad user block", [&] { return H5Pset_userblock(creation.id(), user_block); });
@@ -186,6 +194,7 @@ Handle create_file(const std::filesystem::path& file, std::uint64_t user_block)
 
 Handle open_file(const std::filesystem::path& file, bool writable)
 {
+    lost_write = false;
     const Handle access = file_access();
     return handle("cannot open as HDF5", H5Fclose,
                   [&] { return H5Fopen(file.c_str(), writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()); });

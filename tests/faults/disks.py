@@ -75,7 +75,6 @@ def full_disk(lab, wanted, sizes, tell):
             inside.__dict__ = {**lab.__dict__, "folder": disk}
             look(inside, case, ended, "disk.h5", wanted, f"{kib} KiB")
     finally:
-        os.chdir("/")
         subprocess.run(["umount", str(disk)], check=True)
         disk.rmdir()
     tell(f"{case.name}: {case.runs} sizes, {len(case.faults)} faults")

@@ -38,19 +38,18 @@ def main():
     with tempfile.TemporaryDirectory(prefix="faults-") as folder:
         lab = Laboratory(options.program.resolve(), SOURCE / "studies/inputs", folder)
         tell = lambda text: print(text, flush=True)
-        wanted = [options.only] if options.only else PARTS
-        if "kills" in wanted:
-            found["kills"] = kills.campaign(lab, options.kills, chance, tell)
-        for name, part in (("disks", disks), ("machines", machines)):
-            if name in wanted:
+        version, simd = lab.call(["--version"]).out.strip(), lab.simd[-1]
+        for name in [options.only] if options.only else PARTS:
+            if name == "kills":
+                found[name] = kills.campaign(lab, options.kills, chance, tell)
+            else:
+                part = {"disks": disks, "machines": machines}[name]
                 found[name] = part.campaign(lab, options.library.resolve(), chance, options.thorough, tell)
-        version = lab.call(["--version"]).out.strip()
-        processor = lab.simd[-1]
+            if options.page: # part by part: each takes minutes
+                page.write(options.page, {name: found[name]}, version, simd, options.seed)
     faults = [f"{row.get('study', row.get('case'))}: {fault}" for rows in found.values() for row in rows for fault in row["faults"]]
     for fault in faults:
         print(f"FAULT {fault}")
-    if options.page:
-        page.write(options.page, found, version, processor, options.seed)
     print(f"{len(faults)} faults")
     return 1 if faults else 0
 
