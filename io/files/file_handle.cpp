@@ -217,4 +217,15 @@ void rename_over(const std::filesystem::path& from, const std::filesystem::path&
     sync_folder(to);
 }
 
+void rename_over(const std::filesystem::path& from, const std::filesystem::path& to, const FileHandle& ours)
+{
+    if (!std::filesystem::exists(to) || ours.is_at(to))
+        return rename_over(from, to);
+    const std::string rescued = to.string() + ".rescued";
+    rename_over(from, rescued);
+    refuse(to, "another file has taken the place of the results while they were written. It is left as it is; the "
+               "results are in " +
+                   rescued + ".");
+}
+
 } // namespace stylobate

@@ -253,7 +253,7 @@ void ResultWriter::finish(const SurfaceTable* surface, const std::vector<Table>&
     opened.close();
     write_seal(made.handle, seal_bytes(made.layout.columns().size() + 1), made.places.extents(made.layout));
     made.handle.sync();
-    rename_over(unready, file.path);
+    rename_over(unready, file.path, file.handle);
     temporary.keep();
     made.path = file.path;
     file = std::move(made);

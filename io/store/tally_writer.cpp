@@ -52,7 +52,7 @@ struct TallyWriter::Impl {
         if (fresh)
             rename_new(unready, path);
         else
-            rename_over(unready, path);
+            rename_over(unready, path, handle);
         temporary.keep();
         handle = std::move(made);
         const Clock::time_point end = Clock::now();

@@ -1,6 +1,7 @@
 #include "studies/verify/row_checks.hpp"
 
 #include "io/store/result_layout.hpp"
+#include "studies/verify/compared.hpp"
 
 #include <fmt/format.h>
 
@@ -13,25 +14,6 @@
 namespace stylobate {
 
 namespace {
-
-template <class Value>
-std::string shown(const Value& value)
-{
-    if constexpr (std::is_enum_v<Value>)
-        return to_string(value);
-    else
-        return fmt::format("{}", value);
-}
-
-bool same_value(double a, double b)
-{
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-template <class Value>
-bool same_value(const Value& a, const Value& b)
-{
-    return a == b;
-}
 
 /// Numbers of a row that may be negative; all others may not.
 bool may_be_negative(std::string_view path)

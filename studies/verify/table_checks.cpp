@@ -1,33 +1,16 @@
 #include "studies/verify/table_checks.hpp"
 
+#include "studies/verify/compared.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <type_traits>
 #include <variant>
 
 namespace stylobate {
 
 namespace {
-
-template <class Value>
-bool equal_bits(const Value& a, const Value& b)
-{
-    if constexpr (std::is_same_v<Value, double>)
-        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-    else
-        return a == b;
-}
-
-template <class Value>
-std::string as_text(const Value& value)
-{
-    if constexpr (std::is_enum_v<Value>)
-        return to_string(value);
-    else
-        return fmt::format("{}", value);
-}
 
 template <class Value>
 void compare_lists(const std::string& where, const std::vector<Value>& stored, const std::vector<Value>& again,
@@ -38,15 +21,15 @@ void compare_lists(const std::string& where, const std::vector<Value>& stored, c
             {where, std::nullopt, fmt::format("{} values", stored.size()), fmt::format("{} values", again.size())});
     else
         for (std::size_t i = 0; i < stored.size(); ++i)
-            if (!equal_bits(stored[i], again[i]))
-                check.add({fmt::format("{}[{}]", where, i), std::nullopt, as_text(stored[i]), as_text(again[i])});
+            if (!same_value(stored[i], again[i]))
+                check.add({fmt::format("{}[{}]", where, i), std::nullopt, shown(stored[i]), shown(again[i])});
 }
 
 template <class Value>
 void compare_values(const std::string& where, const Value& stored, const Value& again, FileCheck& check)
 {
-    if (!equal_bits(stored, again))
-        check.add({where, std::nullopt, as_text(stored), as_text(again)});
+    if (!same_value(stored, again))
+        check.add({where, std::nullopt, shown(stored), shown(again)});
 }
 
 } // namespace

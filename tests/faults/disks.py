@@ -131,8 +131,10 @@ def under_the_run(lab, wanted, random, times, tell):
                 case.refused += 1
                 if process.returncode < 0 or sum(l.startswith("stylobate:") for l in err.splitlines()) != 1:
                     case.faults.append(f"status {process.returncode}: {err.strip()[:300]}")
-                if name.startswith("replaced") and path.read_bytes() != foreign:
-                    case.faults.append("the other file was written into")
+                rescued = path.with_name("disk.h5.rescued")
+                if name.startswith("replaced") and (path.read_bytes() != foreign or digest(rescued) != wanted):
+                    case.faults.append("the other file is not as it was, or the results are not beside it")
+                rescued.unlink(missing_ok=True)
             if name.startswith("cut") and process.returncode != 0:
                 again = lab.call(lab.words(STUDY, "disk.h5"))
                 if (again.status != 0 or digest(path) != wanted) and not (again.status == 2 and "disk.h5" in again.err):

@@ -167,6 +167,20 @@ TEST_F(ResultStore, NoticesThatItWasCutUnderTheRun)
     EXPECT_EQ(ResultReader(file).rows().size(), 40U);
 }
 
+/// A file of somebody else at the path of the results is not written over.
+TEST_F(ResultStore, LeavesAFileThatHasTakenItsPlace)
+{
+    const auto writer = ResultWriter::create(file, sample_header(20));
+    add_rows(*writer, 0, 20);
+    const fs::path rescued = file.string() + ".rescued";
+    std::ofstream(rescued.string() + ".other") << "somebody's own";
+    fs::rename(rescued.string() + ".other", file);
+    expect_part(refusal([&] { writer->finish(nullptr); }), "another file has taken the place");
+    EXPECT_EQ(contents(file), "somebody's own");
+    EXPECT_EQ(ResultReader(rescued).rows().size(), 20U);
+    fs::remove(rescued);
+}
+
 TEST_F(ResultStore, HasOneWriterAtATime)
 {
     auto writer = ResultWriter::create(file, sample_header(10));

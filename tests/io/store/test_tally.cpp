@@ -372,6 +372,21 @@ TEST_F(TallyStore, IsReadWhileItIsReplaced)
     ::waitpid(child, nullptr, 0);
 }
 
+/// Counts replace their file again and again: never one of somebody else.
+TEST_F(TallyStore, LeavesAFileThatHasTakenItsPlace)
+{
+    const auto writer = TallyWriter::create(file, tally_header(20));
+    for (std::uint64_t i = 0; i < 10; ++i)
+        writer->add(entry(i));
+    writer->flush();
+    const fs::path rescued = file.string() + ".rescued";
+    std::ofstream(folder / "other") << "somebody's own";
+    fs::rename(folder / "other", file);
+    expect_part(refusal([&] { writer->flush(); }), "another file has taken the place");
+    EXPECT_EQ(contents(file), "somebody's own");
+    EXPECT_EQ(ResultReader(rescued).done(), 10U);
+}
+
 TEST_F(TallyStore, AFileOfABillionIsSmall)
 {
     const std::uint64_t billion = 1'000'000'000;

@@ -3,6 +3,7 @@
 /// right: what a wrong program, and no damage, would leave.
 
 #include "ensemble/engine/executor.hpp"
+#include "io/files/temporary_folder.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"
@@ -15,7 +16,6 @@
 #include <functional>
 #include <iterator>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace stylobate {
@@ -25,17 +25,9 @@ namespace fs = std::filesystem;
 /// A folder of its own for each test, gone afterwards.
 class MadeResults : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        std::string name = (fs::temp_directory_path() / "stylobate-verify-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-        file = (folder / "results.h5").string();
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    fs::path folder;
-    std::string file;
+    const TemporaryFolder own;
+    const fs::path folder = own.path();
+    std::string file = (folder / "results.h5").string();
 };
 
 inline LoadedStudy ready_study(const std::string& input, const std::vector<std::string>& settings)
