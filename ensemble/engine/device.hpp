@@ -52,8 +52,12 @@ struct CudaDevices {
 };
 CudaDevices cuda_devices();
 
-/// Queues of all of them: two for each, so that one computes while the host serves the other.
+/// Which devices of a machine one of the processes there takes, so that each is used and none of them does without.
+/// @param local_rank of the process, 0 .. local_size - 1
+std::vector<int> devices_of_rank(int devices, int local_rank, int local_size);
+
+/// Queues of those that this process takes: two for each, so that one computes while the host serves the other.
 /// @throws InputError if there is no device
-std::vector<std::shared_ptr<Device>> open_cuda_devices();
+std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank = 0, int local_size = 1);
 
 } // namespace stylobate

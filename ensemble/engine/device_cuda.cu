@@ -169,7 +169,7 @@ CudaDevices cuda_devices()
     return found;
 }
 
-std::vector<std::shared_ptr<Device>> open_cuda_devices()
+std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank, int local_size)
 {
     std::string reason;
     const int count = count_devices(reason);
@@ -177,7 +177,7 @@ std::vector<std::shared_ptr<Device>> open_cuda_devices()
         throw InputError("--backend cuda: " + reason);
     std::vector<std::shared_ptr<Device>> queues;
     for (int half = 0; half < 2; ++half)
-        for (int device = 0; device < count; ++device)
+        for (const int device : devices_of_rank(count, local_rank, local_size))
             queues.push_back(std::make_shared<CudaQueue>(device));
     return queues;
 }

@@ -163,8 +163,12 @@ private:
         active_chunks_ += static_cast<std::uint64_t>(active);
     }
 
-    /// Realizations that were to be run at the beginning.
-    std::uint64_t left() const { return places_.size() - std::min(places_.size(), before_); }
+    /// Realizations that were to be run here at the beginning, about.
+    std::uint64_t left() const
+    {
+        const std::uint64_t all = places_.size() - std::min(places_.size(), before_);
+        return all / static_cast<std::uint64_t>(plan_.processes);
+    }
 
     Realization realize(std::uint64_t index) const
     {
@@ -173,13 +177,15 @@ private:
 
     std::optional<std::uint64_t> next()
     {
+        // without the lock: it may wait for another process
+        std::optional<std::uint64_t> place = plan_.next_place ? plan_.next_place() : std::nullopt;
         const std::lock_guard lock(mutex_);
-        while (next_ < places_.end && plan_.done.has(next_))
-            ++next_;
-        if (next_ >= places_.end || stopped_)
+        if (!plan_.next_place)
+            place = plan_.next_undone(next_, places_.end);
+        if (!place || stopped_)
             return std::nullopt;
-        const std::uint64_t index = plan_.index(order_.index(next_));
-        running_.emplace(index, next_++);
+        const std::uint64_t index = plan_.index(order_.index(*place));
+        running_.emplace(index, *place);
         return index;
     }
 

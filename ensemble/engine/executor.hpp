@@ -2,6 +2,7 @@
 /// Many realizations: every core steps bundles, and a lane whose realization has ended takes the next one.
 
 #include "ensemble/engine/device.hpp"
+#include "ensemble/ranks/ranks.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"
@@ -26,6 +27,11 @@ struct RunOptions {
     /// `threads` threads where realizations begin and end.
     std::vector<std::shared_ptr<Device>> devices{};
     int slots = 0; ///< of each of them; 0: as many as it likes
+    /// The processes that run the same together; null: this one is alone. `run_ensemble` knows nothing of them: who
+    /// calls it shares out what is to be run.
+    Ranks* ranks = nullptr;
+
+    bool leads() const { return !ranks || ranks->leads(); }
 };
 
 /// What is left to do, and where results go.
@@ -39,12 +45,23 @@ struct RunPlan {
     /// The study that the realizations are stepped as, which must be the experiment's but for what a step needs
     /// (`TwinRange`); null: the experiment's own.
     const Study* as = nullptr;
+    /// The next place to run, of those that this process and others share; called from several threads at once, may
+    /// wait. Empty: those of the shard that are not done, in their order.
+    std::function<std::optional<std::uint64_t>()> next_place{};
+    int processes = 1; ///< that share the places
     /// A realization by its index; called from several threads at once. Empty: the sampler's.
     std::function<Realization(std::uint64_t index)> realize;
     /// Takes the results. Called from one thread at a time, in any order of the indices.
     std::function<void(const Realization&, const Outcome&)> sink;
 
     std::uint64_t index(std::uint64_t number) const { return indices.empty() ? number : indices[number]; }
+    /// The first place from `next` on that is not done; `next` is then behind it. Nothing: there is none before `end`.
+    std::optional<std::uint64_t> next_undone(std::uint64_t& next, std::uint64_t end) const
+    {
+        while (next < end && done.has(next))
+            ++next;
+        return next < end ? std::optional(next++) : std::nullopt;
+    }
     /// Marks what of the shard has been done before. @param state of an index: an optional `State`
     template <class StateOf>
     void mark_done(const StateOf& state)

@@ -17,6 +17,7 @@ class Stylobate(CMakePackage):
 
     variant("python", default=False, description="Build the Python module")
     variant("cuda", default=False, description="Build the GPU backend")
+    variant("mpi", default=True, description="Processes that share a run (run --mpi)")
 
     depends_on("cxx", type="build")
     depends_on("c", type="build")
@@ -38,6 +39,7 @@ class Stylobate(CMakePackage):
     depends_on("gnuplot", type="run")
 
     depends_on("cuda@12:", when="+cuda")
+    depends_on("mpi", when="+mpi")
     extends("python", when="+python")
     depends_on("python@3.9:", type=("build", "run"), when="+python")
     depends_on("py-pybind11@2.10:", type="build", when="+python")
@@ -50,6 +52,7 @@ class Stylobate(CMakePackage):
             self.define("STYLOBATE_TESTS", False),
             self.define("STYLOBATE_BENCH", False),
             self.define("STYLOBATE_PYTHON", "ON" if self.spec.satisfies("+python") else "OFF"),
+            self.define("STYLOBATE_MPI", "ON" if self.spec.satisfies("+mpi") else "OFF"),
             self.define("STYLOBATE_CUDA", "ON" if self.spec.satisfies("+cuda") else "OFF"),
         ]
         if self.spec.satisfies("+python"):

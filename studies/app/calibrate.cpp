@@ -9,11 +9,13 @@
 #include "studies/calibration/calibration_data.hpp"
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/calibration/calibration_text.hpp"
+#include "studies/cluster/together.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace stylobate {
 
@@ -51,32 +53,43 @@ private:
 
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted)
 {
-    check_kind(measured, "calibrate");
-    check_option_kind(wanted.study, FileKind::study, "--study");
     const std::filesystem::path given = std::filesystem::path(measured);
     const std::string stem = (given.has_stem() ? given : given.parent_path()).stem().string(); // of a folder too
     const std::string results = wanted.output.empty() ? stem + "_calibration.h5" : wanted.output;
     const std::string calibrated =
         wanted.output.empty() ? stem + "_calibrated.toml"
                               : std::filesystem::path(results).replace_extension().string() + "_calibrated.toml";
-    const CalibrationData data(given);
-    const Study start = wanted.study.empty() ? data.default_start(options.set) : read_study(wanted.study, options.set);
-    demand_double(start, wanted.study.empty() ? "--set" : wanted.study, "a calibration");
+    std::optional<CalibrationData> data;
+    Study start;
     CalibrationOptions search;
-    search.keys = fitted_keys(start, wanted.fit, wanted.hold);
-    search.forms = fitted_forms(wanted.forms);
+    RunOptions run;
+    together(options.ranks, [&] { // before anything is written
+        check_kind(measured, "calibrate");
+        check_option_kind(wanted.study, FileKind::study, "--study");
+        data.emplace(given);
+        start = wanted.study.empty() ? data->default_start(options.set) : read_study(wanted.study, options.set);
+        demand_double(start, wanted.study.empty() ? "--set" : wanted.study, "a calibration");
+        search.keys = fitted_keys(start, wanted.fit, wanted.hold);
+        search.forms = fitted_forms(wanted.forms);
+        run = options.run_options();
+        if (run.leads()) {
+            check_output(measured, results, options.force);
+            check_output(measured, calibrated, options.force);
+        }
+    });
     search.outcomes = wanted.outcomes;
     search.held_out = wanted.held_out;
-    const RunOptions run{options.isa(), options.thread_count()};
-    // before the work is done, not after it, it is known that both can be written
-    check_output(measured, results, options.force);
-    check_output(measured, calibrated, options.force);
+    if (!run.leads()) { // predicts what rank 0 asks for
+        Console silent(true);
+        data->calibrated(start, search, run, silent);
+        return exit_done;
+    }
     AtomicFile study_file(calibrated), results_file(results);
     search.kept = std::filesystem::path(results).replace_extension().string() + "_sets.bin";
-    search.kept_key = data.key();
+    search.kept_key = data->key();
     CalibrationConsole console(options.quiet);
     search.stage = [&](const std::string& what) { console.stage(what); };
-    const Calibration found = data.calibrated(start, search, run, console);
+    const Calibration found = data->calibrated(start, search, run, console);
     if (!found.complete) {
         if (!options.quiet)
             say(fmt::format(

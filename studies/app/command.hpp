@@ -22,7 +22,8 @@ struct CommonOptions {
     std::string backend = "cpu";
     bool quiet = false;
     bool json = false;
-    bool force = false; ///< replace files that are there
+    bool force = false;     ///< replace files that are there
+    Ranks* ranks = nullptr; ///< the processes that run the verb together; null: this one is alone
 
     /// @throws InputError if the instruction set is unknown, or if this machine lacks it
     Isa isa() const;
@@ -110,7 +111,8 @@ int report_command(const CommonOptions& options, const std::string& file, const 
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,
                      std::string output, const DiagnoseOptions& wanted);
 /// @param file measured data, outcomes or results; empty: about the program
-int info_command(const CommonOptions& options, const std::string& file);
+/// @param mpi of this program; empty: none
+int info_command(const CommonOptions& options, const std::string& file, const std::string& mpi);
 /// @param output the study file; empty: KIND.toml
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page

@@ -26,14 +26,15 @@ Isa CommonOptions::isa() const
 
 int CommonOptions::thread_count() const
 {
-    return threads > 0 ? threads : tbb::info::default_concurrency();
+    return threads > 0 ? threads : std::max(1, tbb::info::default_concurrency() / (ranks ? ranks->sharing() : 1));
 }
 
 RunOptions CommonOptions::run_options() const
 {
     RunOptions options{isa(), thread_count()};
     if (backend == "cuda")
-        options.devices = open_cuda_devices();
+        options.devices = ranks ? open_cuda_devices(ranks->local_rank(), ranks->local_size()) : open_cuda_devices();
+    options.ranks = ranks;
     return options;
 }
 

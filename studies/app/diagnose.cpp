@@ -9,6 +9,7 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration.hpp"
+#include "studies/cluster/together.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_json.hpp"
@@ -43,31 +44,41 @@ std::string shell_word(const std::string& word)
 int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study_file,
                      std::string output, const DiagnoseOptions& wanted)
 {
-    check_kind(measured, "diagnose");
-    check_option_kind(study_file, FileKind::study, "--study");
-    const Campaign campaign = read_campaign(measured);
-    const Study study = study_file.empty() ? parse_study(default_study(campaign).text,
-                                                         "the default start study of a diagnosis", options.set)
-                                           : read_study(study_file, options.set);
-    demand_double(study, study_file.empty() ? "--set" : study_file, "a diagnosis");
     if (output.empty())
         output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
     const std::filesystem::path beside = std::filesystem::path(output).parent_path();
     const std::string stem = std::filesystem::path(output).stem().string();
     DiagnosisOptions how;
     how.extension = beside / (stem + "_extended.toml");
-    check_output(measured, output, options.force);
-    check_output(measured, how.extension, options.force);
     how.cache = beside / (stem + "_campaigns.txt");
-    check_cache(how);
-    track_scales(campaign); // refuses data that cannot be diagnosed, before anything is touched
-    {                       // refuses before the work is done, not after it
-        const AtomicFile writable(output);
-    }
-
     how.seed = static_cast<std::uint64_t>(wanted.seed);
     how.plan = EnsemblePlan::with(static_cast<std::uint64_t>(wanted.nulls));
-    how.run = {options.isa(), options.thread_count()};
+    Campaign campaign;
+    Study study;
+    together(options.ranks, [&] { // before anything is written
+        check_kind(measured, "diagnose");
+        check_option_kind(study_file, FileKind::study, "--study");
+        campaign = read_campaign(measured);
+        study = study_file.empty()
+                    ? parse_study(default_study(campaign).text, "the default start study of a diagnosis", options.set)
+                    : read_study(study_file, options.set);
+        demand_double(study, study_file.empty() ? "--set" : study_file, "a diagnosis");
+        how.run = options.run_options();
+        track_scales(campaign); // refuses data that cannot be diagnosed
+        if (how.run.leads()) {
+            check_output(measured, output, options.force);
+            check_output(measured, how.extension, options.force);
+            check_cache(how);
+            const AtomicFile writable(output);
+        }
+    });
+    if (!how.run.leads()) { // simulates its part of the campaigns; what follows from them rank 0 says
+        Console silent(true);
+        return diagnose(
+                   campaign, study, how, [](const std::string&) {}, silent)
+                   ? exit_done
+                   : exit_interrupted;
+    }
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) {
         if (!options.quiet)

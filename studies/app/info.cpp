@@ -10,7 +10,7 @@
 
 namespace stylobate {
 
-int info_command(const CommonOptions& options, const std::string& file)
+int info_command(const CommonOptions& options, const std::string& file, const std::string& mpi)
 {
     if (!file.empty()) {
         print_file(options, file);
@@ -30,7 +30,8 @@ int info_command(const CommonOptions& options, const std::string& file)
                                .member("threads", options.thread_count())
                                .member("gpu", !gpus.names.empty())
                                .member("gpus", Json::list(gpus.names))
-                               .member("mpi", false)
+                               .member("mpi", !mpi.empty())
+                               .member("mpi_library", mpi)
                                .text());
         return exit_done;
     }
@@ -44,7 +45,7 @@ int info_command(const CommonOptions& options, const std::string& file)
         fmt::print("GPU: {}\n", name);
     if (gpus.names.empty())
         fmt::print("GPU: none ({})\n", gpus.reason);
-    fmt::print("MPI: not in this version\n");
+    fmt::print("MPI: {}\n", mpi.empty() ? "none (this program was built without it)" : mpi);
     return exit_done;
 }
 

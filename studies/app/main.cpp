@@ -6,6 +6,8 @@
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
+#include "studies/cluster/mpi_ranks.hpp"
+#include "studies/cluster/together.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/results/kept_animations.hpp"
 #include "studies/usage/bash_completion.hpp"
@@ -18,12 +20,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fcntl.h>
+#include <memory>
+#include <string>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 using namespace stylobate;
@@ -36,6 +42,29 @@ void add_set(CLI::App& verb, CommonOptions& options)
         ->type_name("KEY=VALUE")
         ->take_all()
         ->allow_extra_args(false);
+}
+
+/// Says an error. Names in it come from files, and a terminal obeys control characters.
+void say_error(std::string message)
+{
+    std::ranges::replace_if(
+        message,
+        [](char c) {
+            return c != '\n' && c != '\t' && begins_with_control({&c, 1});
+        },
+        '?');
+    say(fmt::format("stylobate: {}\n", message));
+}
+
+/// Ends all ranks after an error of this one, for which the others would wait. What all of them find rank 0 says: the
+/// others give it the time to.
+[[noreturn]] void end_ranks(Ranks& ranks, const std::string& message, int status)
+{
+    if (!ranks.leads())
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+    say_error(message);
+    ranks.abort(status);
+    std::_Exit(status);
 }
 
 /// @param backends where the verb can compute
@@ -181,7 +210,40 @@ private:
             ->type_name("K/N");
         add_set(*run, options_);
         add_common(*run, options_, {"cpu", "cuda"});
-        run->callback([this] { status_ = run_command(options_, file_, output_, shard_); });
+        add_mpi(*run)->excludes("--shard");
+        run->callback([this] { on_ranks([this] { return run_command(options_, file_, output_, shard_); }); });
+    }
+
+    CLI::Option* add_mpi(CLI::App& verb)
+    {
+        return verb.add_flag("--mpi", mpi_,
+                             "share the work among the processes of `mpirun -n N stylobate ... --mpi`; --threads is "
+                             "that of each");
+    }
+
+    /// Does a verb by all ranks where that is asked for: one message and one exit status.
+    template <class F>
+    void on_ranks(const F& verb)
+    {
+        if (!mpi_) {
+            status_ = verb();
+            return;
+        }
+        const std::unique_ptr<Ranks> ranks = mpi_ranks();
+        options_.ranks = ranks.get();
+        try {
+            status_ = verb();
+        } catch (const AllRefused& refused) {
+            if (ranks->leads())
+                say_error(refused.what());
+            status_ = exit_bad_input;
+        } catch (const InputError& error) {
+            end_ranks(*ranks, error.what(), exit_bad_input);
+        } catch (const std::exception& error) {
+            end_ranks(*ranks, error.what(), exit_failed);
+        }
+        options_.ranks = nullptr;
+        status_ = std::stoi(ranks->of_first(std::to_string(status_)));
     }
 
     void add_merge()
@@ -284,9 +346,10 @@ private:
         add_force(*calibrate, options_);
         add_set(*calibrate, options_);
         add_common(*calibrate, options_);
+        add_mpi(*calibrate);
         calibrate->callback([this] {
             calibration_.held_out = !keep_all_;
-            status_ = calibrate_command(options_, file_, calibration_);
+            on_ranks([this] { return calibrate_command(options_, file_, calibration_); });
         });
     }
 
@@ -312,7 +375,9 @@ private:
         add_force(*diagnosing, options_);
         add_set(*diagnosing, options_);
         add_common(*diagnosing, options_);
-        diagnosing->callback([this] { status_ = diagnose_command(options_, file_, study_, output_, diagnosis_); });
+        add_mpi(*diagnosing);
+        diagnosing->callback(
+            [this] { on_ranks([this] { return diagnose_command(options_, file_, study_, output_, diagnosis_); }); });
     }
 
     void add_export()
@@ -434,7 +499,7 @@ private:
                          "folder), measured outcomes (CSV), a record");
         add_set(*info, options_);
         add_common(*info, options_);
-        info->callback([this] { status_ = info_command(options_, file_); });
+        info->callback([this] { status_ = info_command(options_, file_, mpi_library()); });
     }
 
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
@@ -447,7 +512,7 @@ private:
     RealizationChoice choice_;
     std::vector<std::string> files_;
     std::string shard_;
-    bool partial_ = false;
+    bool partial_ = false, mpi_ = false;
     std::string unit_, component_, block_;
     CalibrateOptions calibration_;
     bool keep_all_ = false;
@@ -458,18 +523,11 @@ private:
     ReportOptions report_;
 };
 
-/// Ends with a message on standard error; names in it come from files, and a terminal obeys control characters. Nothing
-/// runs at the exit: a file that could not be written whole is still open in the HDF5 library, which would write it
-/// again and break.
-[[noreturn]] void end_with(std::string message, int status)
+/// Ends with a message on standard error. Nothing runs at the exit: a file that could not be written whole is still
+/// open in the HDF5 library, which would write it again and break.
+[[noreturn]] void end_with(const std::string& message, int status)
 {
-    std::ranges::replace_if(
-        message,
-        [](char c) {
-            return c != '\n' && c != '\t' && begins_with_control({&c, 1});
-        },
-        '?');
-    say(fmt::format("stylobate: {}\n", message));
+    say_error(message);
     std::fflush(stdout);
     std::_Exit(status);
 }

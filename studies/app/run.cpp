@@ -10,17 +10,19 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/app/run_report.hpp"
+#include "studies/cluster/shard_files.hpp"
+#include "studies/cluster/together.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"
 #include "studies/results/run_study.hpp"
-#include "studies/results/shard_files.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 
 namespace stylobate {
@@ -72,53 +74,91 @@ int report_finished(const CommonOptions& options, const std::string& results, co
     return report_run(options, {results, study, kind, progress, run, true});
 }
 
+/// What is known of a run before anything is written.
+struct Prepared {
+    Prepared(const CommonOptions& options, const std::string& study, const Shard& shard)
+        : loaded(LoadedStudy::from_file(study, options.set)), header(loaded.result_header())
+    {
+        header.shard = shard;
+        kind = make_kind(loaded.study(), header);
+    }
+
+    const LoadedStudy loaded;
+    ResultHeader header;
+    std::unique_ptr<Kind> kind;
+    std::vector<std::string> warnings;
+    std::string notice;
+    RunOptions run;
+    std::string file; ///< of the results: "begun", or "finished" where nothing is left to run; empty: there is none
+};
+
+/// @throws InputError if the study cannot be run so
+std::unique_ptr<Prepared> prepare(const CommonOptions& options, const std::string& study, const std::string& results,
+                                  const std::string& shard_text)
+{
+    check_kind(study, "run");
+    check_option_kind(results, FileKind::results, "-o");
+    const Shard shard = shard_of(shard_text);
+    auto all = std::make_unique<Prepared>(options, study, shard);
+    Kind& kind = *all->kind;
+    if (const std::string why = kind.why_no_shards(); !shard.whole() && !why.empty())
+        throw InputError(fmt::format("--shard {}: {} {}. Run it without --shard.", shard.text(), study, why));
+    if (const std::string why = kind.why_no_ranks(); options.ranks && !why.empty())
+        throw InputError(fmt::format("--mpi: {} {}. Run it without --mpi.", study, why));
+    if (const std::string why = kind.needs_processor(); options.backend == "cuda" && !why.empty())
+        throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, why));
+    all->warnings = all->loaded.warnings(study);
+    all->notice = kind.prepare(all->loaded.experiment(), study);
+    all->run = options.run_options();
+    if (all->run.leads() && std::filesystem::exists(results))
+        all->file = ResultWriter::is_finished(results, all->header) ? "finished" : "begun";
+    return all;
+}
+
 } // namespace
 
 int run_command(const CommonOptions& options, const std::string& study, std::string results,
                 const std::string& shard_text)
 {
-    const Shard shard = shard_of(shard_text);
     if (results.empty())
-        results = default_results(study, shard);
-    check_kind(study, "run");
-    check_option_kind(results, FileKind::results, "-o");
-    const LoadedStudy loaded = LoadedStudy::from_file(study, options.set);
-    ResultHeader header = loaded.result_header();
-    header.shard = shard;
-    const std::unique_ptr<Kind> kind = make_kind(loaded.study(), header);
-    if (const std::string why = kind->why_no_shards(); !shard.whole() && !why.empty())
-        throw InputError(fmt::format("--shard {}: {} {}. Run it without --shard.", shard.text(), study, why));
-    if (const std::string why = kind->needs_processor(); options.backend == "cuda" && !why.empty())
-        throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, why));
-    const std::vector<std::string> warnings = loaded.warnings(study);
-    const std::string notice = kind->prepare(loaded.experiment(), study);
-    const RunOptions run = options.run_options();
-    const bool found = std::filesystem::exists(results);
-    if (!found) // else it has been done before the file was made
-        check_realizations(loaded.sampler(), *kind, shard);
-    else if (ResultWriter::is_finished(results, header))
-        return report_finished(options, results, loaded.study(), run, *kind);
+        results = default_results(study, shard_of(shard_text));
+    std::unique_ptr<Prepared> prepared;
+    together(options.ranks, [&] { prepared = prepare(options, study, results, shard_text); });
+    const LoadedStudy& loaded = prepared->loaded;
+    Kind& kind = *prepared->kind;
+    const RunOptions& run = prepared->run;
+    const Shard shard = prepared->header.shard;
+    const std::string file = run.ranks ? run.ranks->of_first(prepared->file) : prepared->file;
+    if (file == "finished")
+        return run.leads() ? report_finished(options, results, loaded.study(), run, kind) : exit_done;
+    if (file.empty()) // else it has been done before the file was made; each rank looks at a part
+        together(run.ranks,
+                 [&] { check_realizations(loaded.sampler(), kind, run.ranks ? part_of(*run.ranks) : shard); });
 
     std::unique_ptr<RunStore> store;
     StudyRun ran;
     {
-        Console console(options.quiet); // from here on an interrupt leaves a file that can be continued
-        store = open_store(results, header, found);
-        for (const std::string& warning : warnings) // now that nothing is refused any more
-            console.warn(warning);
-        if (!options.quiet && !notice.empty())
-            say(notice + "\n");
-        store->give_to(*kind);
-        ran = run_study(loaded.experiment(), *kind, *store, run, console, shard);
+        Console console(options.quiet || !run.leads()); // from here on an interrupt leaves a file to be continued
+        together(options.ranks,
+                 [&] { store = run.leads() ? open_store(results, prepared->header, !file.empty()) : no_store(); });
+        if (run.leads()) // now that nothing is refused any more
+            for (const std::string& warning : prepared->warnings)
+                console.warn(warning);
+        if (run.leads() && !options.quiet && !prepared->notice.empty())
+            say(prepared->notice + "\n");
+        store->give_to(kind);
+        ran = run_study(loaded.experiment(), kind, *store, run, console, shard);
     }
+    if (!run.leads())
+        return ran.complete ? exit_done : exit_interrupted;
     if (ran.complete && shard.whole()) {
-        kind->conclude();
-        store->finish(*kind);
+        kind.conclude();
+        store->finish(kind);
     } else {
         store->flush();
     }
     store.reset();
-    return report_run(options, {results, loaded.study(), *kind, ran.progress, run, ran.complete, shard});
+    return report_run(options, {results, loaded.study(), kind, ran.progress, run, ran.complete, shard});
 }
 
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,

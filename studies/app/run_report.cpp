@@ -34,6 +34,8 @@ void print_json(const CommonOptions& options, const RunReport& r)
         .member("backend", options.backend)
         .member("simd", to_string(r.run.isa))
         .member("threads", r.run.threads);
+    if (r.run.ranks)
+        json.member("ranks", static_cast<std::uint64_t>(r.run.ranks->size()));
     if (!r.shard.whole())
         json.member("shard", r.shard.text()).member("shard_complete", r.complete);
     if (r.kind.draws_plainly())
@@ -50,7 +52,8 @@ void print_text(const RunReport& r)
                p.open_end ? "" : fmt::format(" of {}", p.total), r.shard.whole() ? "" : " of shard " + r.shard.text(),
                p.collapsed, p.invalid);
     if (p.seconds > 0)
-        fmt::print("; {} with {} threads of {}, {} realizations/s", duration_text(p.seconds), r.run.threads,
+        fmt::print("; {} with {}{} threads of {}, {} realizations/s", duration_text(p.seconds),
+                   r.run.ranks ? fmt::format("{} ranks of ", r.run.ranks->size()) : "", r.run.threads,
                    r.run.devices.empty() ? to_string(r.run.isa) : "the host and " + r.run.devices.front()->name(),
                    rate_text(p.rate));
     fmt::print("\n");

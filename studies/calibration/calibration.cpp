@@ -7,6 +7,7 @@
 #include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/calibration_search.hpp"
 #include "studies/calibration/kept_evidence.hpp"
+#include "studies/calibration/shared_evidence.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/version.hpp"
 #include "studies/windows/quietly.hpp"
@@ -266,6 +267,10 @@ void search_and_keep(Calibration& result, Begin begin, const CalibrationOptions&
                      std::unique_ptr<CalibrationEvidence> evidence, const std::vector<CalibrationRun>& all,
                      const RunOptions& run, Observer& observer)
 {
+    if (!run.leads())
+        return serve_evidence(*run.ranks, *evidence, run, observer);
+    if (run.ranks)
+        evidence = std::make_unique<SharedEvidence>(std::move(evidence), *run.ranks);
     if (options.kept.empty()) {
         search_forms(result, std::move(begin), options, *evidence, all, run, observer);
         return;

@@ -24,17 +24,22 @@ public:
     const std::vector<std::size_t>& runs() const override { return runs_; }
     std::size_t candidates() const override { return residuals_.size(); }
 
-    bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) override
+    std::optional<Predictions> predict(const std::vector<Study>& candidates, const RunOptions& options,
+                                       Observer& observer) override
     {
         std::vector<ModelVariant> variants;
         for (const Study& study : candidates)
             variants.push_back({{}, study, {}, {}});
-        std::vector<WindowResiduals> z = comparison_.residuals(variants, options, observer);
+        const std::vector<WindowResiduals> z = comparison_.residuals(variants, options, observer);
         if (z.size() != candidates.size())
-            return false;
-        std::move(z.begin(), z.end(), std::back_inserter(residuals_));
-        scales_.resize(residuals_.size());
-        return true;
+            return std::nullopt;
+        Predictions all;
+        for (const WindowResiduals& windows : z) {
+            std::vector<double>& one = all.emplace_back();
+            for (const std::vector<double>& window : windows)
+                one.insert(one.end(), window.begin(), window.end());
+        }
+        return all;
     }
 
     std::vector<double> own_scores(std::size_t candidate, const std::vector<std::size_t>& used) const override
@@ -54,15 +59,7 @@ public:
         return {comparison_.simulations(), comparison_.window_simulations(), comparison_.block_steps()};
     }
 
-    std::vector<double> prediction(std::size_t candidate) const override
-    {
-        std::vector<double> all;
-        for (const std::vector<double>& window : residuals_[candidate])
-            all.insert(all.end(), window.begin(), window.end());
-        return all;
-    }
-
-    bool take(const std::vector<std::vector<double>>& predictions) override
+    bool take(const Predictions& predictions) override
     {
         std::size_t length = 0;
         for (std::size_t w = 0; w < runs_.size(); ++w)
@@ -103,9 +100,10 @@ public:
     const std::vector<std::size_t>& runs() const override { return runs_; }
     std::size_t candidates() const override { return scores_.size(); }
 
-    bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) override
+    std::optional<Predictions> predict(const std::vector<Study>& candidates, const RunOptions& options,
+                                       Observer& observer) override
     {
-        std::vector<std::vector<double>> all;
+        Predictions all;
         Quietly quietly(observer);
         for (const Study& candidate : candidates) {
             std::vector<double> share; // of falls, by shaking
@@ -132,7 +130,7 @@ public:
                 };
                 const Progress p = run_ensemble(experiment, options, plan, quietly);
                 if (p.done < plan.total)
-                    return false;
+                    return std::nullopt;
                 cost_.simulations += plan.total;
                 // the mean of the posterior of Jeffreys' prior: a small ensemble never excludes an outcome
                 share.push_back((static_cast<double>(collapsed) + 0.5) / (static_cast<double>(valid) + 1));
@@ -142,8 +140,7 @@ public:
                 scores.push_back(std::log(test.collapsed ? share[test.shaking] : 1 - share[test.shaking]));
             all.push_back(std::move(scores));
         }
-        std::move(all.begin(), all.end(), std::back_inserter(scores_));
-        return true;
+        return all;
     }
 
     std::vector<double> own_scores(std::size_t candidate, const std::vector<std::size_t>&) const override
@@ -152,8 +149,7 @@ public:
     }
     std::vector<double> scores(std::size_t candidate, std::size_t) const override { return scores_[candidate]; }
     EvidenceCost cost() const override { return cost_; }
-    std::vector<double> prediction(std::size_t candidate) const override { return scores_[candidate]; }
-    bool take(const std::vector<std::vector<double>>& predictions) override
+    bool take(const Predictions& predictions) override
     {
         for (const std::vector<double>& scores : predictions)
             if (scores.size() != runs_.size())

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -18,7 +19,23 @@ struct EvidenceCost {
     std::uint64_t simulations = 0; ///< runs along the measurement, or realizations
     std::uint64_t window_simulations = 0;
     std::uint64_t block_steps = 0;
+
+    EvidenceCost& operator+=(const EvidenceCost& other)
+    {
+        simulations += other.simulations;
+        window_simulations += other.window_simulations;
+        block_steps += other.block_steps;
+        return *this;
+    }
+    EvidenceCost operator-(const EvidenceCost& other) const
+    {
+        return {simulations - other.simulations, window_simulations - other.window_simulations,
+                block_steps - other.block_steps};
+    }
 };
+
+/// Of some studies, one after the other.
+using Predictions = std::vector<std::vector<double>>;
 
 /// Candidates are added, and kept with what they predict; their scores are asked for as often as needed.
 class CalibrationEvidence {
@@ -32,7 +49,14 @@ public:
     virtual std::size_t candidates() const = 0;
 
     /// Predicts with each study. @return false if the observer stopped it: then none was added
-    virtual bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) = 0;
+    virtual bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer)
+    {
+        const std::optional<Predictions> made = predict(candidates, options, observer);
+        return made && take(*made);
+    }
+    /// What each study predicts, as numbers from which all its scores follow. Nothing: the observer stopped it
+    virtual std::optional<Predictions> predict(const std::vector<Study>& candidates, const RunOptions& options,
+                                               Observer& observer) = 0;
 
     /// (units) scores of a candidate by its own scales, fitted to the runs that are `used` (of the campaign; empty:
     /// all).
@@ -42,11 +66,9 @@ public:
 
     virtual EvidenceCost cost() const = 0;
 
-    /// What a candidate was predicted with, as numbers from which all its scores follow.
-    virtual std::vector<double> prediction(std::size_t candidate) const = 0;
     /// Adds candidates whose predictions are known. @return false if these are none of this evidence: then none is
     /// added
-    virtual bool take(const std::vector<std::vector<double>>& predictions) = 0;
+    virtual bool take(const Predictions& predictions) = 0;
     /// How many candidates were taken from what an interrupted calibration has left.
     virtual std::size_t restored() const { return 0; }
 };

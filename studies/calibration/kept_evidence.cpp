@@ -23,7 +23,7 @@ constexpr std::uint64_t longest = std::uint64_t{1} << 30;
 /// One portion of parameter sets.
 struct Portion {
     std::string studies; ///< texts of all of them
-    std::vector<std::vector<double>> predictions;
+    Predictions predictions;
     EvidenceCost cost;
 };
 
@@ -183,33 +183,29 @@ std::size_t KeptEvidence::candidates() const
 
 bool KeptEvidence::add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer)
 {
-    const std::string studies = texts_of(candidates);
-    const auto found = file_->portions.find(studies);
+    const auto found = file_->portions.find(texts_of(candidates));
     if (found != file_->portions.end() && inner_->take(found->second.predictions)) {
         file_->restored += candidates.size();
-        file_->restored_cost.simulations += found->second.cost.simulations;
-        file_->restored_cost.window_simulations += found->second.cost.window_simulations;
-        file_->restored_cost.block_steps += found->second.cost.block_steps;
+        file_->restored_cost += found->second.cost;
         return true;
     }
+    return CalibrationEvidence::add(candidates, options, observer);
+}
+
+std::optional<Predictions> KeptEvidence::predict(const std::vector<Study>& candidates, const RunOptions& options,
+                                                 Observer& observer)
+{
     const EvidenceCost before = inner_->cost();
-    const std::size_t first = inner_->candidates();
-    if (!inner_->add(candidates, options, observer))
-        return false;
-    const EvidenceCost after = inner_->cost();
-    Portion portion{studies,
-                    {},
-                    {after.simulations - before.simulations, after.window_simulations - before.window_simulations,
-                     after.block_steps - before.block_steps}};
-    for (std::size_t i = first; i < inner_->candidates(); ++i)
-        portion.predictions.push_back(inner_->prediction(i));
-    const std::string bytes = bytes_of(portion);
+    std::optional<Predictions> made = inner_->predict(candidates, options, observer);
+    if (!made)
+        return made;
+    const std::string bytes = bytes_of({texts_of(candidates), *made, inner_->cost() - before});
     const RecordHead record{bytes.size(), crc_of(bytes)};
     std::string whole;
     put(whole, &record, sizeof record);
     file_->write(whole + bytes);
     file_->sets += candidates.size();
-    return true;
+    return made;
 }
 
 std::vector<double> KeptEvidence::own_scores(std::size_t candidate, const std::vector<std::size_t>& used) const
@@ -225,18 +221,10 @@ std::vector<double> KeptEvidence::scores(std::size_t candidate, std::size_t scal
 EvidenceCost KeptEvidence::cost() const
 {
     EvidenceCost cost = inner_->cost();
-    cost.simulations += file_->restored_cost.simulations;
-    cost.window_simulations += file_->restored_cost.window_simulations;
-    cost.block_steps += file_->restored_cost.block_steps;
-    return cost;
+    return cost += file_->restored_cost;
 }
 
-std::vector<double> KeptEvidence::prediction(std::size_t candidate) const
-{
-    return inner_->prediction(candidate);
-}
-
-bool KeptEvidence::take(const std::vector<std::vector<double>>& predictions)
+bool KeptEvidence::take(const Predictions& predictions)
 {
     return inner_->take(predictions);
 }

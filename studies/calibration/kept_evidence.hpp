@@ -23,11 +23,12 @@ public:
     const std::vector<std::size_t>& runs() const override;
     std::size_t candidates() const override;
     bool add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer) override;
+    std::optional<Predictions> predict(const std::vector<Study>& candidates, const RunOptions& options,
+                                       Observer& observer) override;
     std::vector<double> own_scores(std::size_t candidate, const std::vector<std::size_t>& used) const override;
     std::vector<double> scores(std::size_t candidate, std::size_t scales_of) const override;
     EvidenceCost cost() const override;
-    std::vector<double> prediction(std::size_t candidate) const override;
-    bool take(const std::vector<std::vector<double>>& predictions) override;
+    bool take(const Predictions& predictions) override;
     std::size_t restored() const override;
 
     /// Parameter sets that the file holds.

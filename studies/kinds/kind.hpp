@@ -72,6 +72,8 @@ public:
     virtual std::uint64_t drawn_first() const { return study_.total(); }
     /// Why the study cannot be run in parts, each without the others; empty: it can.
     virtual std::string why_no_shards() const { return {}; }
+    /// Why the realizations cannot be shared out to several processes while they run; empty: they can.
+    virtual std::string why_no_ranks() const { return {}; }
     /// How many realizations a shard has.
     virtual std::uint64_t size_of(const Shard& shard) const { return RunOrder(study_.total()).places(shard).size(); }
     /// What keeps the study from being stepped on a device: "has [twins], ..."; empty: nothing does.
@@ -118,6 +120,7 @@ public:
     /// Counts over all trials. @param complete whether these are all of the study
     Json limits_json() const;
     const LimitCounts& counts() const { return counts_; }
+    const ResultHeader& header() const { return header_; }
     /// @throws InputError if there are no such cells. @param results for messages
     virtual ChosenCells choose(const CellChoice& choice, const std::string& results) const;
     /// How cells are chosen on the command line: "--frequency and --pga"; empty: there are none.

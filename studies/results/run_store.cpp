@@ -17,6 +17,7 @@ public:
     {
         writer_->for_each_row([&](const ResultRow& row) { kind.add(row); });
     }
+    void for_each_row(const std::function<void(const ResultRow&)>& f) const override { writer_->for_each_row(f); }
     void add(const ResultRow& row) override { writer_->add(row); }
     void add(const Trajectory& trajectory) override { writer_->add(trajectory); }
     using RunStore::add;
@@ -48,7 +49,23 @@ private:
     std::unique_ptr<TallyWriter> writer_;
 };
 
+class NoStore : public RunStore {
+public:
+    std::optional<State> state(std::uint64_t) const override { return std::nullopt; }
+    void give_to(Kind&) const override {}
+    void add(const ResultRow&) override {}
+    void add(const Trajectory&) override {}
+    using RunStore::add;
+    void finish(const Kind&) override {}
+    void flush() override {}
+};
+
 } // namespace
+
+std::unique_ptr<RunStore> no_store()
+{
+    return std::make_unique<NoStore>();
+}
 
 void RunStore::add(const ResultReader& other)
 {

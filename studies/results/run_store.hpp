@@ -5,6 +5,7 @@
 #include "io/store/result_store.hpp"
 #include "studies/kinds/kind.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ public:
     virtual const DoneSet* counted() const { return nullptr; }
     /// Gives the kind what is there: all rows, or the counts.
     virtual void give_to(Kind& kind) const = 0;
+    /// All rows that are there; none of counts.
+    virtual void for_each_row(const std::function<void(const ResultRow&)>&) const {}
     virtual void add(const ResultRow& row) = 0;
     virtual void add(const Trajectory& trajectory) = 0;
     /// Takes what another file of the study has. @pre none of it is there already
@@ -34,5 +37,8 @@ public:
 /// @param found whether the file is there and is to be continued
 /// @throws InputError as `ResultWriter` and `TallyWriter` do
 std::unique_ptr<RunStore> open_store(const std::string& file, const ResultHeader& header, bool found);
+
+/// Of a process that gives its rows to another one: it keeps nothing.
+std::unique_ptr<RunStore> no_store();
 
 } // namespace stylobate

@@ -1,6 +1,7 @@
 #include "studies/results/run_study.hpp"
 
 #include "studies/experiment/trajectory.hpp"
+#include "studies/cluster/shared_round.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -54,8 +55,13 @@ class Runner : public Rounds {
 public:
     Runner(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options, Observer& observer,
            const Shard& shard)
-        : Rounds(experiment, options, observer, shard), kind_(kind), store_(store)
+        : Rounds(experiment, options, observer, shard), kind_(kind), store_(store),
+          heard_(!kind.why_no_shards().empty())
     {
+        if (options.ranks && heard_) // what an earlier part of the run has left
+            share_rows(
+                *options.ranks, kind.header(), [&](const auto& take_row) { store.for_each_row(take_row); },
+                [&](const ResultRow& row) { kind.add(row); });
     }
 
     bool run(const Round& round) override
@@ -69,7 +75,7 @@ public:
         plan.realize = round.realize;
         if (store_.counted())
             plan.done = *store_.counted();
-        else
+        else if (options.leads())
             plan.mark_done([&](std::uint64_t index) { return store_.state(index); });
         plan.sink = [&](const Realization& realization, const Outcome& outcome) {
             take(result_row(study, realization, outcome));
@@ -81,7 +87,10 @@ public:
         const DoneSet::Part before = plan.done.all();
         Progress part{.done = before.end, .collapsed = before.collapsed, .invalid = before.invalid};
         RoundObserver observed(observer, progress, round.fair);
-        if (before.end < size)
+        if (options.ranks)
+            part = run_on_ranks(
+                experiment, options, plan, kind_.header(), heard_, [&](const ResultRow& row) { take(row); }, observed);
+        else if (before.end < size)
             part = run_ensemble(experiment, options, plan, observed);
         else if (round.fair)
             estimate_share(part, before.end - before.invalid, before.collapsed);
@@ -99,6 +108,8 @@ public:
         const RunOrder order(total);
         const RunOrder::Places places = order.places(shard);
         progress.total = places.size();
+        if (!options.leads())
+            return true;
         FollowPlan plan;
         plan.recorded = kept_trajectories;
         for (std::uint64_t index = 0; index < total; ++index) {
@@ -158,6 +169,7 @@ private:
 
     Kind& kind_;
     RunStore& store_;
+    const bool heard_; ///< by all ranks: what the rounds are depends on what became of the rows
 };
 
 } // namespace

@@ -1,26 +1,34 @@
-"""SIGKILL at random moments, over all kinds of studies: the file is readable after every kill, and the run that goes on
-with other threads and instruction sets has the bytes of one that was left alone."""
+"""SIGKILL at random moments, over all kinds of studies, of one process or of some of four ranks: the file is readable
+after every kill, and the run that goes on with other threads and instruction sets has the bytes of one that was left
+alone."""
 
-from laboratory import STUDIES, digest
+from laboratory import STUDIES, WITHOUT_RANKS, digest
+
+RANKS = 4
 
 
-def kill_study(lab, study, kills, random):
-    """Runs a study again and again, killed several times on its way, until there were so many kills."""
+def kill_study(lab, study, ranks, kills, random):
+    """Runs a study again and again, killed several times on its way, until there were so many kills.
+    @param ranks that run it; 1: a process without MPI"""
     whole, broken = "whole.h5", "broken.h5"
     lab.remove(whole, broken)
     first = lab.call(lab.words(study, whole, ["--threads", "1"]))
     if first.status != 0:
         raise RuntimeError(f"{study} does not run: {first}")
     wanted = digest(lab.path(whole))
-    row = {"study": study, "kills": 0, "runs": 0, "before the file": 0, "faults": []}
+    name = study if ranks == 1 else f"{study}, {ranks} ranks"
+    row = {"study": name, "kills": 0, "runs": 0, "before the file": 0, "faults": []}
     while row["kills"] < kills:
         lab.remove(broken)
         row["runs"] += 1
-        left = first.seconds
+        left = first.seconds + (1 if ranks > 1 else 0) # ranks take that long to meet
         while True:
             threads, simd = str(random.choice([1, 2, 3])), random.choice(lab.simd)
             words = lab.words(study, broken, ["--threads", threads, "--simd", simd])
-            if row["kills"] == kills or not lab.killed(words, random.uniform(0, left)):
+            if row["kills"] == kills:
+                break
+            after_s = random.uniform(0, left)
+            if not (lab.killed(words, after_s) if ranks == 1 else lab.killed_ranks(ranks, words, after_s, random)):
                 break
             row["kills"] += 1
             if not lab.path(broken).exists():
@@ -38,9 +46,12 @@ def kill_study(lab, study, kills, random):
 
 
 def campaign(lab, kills, random, tell):
+    ways = [(study, 1) for study in STUDIES]
+    if lab.has_ranks():
+        ways += [(study, RANKS) for study in STUDIES if study not in WITHOUT_RANKS]
     rows = []
-    for i, study in enumerate(STUDIES):
-        share = kills // len(STUDIES) + (i < kills % len(STUDIES))
-        rows.append(kill_study(lab, study, share, random))
-        tell(f"{study}: {rows[-1]['kills']} kills, {len(rows[-1]['faults'])} faults")
+    for i, (study, ranks) in enumerate(ways):
+        share = kills // len(ways) + (i < kills % len(ways))
+        rows.append(kill_study(lab, study, ranks, share, random))
+        tell(f"{rows[-1]['study']}: {rows[-1]['kills']} kills, {len(rows[-1]['faults'])} faults")
     return rows

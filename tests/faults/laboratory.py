@@ -48,6 +48,8 @@ STUDIES = {
     "rigid blocks": ("rigid_column.toml", {"study.realizations": "2"}),
 }
 
+WITHOUT_RANKS = ["single"]  # what `--mpi` refuses
+
 
 class Ended:
     """How a run ended. `status` is negative where a signal ended it."""
@@ -112,6 +114,33 @@ class Laboratory:
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGKILL)
         return process.wait() == -signal.SIGKILL
+
+    def has_ranks(self):
+        told = self.call(["info"]).out
+        return "MPI: none" not in told and shutil.which("mpirun") is not None
+
+    def killed_ranks(self, ranks, words, after_s, random):
+        """The same by several processes, of which one or all are killed; with one of them `mpirun` ends the others."""
+        process = subprocess.Popen(
+            ["mpirun", "--oversubscribe", "-n", str(ranks), self.program, *words, "--mpi"],
+            cwd=self.folder,
+            env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        killed = False
+        try:
+            process.wait(timeout=after_s)
+        except subprocess.TimeoutExpired:
+            children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+            for child in children if random.random() < 0.5 else random.sample(children, min(1, len(children))):
+                try:
+                    os.kill(int(child), signal.SIGKILL)
+                    killed = True
+                except ProcessLookupError:
+                    pass
+        return process.wait() != 0 and killed
 
     def path(self, name):
         return self.folder / name

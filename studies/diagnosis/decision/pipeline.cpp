@@ -101,7 +101,7 @@ std::optional<Diagnosis> Pipeline::run()
     say_what_is_read();
     test_base_and_sensors();
     balance_forces();
-    if (!simulate_windows() || !simulate_campaigns())
+    if (!all_agree(options_.run.ranks, simulate_windows()) || !simulate_campaigns())
         return std::nullopt;
     reach_verdict();
     if (observer_.stop_requested())

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -85,6 +86,52 @@ std::string key_of(const Campaign& measured, const Study& study, const std::vect
         for (const double value : *values)
             key += fmt::format(" {:.17g}", value);
     return key;
+}
+
+/// The campaigns that are simulated next, and by several processes those of them that this one simulates.
+struct Portion {
+    /// @param ranks null: this process is alone
+    Portion(const Ranks* ranks, std::uint64_t begin, std::uint64_t end)
+    {
+        const std::uint64_t rank = ranks ? static_cast<std::uint64_t>(ranks->rank()) : 0;
+        const std::uint64_t size = ranks ? static_cast<std::uint64_t>(ranks->size()) : 1;
+        const std::uint64_t all = std::min(together * size, end - begin);
+        first = begin + all * rank / size;
+        count = begin + all * (rank + 1) / size - first;
+    }
+    std::uint64_t first = 0, count = 0;
+};
+
+/// Gives every rank what each has simulated.
+/// @param lines of this one; afterwards of all
+std::vector<SimulatedCampaign> of_all_ranks(Ranks& ranks, std::string& lines, const RowShape& shape)
+{
+    std::vector<SimulatedCampaign> rows;
+    std::string all;
+    for (const std::string& text : ranks.of_all(lines)) {
+        all += text;
+        std::istringstream in(text);
+        SimulatedCampaign campaign;
+        for (std::string line; std::getline(in, line);)
+            if (read_line(line, shape, campaign))
+                rows.push_back(campaign);
+    }
+    lines = std::move(all);
+    return rows;
+}
+
+/// Makes the cost that of all ranks.
+void add_costs(Ranks& ranks, CampaignEnsemble& out)
+{
+    const std::vector<std::string> costs = ranks.of_all(fmt::format("{} {}", out.simulations, out.block_steps));
+    out.simulations = out.block_steps = 0;
+    for (const std::string& text : costs) {
+        std::istringstream numbers(text);
+        std::uint64_t simulations = 0, block_steps = 0;
+        numbers >> simulations >> block_steps;
+        out.simulations += simulations;
+        out.block_steps += block_steps;
+    }
 }
 
 /// The healthy laws of an ensemble, round by round nearer to the measured one.
@@ -215,60 +262,67 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     const ScorePlan scored = score_plan(measured.specimen, scales);
     const std::uint64_t total = plan.total(causes.size());
     const std::string key = key_of(measured, study, causes, known, plan, shown);
-    std::string text = key + "\n";
-    if (!cache.empty()) {
-        const RowShape shape{shown.descriptors.size(), labels.size(), scored.size()};
-        std::ifstream in(cache);
-        std::string line;
-        SimulatedCampaign campaign;
-        if (std::getline(in, line) && line == key)
-            while (out.campaigns.size() < total && std::getline(in, line) && !in.eof() && // one without its end is cut
-                   read_line(line, shape, campaign) && campaign.number == out.campaigns.size()) {
-                out.campaigns.push_back(campaign);
-                text += line + "\n";
-            }
-        out.cached = out.campaigns.size();
+    const RowShape shape{shown.descriptors.size(), labels.size(), scored.size()};
+    std::string kept;
+    if (options.leads() && !cache.empty()) {
+        std::ifstream in(cache, std::ios::binary);
+        kept.assign(std::istreambuf_iterator<char>(in), {});
     }
+    std::istringstream in(options.ranks ? options.ranks->of_first(kept) : std::move(kept));
+    std::string text = key + "\n", line;
+    if (std::getline(in, line) && line == key)
+        for (SimulatedCampaign campaign;
+             out.campaigns.size() < total && std::getline(in, line) && !in.eof() && // one without its end is cut
+             read_line(line, shape, campaign) && campaign.number == out.campaigns.size();
+             text += line + "\n")
+            out.campaigns.push_back(campaign);
+    out.cached = out.campaigns.size();
     LikeLaws laws(plan, labels, shown);
     const VirtualLaboratory laboratory(measured);
     progress(out.campaigns.size(), total);
     while (out.campaigns.size() < total) {
         const std::uint64_t first = out.campaigns.size(), round = plan.round(first);
         const std::uint64_t end = round > plan.rounds ? total : plan.begin_of(round + 1);
-        const std::uint64_t count = std::min(together, end - first);
+        const Portion portion(options.ranks, first, end);
         HealthyScatter scatter;
-        std::vector<std::vector<SizedCause>> acting(count, known);
-        for (std::uint64_t i = 0; i < count; ++i) {
-            scatter.laws.push_back(laws.of(first + i, out.campaigns));
-            if (const auto [cause, z] = plan.label(causes, first + i); cause >= 0) {
+        std::vector<std::vector<SizedCause>> acting(portion.count, known);
+        for (std::uint64_t i = 0; i < portion.count; ++i) {
+            scatter.laws.push_back(laws.of(portion.first + i, out.campaigns));
+            if (const auto [cause, z] = plan.label(causes, portion.first + i); cause >= 0) {
                 const CandidateCause& candidate = causes[static_cast<std::size_t>(cause)];
                 acting[i].push_back({candidate.cause, candidate.size_of(z)});
             }
         }
-        const VirtualCampaigns made =
-            virtual_campaigns(laboratory, study, plan.seed, first, count, scatter, acting, options, observer);
+        const VirtualCampaigns made = virtual_campaigns(laboratory, study, plan.seed, portion.first, portion.count,
+                                                        scatter, acting, options, observer);
         out.simulations += made.simulations;
         out.block_steps += made.block_steps;
-        if (!made.complete)
+        if (!all_agree(options.ranks, made.complete))
             return out;
-        std::vector<SimulatedCampaign> rows(count);
+        std::vector<SimulatedCampaign> rows(portion.count);
         tbb::task_arena(options.threads).execute([&] {
-            tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
+            tbb::parallel_for(std::uint64_t{0}, portion.count, [&](std::uint64_t i) {
                 SimulatedCampaign& row = rows[i];
-                row.number = first + i;
-                std::tie(row.cause, row.z) = plan.label(causes, first + i);
+                row.number = portion.first + i;
+                std::tie(row.cause, row.z) = plan.label(causes, portion.first + i);
                 row.numbers = statistics_of(made.campaigns[i], scales, made.base_m);
                 row.scores = balance_scores(fit_balance(made.campaigns[i], scales, made.base_m), scored);
             });
         });
-        for (SimulatedCampaign& row : rows) {
-            text += line_of(row) + "\n";
+        std::string lines;
+        for (const SimulatedCampaign& row : rows)
+            lines += line_of(row) + "\n";
+        if (options.ranks)
+            rows = of_all_ranks(*options.ranks, lines, shape);
+        for (SimulatedCampaign& row : rows)
             out.campaigns.push_back(std::move(row));
-        }
-        if (!cache.empty())
+        text += lines;
+        if (options.leads() && !cache.empty())
             write_whole(cache, text);
         progress(out.campaigns.size(), total);
     }
+    if (options.ranks)
+        add_costs(*options.ranks, out);
     out.distance = laws.distances(out.campaigns);
     out.complete = true;
     return out;

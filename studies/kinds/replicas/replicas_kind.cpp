@@ -26,7 +26,7 @@ bool ReplicasKind::plan(Rounds& rounds)
         if (!rounds.run({.indices = indices, .as = &range.study, .fair = range.begin == 0}))
             return false;
     }
-    if (!rounds.shard.whole())
+    if (!rounds.shard.whole() || !rounds.options.leads())
         return true; // pairs are followed where all are there
     followed_ = follow_twins(rounds.experiment, rounds.options, rounds.observer);
     return !rounds.observer.stop_requested();

@@ -15,6 +15,10 @@ public:
     {
         return "is of kind \"single\", whose realizations are followed step by step on the processor";
     }
+    std::string why_no_ranks() const override
+    {
+        return "is of kind \"single\", whose realizations are followed step by step in one process";
+    }
     std::string prepare(const Experiment& experiment, const std::string& file) override
     {
         kept_ = plan_trajectories(experiment, file);

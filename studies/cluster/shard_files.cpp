@@ -1,4 +1,4 @@
-#include "studies/results/shard_files.hpp"
+#include "studies/cluster/shard_files.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -1,0 +1,42 @@
+#pragma once
+/// What several processes do together at the command line: one message where all would say the same, one exit status.
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/shard.hpp"
+#include "ensemble/ranks/ranks.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace stylobate {
+
+/// All ranks have been refused by what one of them found in the input.
+struct AllRefused : std::runtime_error {
+    using runtime_error::runtime_error;
+};
+
+/// Does what may be refused, on all ranks.
+/// @param ranks null: this process is alone
+/// @throws AllRefused on every rank, if f threw an InputError on any; alone, what f throws
+template <class F>
+void together(Ranks* ranks, const F& f)
+{
+    if (!ranks)
+        return f();
+    std::string refusal;
+    try {
+        f();
+    } catch (const InputError& error) {
+        refusal = error.what();
+    }
+    if (const std::string first = first_said(*ranks, refusal); !first.empty())
+        throw AllRefused(first);
+}
+
+/// The part of what is done once that falls to this rank.
+inline Shard part_of(const Ranks& ranks)
+{
+    return {static_cast<std::uint64_t>(ranks.rank()) + 1, static_cast<std::uint64_t>(ranks.size())};
+}
+
+} // namespace stylobate

@@ -1,0 +1,191 @@
+/// Numbers that are dealt out to ranks, with ranks that are threads.
+
+#include "ensemble/engine/device.hpp"
+#include "ensemble/ranks/deal.hpp"
+#include "tests/ensemble/ranks/thread_ranks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace stylobate {
+namespace {
+
+using test::ThreadRanks;
+
+/// 0 .. count - 1, once.
+Deal::Stock stock_of(std::uint64_t count, std::uint64_t& next)
+{
+    return {[&next, count]() -> std::optional<std::uint64_t> {
+                return next < count ? std::optional(next++) : std::nullopt;
+            },
+            count};
+}
+
+TEST(Deal, GivesEachNumberToOneRankAndRankZeroAllThatComesOfThem)
+{
+    for (const int size : {1, 2, 5}) {
+        constexpr std::uint64_t count = 1000;
+        std::uint64_t next = 0;
+        std::set<std::uint64_t> own;       // that rank 0 had
+        std::multiset<std::string> others; // what the others gave
+        std::atomic<std::uint64_t> dealt = 0;
+        ThreadRanks(size).run([&](Ranks& ranks) {
+            Deal deal(ranks, stock_of(count, next), 2, [&](std::string_view content) { others.emplace(content); });
+            std::vector<std::thread> threads;
+            std::mutex mutex;
+            for (int thread = 0; thread < 3; ++thread)
+                threads.emplace_back([&] {
+                    while (const std::optional<std::uint64_t> number = deal.next()) {
+                        ++dealt;
+                        const std::lock_guard lock(mutex);
+                        if (ranks.leads())
+                            own.insert(*number);
+                        else
+                            deal.give(std::to_string(*number));
+                    }
+                });
+            for (std::thread& thread : threads)
+                thread.join();
+            EXPECT_TRUE(deal.finish());
+        });
+        EXPECT_EQ(dealt, count) << size << " ranks";
+        std::set<std::uint64_t> all = own;
+        for (const std::string& text : others) {
+            std::uint64_t number = 0;
+            std::from_chars(text.data(), text.data() + text.size(), number);
+            EXPECT_TRUE(all.insert(number).second) << number << " came twice";
+        }
+        EXPECT_EQ(all.size(), count);
+        EXPECT_EQ(*all.rbegin(), count - 1);
+    }
+}
+
+TEST(Deal, DealsOneRoundAfterTheOther)
+{
+    std::map<std::uint64_t, int> taken;
+    ThreadRanks(3).run([&](Ranks& ranks) {
+        for (std::uint64_t round = 0; round < 20; ++round) {
+            std::uint64_t next = 0;
+            Deal deal(ranks, stock_of(7, next), 1, [&](std::string_view) { ++taken[round]; });
+            while (const std::optional<std::uint64_t> number = deal.next())
+                if (!ranks.leads())
+                    deal.give("x");
+            EXPECT_TRUE(deal.finish());
+            const std::vector<std::string> said = ranks.of_all(std::to_string(round));
+            EXPECT_EQ(std::count(said.begin(), said.end(), std::to_string(round)), 3);
+        }
+    });
+    for (const auto& [round, count] : taken)
+        EXPECT_LE(count, 7);
+}
+
+/// A rank that waits until the others have done all else holds the numbers that it has, and no more.
+TEST(Deal, ARankThatIsSlowGetsLess)
+{
+    constexpr std::uint64_t count = 800;
+    std::uint64_t next = 0;
+    std::atomic<std::uint64_t> by_slow = 0, by_others = 0;
+    ThreadRanks(3).run([&](Ranks& ranks) {
+        Deal deal(ranks, stock_of(count, next), 2, [](std::string_view) {});
+        const bool slow = ranks.rank() == 2;
+        while (const std::optional<std::uint64_t> number = deal.next()) {
+            ++(slow ? by_slow : by_others);
+            if (slow) // as slow as the others need for all but what may be in its hand
+                while (by_others < count - 3 * Deal::portion(count, 3))
+                    std::this_thread::yield();
+        }
+        EXPECT_TRUE(deal.finish());
+    });
+    EXPECT_EQ(by_slow + by_others, count);
+    EXPECT_LE(by_slow, 3 * Deal::portion(count, 3));
+}
+
+TEST(Deal, AnyRankStopsAllOfThem)
+{
+    for (const int who : {0, 1, 2}) {
+        std::uint64_t next = 0;
+        std::atomic<std::uint64_t> dealt = 0;
+        std::atomic<int> complete = 0;
+        ThreadRanks(3).run([&](Ranks& ranks) {
+            Deal deal(ranks, stock_of(1'000'000'000, next), 2, [](std::string_view) {});
+            while (const std::optional<std::uint64_t> number = deal.next())
+                if (++dealt > 500 && ranks.rank() == who)
+                    deal.stop();
+            complete += deal.finish();
+        });
+        EXPECT_EQ(complete, 0) << "stopped by rank " << who;
+        EXPECT_LT(next, 1'000'000'000);
+    }
+}
+
+TEST(Deal, AnErrorOfWhatIsTakenComesOutOnRankZeroAndStopsTheOthers)
+{
+    std::uint64_t next = 0;
+    std::atomic<int> errors = 0, stopped = 0;
+    ThreadRanks(2).run([&](Ranks& ranks) {
+        Deal deal(ranks, stock_of(1'000'000'000, next), 2,
+                  [](std::string_view) { throw std::runtime_error("the disk is full"); });
+        while (const std::optional<std::uint64_t> number = deal.next())
+            if (!ranks.leads())
+                deal.give("x");
+        try {
+            stopped += !deal.finish();
+        } catch (const std::runtime_error& error) {
+            EXPECT_STREQ(error.what(), "the disk is full");
+            errors += ranks.leads();
+        }
+    });
+    EXPECT_EQ(errors, 1);
+    EXPECT_EQ(stopped, 1);
+}
+
+TEST(Deal, PortionsShrinkWithWhatIsLeft)
+{
+    EXPECT_EQ(Deal::portion(1'000'000, 4), 256U);
+    EXPECT_EQ(Deal::portion(640, 4), 20U);
+    EXPECT_EQ(Deal::portion(3, 4), 1U);
+    EXPECT_EQ(Deal::portion(0, 4), 1U);
+}
+
+TEST(Ranks, TheFirstThatSaysSomethingIsHeard)
+{
+    ThreadRanks(4).run([](Ranks& ranks) {
+        EXPECT_EQ(first_said(ranks, ranks.rank() < 2 ? "" : std::to_string(ranks.rank())), "2");
+        EXPECT_EQ(first_said(ranks, ""), "");
+        EXPECT_FALSE(all_agree(&ranks, ranks.rank() != 3));
+        EXPECT_TRUE(all_agree(&ranks, true));
+    });
+    EXPECT_TRUE(all_agree(nullptr, true));
+    EXPECT_FALSE(all_agree(nullptr, false));
+}
+
+/// Every device of a machine is used, and every process has one.
+TEST(Ranks, ShareTheDevicesOfTheirMachine)
+{
+    for (const int devices : {1, 2, 3, 8})
+        for (const int ranks : {1, 2, 3, 5, 8, 16}) {
+            std::map<int, int> users;
+            for (int rank = 0; rank < ranks; ++rank) {
+                const std::vector<int> own = devices_of_rank(devices, rank, ranks);
+                EXPECT_FALSE(own.empty()) << devices << " devices, rank " << rank << " of " << ranks;
+                for (const int device : own)
+                    ++users[device];
+            }
+            EXPECT_EQ(users.size(), static_cast<std::size_t>(devices));
+            EXPECT_EQ(users.begin()->first, 0);
+            EXPECT_EQ(users.rbegin()->first, devices - 1);
+            const auto [least, most] = std::minmax_element(
+                users.begin(), users.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+            EXPECT_LE(most->second - least->second, 1) << devices << " devices, " << ranks << " ranks";
+        }
+    EXPECT_TRUE(devices_of_rank(0, 0, 2).empty());
+}
+
+} // namespace
+} // namespace stylobate
