@@ -64,9 +64,9 @@ StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>&
 
 /// The same for a realization in its own model (`is_extended`). Each bed has the tangent stiffness of its form and
 /// exponent, two_corner thrice the rotational one, and the dashpots of its form; stiffness and damping that grow with
-/// the load are taken at 10 times the load at rest (a softening bed, q < 1, at a hundredth of it). A stiffness may
-/// vanish while its dashpots stay, so these are bounded by themselves: with c = 2 max over the blocks of
-/// eig(M^-1 sum C_bb), 4 - 2 dt c - dt2 w2 > 0.
+/// the load are taken at 10 times the load at rest, the stiffness of `points` at 100 times (a softening bed, q < 1, at
+/// a hundredth of it). A stiffness may vanish while its dashpots stay, so these are bounded by themselves: with
+/// c = 2 max over the blocks of eig(M^-1 sum C_bb), 4 - 2 dt c - dt2 w2 > 0.
 StepBound step_bound(const Realization& realization);
 
 /// The same for a realization that is followed until what has fallen lies. A block that stands alone has no watched

@@ -6,7 +6,7 @@
 ///
 /// w_i: 1/10, 49/90, 32/45, 49/90, 1/10 at -1, -sqrt(3/7), 0, sqrt(3/7), 1. d_ref is the depth at which an even face
 /// carries what the area form does: that of the weight above, W / (K_N B), so that both rest alike. About it the bed is
-/// 1.5 times as stiff. Force along the lower face's normal; dashpots at the points (`face_damping.hpp`).
+/// 1.5 times as stiff. Direction of the forces as in `two_corner.hpp`; dashpots at the points (`face_damping.hpp`).
 ///
 /// Source: nodes and weights of Abramowitz & Stegun, "Handbook of Mathematical Functions" (1964), 25.4.32; exponent 1.5
 /// of Hertz (1882); the form is an own choice.

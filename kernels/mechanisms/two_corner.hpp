@@ -4,8 +4,12 @@
 ///   F_i = K_N L / 2 d_i,  d_i >= 0: depth of the upper face under the lower one at the end
 ///
 /// L is the length in common now, so that the vertical stiffness at full contact is that of the area form, K_N B, and
-/// the rotational one three times its, K_N B3 / 4. The force is along the lower face's normal; the dashpots are at the
-/// ends (`face_damping.hpp`).
+/// the rotational one three times its, K_N B3 / 4. The dashpots are at the ends (`face_damping.hpp`).
+///
+/// The force is along the lower face's normal. Where the faces are steep against each other (tan of the rotation above
+/// `lean_from`; a block that falls), an end that is the lower block's corner presses along the upper face's normal
+/// instead, by the depth along it: the gradient of its energy (own derivation, `THEORY.md` section 5). Along the lower
+/// one a block that slides down would do work tan(rotation) F_i s that no energy pays for.
 ///
 /// Source: the two-spring foundation of Psycharis & Jennings, "Rocking of slender rigid bodies allowed to uplift",
 /// Earthquake Engineering and Structural Dynamics 11 (1983) 57, on the common face of two blocks.
@@ -46,21 +50,54 @@ struct FaceRule {
     double part[count];
 };
 
-/// Springs at the points of a rule; `pressure` takes a depth [m] to the depth [m] of a linear bed with the same
-/// pressure, and its energy [m2].
-/// @param fits as in `stacked_overlap`: where not, the overlap of the area form is taken
-template <class Real, int count, class Pressure, class Mask>
-STYLOBATE_INLINE Overlap<Real> spring_points(const Placement<Real>& p, Real lower_half_width, Real upper_half_width,
-                                             Real depth_limit, const FaceRule<count>& rule, const Pressure& pressure,
-                                             FormPoints<Real, count>& points, Mask& fits)
+/// How the springs at a steep face lean: along the gradient of their energy.
+template <class Real>
+struct SpringLean {
+    Real slope;       ///< tan of the relative rotation, 0 up to `lean_from`
+    Real left, right; ///< 1 where the end of the common face is the upper block's corner, 0 where it is the lower's
+};
+
+/// Slope of a face up to which all springs act along the lower face's normal, and from which on they lean wholly. (What
+/// only rocks stays below: the law is the published one there, with its bits.)
+inline constexpr double lean_from = 0.25, lean_whole = 0.5;
+
+template <class Real>
+STYLOBATE_INLINE SpringLean<Real> spring_lean(const Placement<Real>& p, Real lower_half_width, Real upper_half_width,
+                                              const CommonFace<Real>& face)
 {
-    const Real zero(0.0);
-    const CommonFace<Real> face = common_face(p, lower_half_width, upper_half_width);
+    const Real zero(0.0), one(1.0), tiny = Real(Extreme<NumberOf<Real>>::tiny);
+    const Real reach = upper_half_width * p.cosine, middle = fma(p.x, face.slope, p.depth);
+    const Real part = clamp((abs_of(face.slope) - Real(lean_from)) * Real(1 / (lean_whole - lean_from)), zero, one);
+    // one corner takes over from the other over a distance of the depth, as in the area form
+    const auto corner = [&](Real inset, Real x) {
+        const Real depth = max_of(fnma(x, face.slope, middle), tiny);
+        return min_of(max_of(inset, zero) / depth, one);
+    };
+    return {part * face.slope, corner(p.x - reach + lower_half_width, face.left),
+            corner(lower_half_width - (p.x + reach), face.left + face.length)};
+}
+
+/// The sums over the springs at the points of a rule.
+/// @tparam leaning whether a face is steep in some realization; in the others the bits are those of false
+template <bool leaning, class Real, int count, class Pressure>
+STYLOBATE_INLINE Overlap<Real> spring_sums(const Placement<Real>& p, const CommonFace<Real>& face,
+                                           const SpringLean<Real>& lean, const FaceRule<count>& rule,
+                                           const Pressure& pressure, FormPoints<Real, count>& points, Real& deepest)
+{
+    const Real zero(0.0), one(1.0);
     Overlap<Real> o{zero, zero, zero, zero, face.length, zero};
-    Real deepest(0.0);
+    Real along(0.0), across(0.0);
+    deepest = zero;
     for (int i = 0; i < count; ++i) {
         const Real x = fma(face.length, Real(rule.at[i]), face.left);
-        const Real depth = max_of(fnma(x - p.x, face.slope, p.depth), zero);
+        Real depth = max_of(fnma(x - p.x, face.slope, p.depth), zero);
+        deepest = max_of(deepest, depth);
+        [[maybe_unused]] Real slope(0.0), cosine(1.0);
+        if constexpr (leaning) {
+            slope = lean.slope * (one - fma(lean.right - lean.left, Real(rule.at[i]), lean.left));
+            cosine = one / sqrt_of(fma(slope, slope, one));
+            depth = depth * cosine;
+        }
         Real energy;
         const Real area = face.length * Real(rule.part[i]) * pressure(depth, energy);
         points.x[i] = x;
@@ -70,10 +107,46 @@ STYLOBATE_INLINE Overlap<Real> spring_points(const Placement<Real>& p, Real lowe
         o.moment_x = fma(x, area, o.moment_x);
         o.moment_depth = fma(Real(0.5) * depth, area, o.moment_depth);
         o.elastic = fma(face.length * Real(rule.part[i]), energy, o.elastic);
-        deepest = max_of(deepest, depth);
+        if constexpr (leaning) {
+            along = fnma(area * cosine, slope, along);
+            across = fma(area, cosine, across);
+        }
     }
+    if constexpr (leaning) {
+        // (the sum of forces that lean differently is less than their sum in size)
+        const Real size = sqrt_of(fma(along, along, across * across));
+        const auto leans = (lean.slope != zero) & (size > zero);
+        const Real per_size = face.length / select(leans, size, one);
+        o.normal_x = select(leans, along * per_size, zero);
+        o.normal_y = select(leans, across * per_size, face.length);
+        const Real less = select(leans, size / select(leans, o.area, one), one);
+        o.area = o.area * less;
+        o.moment_x = o.moment_x * less;
+        o.moment_depth = o.moment_depth * less;
+        for (int i = 0; i < count; ++i)
+            points.area[i] = points.area[i] * less;
+    }
+    return o;
+}
+
+/// Springs at the points of a rule; `pressure` takes a depth [m] to the depth [m] of a linear bed with the same
+/// pressure, and its energy [m2].
+/// @param fits as in `stacked_overlap`: where not, the overlap of the area form is taken
+template <class Real, int count, class Pressure, class Mask>
+STYLOBATE_INLINE Overlap<Real> spring_points(const Placement<Real>& p, Real lower_half_width, Real upper_half_width,
+                                             Real depth_limit, const FaceRule<count>& rule, const Pressure& pressure,
+                                             FormPoints<Real, count>& points, Mask& fits)
+{
+    const CommonFace<Real> face = common_face(p, lower_half_width, upper_half_width);
+    Real deepest;
+    Overlap<Real> o;
+    if (any(abs_of(face.slope) > Real(lean_from))) [[unlikely]]
+        o = spring_sums<true>(p, face, spring_lean(p, lower_half_width, upper_half_width, face), rule, pressure, points,
+                              deepest);
+    else
+        o = spring_sums<false>(p, face, SpringLean<Real>{}, rule, pressure, points, deepest);
     points.moment = o.moment_x;
-    fits = (p.cosine > Real(0.2)) & (deepest < depth_limit) & (face.length > zero);
+    fits = (p.cosine > Real(0.2)) & (deepest < depth_limit) & (face.length > Real(0.0));
     return o;
 }
 
