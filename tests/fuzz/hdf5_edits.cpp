@@ -233,15 +233,15 @@ void edit_hdf5(hid_t file, ByteSource& recipe)
 {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     try {
-        std::vector<Object> all;
-        collect(file, "", all);
-        if (all.empty())
-            return;
         const std::uint8_t how = recipe.byte();
         if (how < 64) { // of the file itself
             change_attribute(file, recipe);
             return;
         }
+        std::vector<Object> all;
+        collect(file, "", all);
+        if (all.empty())
+            return;
         const Object& object = all[recipe.below(all.size())];
         if (how < 96)
             change_attribute(hdf5::open_object(file, object.path).id(), recipe);

@@ -38,6 +38,7 @@ struct Target {
     /// An input near another one.
     std::string (*mutated)(std::string_view input, Random& random);
     std::size_t most_bytes; ///< of an input
+    int trials;             ///< inputs of the normal tests: a second or some of them
 };
 extern const Target record_target, study_target, results_target, campaign_target, table_target, nrml_target;
 

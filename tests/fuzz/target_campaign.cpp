@@ -157,6 +157,6 @@ std::string mutated(std::string_view input, Random& random)
 
 } // namespace
 
-const Target campaign_target = {"campaign", judge, mutated, 4096};
+const Target campaign_target = {"campaign", judge, mutated, 4096, 500};
 
 } // namespace stylobate::fuzz

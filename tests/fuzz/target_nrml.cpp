@@ -81,6 +81,6 @@ std::string mutated(std::string_view input, Random& random)
 
 } // namespace
 
-const Target nrml_target = {"nrml", judge, mutated, 4096};
+const Target nrml_target = {"nrml", judge, mutated, 2048, 5000};
 
 } // namespace stylobate::fuzz

@@ -32,6 +32,6 @@ std::string mutated(std::string_view input, Random& random)
 
 } // namespace
 
-const Target record_target = {"record", judge, mutated, 4096};
+const Target record_target = {"record", judge, mutated, 4096, 10000};
 
 } // namespace stylobate::fuzz

@@ -276,6 +276,6 @@ Verdict judge(std::string_view input)
 
 } // namespace
 
-const Target results_target = {"results", judge, mutated_bytes, 256};
+const Target results_target = {"results", judge, mutated_bytes, 256, 500};
 
 } // namespace stylobate::fuzz

@@ -172,6 +172,6 @@ std::string mutated(std::string_view input, Random& random)
 
 } // namespace
 
-const Target study_target = {"study", judge, mutated, 8192};
+const Target study_target = {"study", judge, mutated, 4096, 10000};
 
 } // namespace stylobate::fuzz

@@ -87,6 +87,6 @@ std::string mutated(std::string_view input, Random& random)
 
 } // namespace
 
-const Target table_target = {"table", judge, mutated, 4096};
+const Target table_target = {"table", judge, mutated, 1024, 5000};
 
 } // namespace stylobate::fuzz

@@ -67,7 +67,7 @@ TEST_P(ReaderFuzz, MutationsAreRefusedOrRight)
         for (const auto& [path, input] : inputs)
             all.push_back(input);
     Random random(20261125);
-    constexpr int trials = 1500;
+    const int trials = GetParam()->trials;
     int accepted = 0;
     for (int trial = 0; trial < trials; ++trial) {
         std::string input = all[below(random, all.size())];
