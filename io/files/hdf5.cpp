@@ -135,13 +135,24 @@ void write_new(hid_t parent, const std::string& path, hid_t stored, hid_t native
         write_text(dataset.id(), "unit", unit);
 }
 
+/// How many values a data set has. What it promises will be allocated, so it must be there: no filter in use packs a
+/// byte's worth tighter than deflate. @throws Error if it is not
+std::size_t count_in(hid_t dataset, hid_t type, const Dims& dims, const std::string& path)
+{
+    constexpr double tightest = 1100;
+    double count = 1;
+    for (const hsize_t n : dims)
+        count *= static_cast<double>(n);
+    if (count * static_cast<double>(H5Tget_size(type)) > tightest * static_cast<double>(H5Dget_storage_size(dataset)))
+        throw Error("'" + path + "' announces more values than the file contains");
+    return static_cast<std::size_t>(count);
+}
+
 template <class T>
 std::vector<T> read_whole(hid_t parent, const std::string& path, hid_t stored, hid_t native, const Dims& dims)
 {
     const Handle dataset = open_dataset(parent, path, stored, dims);
-    hsize_t count = 1;
-    for (const hsize_t n : dims)
-        count *= n;
+    const std::size_t count = count_in(dataset.id(), stored, dims, path);
     std::vector<T> values(count);
     if (count > 0)
         call("cannot read '" + path + "'",
@@ -453,15 +464,8 @@ Numbers read_numbers(hid_t parent, const std::string& path)
     check_is_number(stored.id(), "'" + path + "'");
     Numbers numbers;
     numbers.dims = shape(dataset.id(), path);
-    // what is promised is allocated, so it must be there: no filter in use packs a byte's worth tighter than deflate
-    const double bytes = static_cast<double>(H5Dget_storage_size(dataset.id()));
-    constexpr double tightest = 1100;
-    double count = 1;
-    for (const hsize_t n : numbers.dims)
-        count *= static_cast<double>(n);
-    if (count * static_cast<double>(H5Tget_size(stored.id())) > tightest * bytes)
-        throw Error("'" + path + "' announces more numbers than the file contains");
-    numbers.values.resize(static_cast<std::size_t>(count));
+    const std::size_t count = count_in(dataset.id(), stored.id(), numbers.dims, path);
+    numbers.values.resize(count);
     if (count > 0)
         call("cannot read '" + path + "'", [&] {
             return H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.values.data());

@@ -232,8 +232,9 @@ private:
     std::string place_; ///< group that is being read
 };
 
-/// @throws InputError
-Campaign read_file(const std::filesystem::path& path)
+} // namespace
+
+Campaign read_measured_hdf5_here(const std::filesystem::path& path)
 {
     Campaign campaign;
     campaign.source = path.string();
@@ -249,6 +250,8 @@ Campaign read_file(const std::filesystem::path& path)
     return campaign;
 }
 
+namespace {
+
 /// In the child process of `try_in_child`: reads the file, and writes to `out` why it is refused.
 [[noreturn]] void read_and_exit(const std::filesystem::path& path, std::uint64_t size, int out)
 {
@@ -262,7 +265,7 @@ Campaign read_file(const std::filesystem::path& path)
     if (const int silent = ::open("/dev/null", O_WRONLY); silent >= 0)
         ::dup2(silent, STDERR_FILENO);
     try {
-        read_file(path);
+        read_measured_hdf5_here(path);
     } catch (const InputError& error) {
         const std::string message = error.what();
         ::_exit(::write(out, message.data(), message.size()) < 0 ? 1 : 0);
@@ -363,7 +366,7 @@ void write_specimen(hid_t file, const Specimen& specimen)
 Campaign read_measured_hdf5(const std::filesystem::path& path)
 {
     try_in_child(path, FileHandle::open(path, false).size());
-    return read_file(path);
+    return read_measured_hdf5_here(path);
 }
 
 void write_measured_hdf5(const Campaign& campaign, const std::filesystem::path& path)

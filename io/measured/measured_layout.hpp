@@ -64,6 +64,8 @@ const char* to_string(BaseSource source);
 void check_shapes(Campaign& campaign);
 
 Campaign read_measured_hdf5(const std::filesystem::path& file);
+/// The same without the child process that reads the file first, in case the HDF5 library breaks on it.
+Campaign read_measured_hdf5_here(const std::filesystem::path& file);
 void write_measured_hdf5(const Campaign& campaign, const std::filesystem::path& file);
 Campaign read_measured_csv(const std::filesystem::path& folder);
 void write_measured_csv(const Campaign& campaign, const std::filesystem::path& folder);

@@ -43,6 +43,8 @@ const Known known_columns[] = {
     {"repeat", Column::repeat},
 };
 
+constexpr double largest_ratio_s = 20; ///< of PGV and PGA
+
 std::optional<bool> fell_of(std::string_view word)
 {
     std::string lower(word);
@@ -135,7 +137,7 @@ public:
                 pgv = number(line, c, 20);
                 break;
             case Column::pgv_over_pga:
-                outcome.pgv_over_pga_s = number(line, c, 20);
+                outcome.pgv_over_pga_s = number(line, c, largest_ratio_s);
                 break;
             case Column::motion_id:
                 outcome.motion_id = whole(line, c);
@@ -155,7 +157,7 @@ public:
             return;
         }
         if (pgv && outcome.pga_m_s2 && !outcome.pgv_over_pga_s)
-            outcome.pgv_over_pga_s = *pgv / *outcome.pga_m_s2;
+            outcome.pgv_over_pga_s = ratio_of(line, *pgv, *outcome.pga_m_s2);
         check_harmonic(outcome, place);
         table_.rows.push_back(std::move(outcome));
     }
@@ -194,6 +196,17 @@ private:
                                          line.fields[c], largest / columns_[c].factor,
                                          value > 0 ? fmt::format(" Did you mean {:.4g}?", value / 1000) : ""));
         return value;
+    }
+    /// Each of the two may be what it is, and the other one not.
+    double ratio_of(const CsvLine& line, double pgv_m_s, double pga_m_s2) const
+    {
+        const double ratio_s = pgv_m_s / pga_m_s2;
+        if (!(ratio_s > 0 && ratio_s <= largest_ratio_s))
+            throw InputError(table_.source, line.number,
+                             fmt::format("the peak velocity {:.4g} m/s is {:.4g} s of the peak acceleration {:.4g} "
+                                         "m/s2, outside (0, {:g}].\n  The unit is part of the name of each column.",
+                                         pgv_m_s, ratio_s, pga_m_s2, largest_ratio_s));
+        return ratio_s;
     }
     int whole(const CsvLine& line, std::size_t c) const
     {

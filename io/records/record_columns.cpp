@@ -161,6 +161,8 @@ ColumnTable read_rows(const RecordText& text, std::size_t first_row)
 {
     ColumnTable table;
     std::size_t end = text.lines.size();
+    if (first_row >= end)
+        text.refuse("has no row of numbers.");
     while (trimmed(text.lines[end - 1]).empty())
         --end;
     table.columns.resize(parts_of(text.lines[first_row], true).size());

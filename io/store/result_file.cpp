@@ -257,29 +257,29 @@ void check_unfinished(const ResultFile& file, const ResultHeader& asked)
 
 std::optional<std::uint64_t> RowNumbers::of(std::uint64_t index) const
 {
-    if (scattered_) {
-        const auto found = place_.find(index);
-        return found == place_.end() ? std::nullopt : std::optional(found->second);
-    }
-    if (index < first_ || index - first_ >= rows_)
+    if ((in_order_ || !scattered_) && (index < first_ || index - first_ >= rows_))
         return std::nullopt;
     const std::uint64_t at = index - first_;
     if (in_order_)
         return at;
-    return at < after_.size() && after_[at] > 0 ? std::optional(after_[at] - 1) : std::nullopt;
+    if (!after_.empty())
+        return after_[at] > 0 ? std::optional(after_[at] - 1) : std::nullopt;
+    const auto found = place_.find(index);
+    return found == place_.end() ? std::nullopt : std::optional(found->second);
 }
 
 bool RowNumbers::add(std::uint64_t index, std::uint64_t place)
 {
-    bool is_new = false;
-    if (scattered_) {
-        is_new = place_.emplace(index, place).second;
-    } else {
-        const std::uint64_t at = index - first_;
-        if (at >= after_.size())
-            after_.resize(rows_);
-        is_new = std::exchange(after_[at], place + 1) == 0;
+    // as many as the file announces may never come: there is a place for each only once there are enough of them
+    constexpr std::uint64_t few = 1 << 12, sparse = 32;
+    if (!scattered_ && after_.empty() && (rows_ <= few || place_.size() >= rows_ / sparse)) {
+        after_.resize(rows_);
+        for (const auto& [known, at] : place_)
+            after_[known - first_] = at + 1;
+        place_.clear();
     }
+    const bool is_new =
+        after_.empty() ? place_.emplace(index, place).second : std::exchange(after_[index - first_], place + 1) == 0;
     added_ += is_new;
     return is_new;
 }

@@ -65,13 +65,13 @@ public:
     void for_each(const std::function<void(std::uint64_t place)>& f) const;
 
 private:
-    bool scattered_ = false; ///< few of the study's realizations have rows
+    bool scattered_ = false; ///< few of the study's realizations have rows, for ever
     bool in_order_ = false;
     std::uint64_t first_ = 0;
     std::uint64_t rows_ = 0;
     std::uint64_t added_ = 0;
     std::vector<std::uint64_t> after_;                       ///< place + 1 by index - first, 0: none
-    std::unordered_map<std::uint64_t, std::uint64_t> place_; ///< where few have rows
+    std::unordered_map<std::uint64_t, std::uint64_t> place_; ///< where few have rows, instead
 };
 
 /// An open results file, its seal verified.

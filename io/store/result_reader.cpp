@@ -63,7 +63,8 @@ struct ResultReader::Impl {
         file.read_journal(
             [&](const ResultRow& row, const RowJournal::Record& record) {
                 add(row.index, record.offset);
-                ++rows;
+                if (++rows > file.header.total)
+                    file.refuse_damaged("it has more rows than it announces");
             },
             [&](const RowJournal::Record& record, std::span<const std::byte> content) {
                 try {
@@ -87,6 +88,8 @@ struct ResultReader::Impl {
         try {
             return function(file.hdf5.id());
         } catch (const hdf5::Error& error) {
+            file.refuse_damaged(error.what());
+        } catch (const std::invalid_argument& error) {
             file.refuse_damaged(error.what());
         }
     }
@@ -234,7 +237,7 @@ std::vector<std::uint64_t> ResultReader::trajectory_indices() const
         std::vector<std::uint64_t> indices;
         for (const auto& [index, record] : impl_->trajectories)
             indices.push_back(index);
-        if (!hdf5::exists(file, names::trajectories))
+        if (!complete() || !hdf5::exists(file, names::trajectories))
             return indices;
         for (const std::string& name : hdf5::names_in(hdf5::open_group(file, names::trajectories).id())) {
             if (name.empty() || name.size() > 19 || name.find_first_not_of("0123456789") != std::string::npos)
@@ -280,6 +283,7 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
         trajectory.name = split_names(hdf5::read_text(opened.id(), names::blocks));
         if (trajectory.name.size() != both[1])
             throw hdf5::Error("'" + group + "' does not have a name for each block");
+        check_trajectory(trajectory);
         return trajectory;
     });
 }

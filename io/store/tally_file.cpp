@@ -95,7 +95,9 @@ TallyFile read_tally(hid_t file, const ResultHeader& header)
     const hdf5::Dims cells = {header.frequency_hz.size(), header.pga_m_s2.size()};
     const auto by = [&](std::size_t more) { return hdf5::Dims{cells[0], cells[1], more}; };
     TallyFile counted;
-    Tally& tally = counted.tally = Tally(cells[0] * cells[1], header.limit_states.size(), header.block_names.size());
+    Tally& tally = counted.tally;
+    tally.limit_states = header.limit_states.size();
+    tally.blocks = header.block_names.size();
     const hdf5::Handle group = hdf5::open_group(file, names::tally);
     tally.energy_residual = hdf5::read_any_number(group.id(), "energy_residual");
     tally.energy_realization = hdf5::read_number(group.id(), "energy_realization");

@@ -55,9 +55,12 @@ double read_mass(const std::vector<MassSource>& sources, const Source& size, dou
         size.keys->refuse(size.name(), "gives a drum of zero volume", length_range.hint);
     const auto at =
         std::find_if(sources.begin(), sources.end(), [](const MassSource& source) { return source.given(); });
-    if (at == sources.end())
-        sources.front().keys->missing(sources.front().mass->name,
-                                      "Give the mass in kilograms, or " + sources.front().density->name + ".");
+    if (at == sources.end()) {
+        const MassSource& first = sources.front();
+        if (first.mass == nullptr)
+            first.keys->missing(first.density->name, density_range.hint);
+        first.keys->missing(first.mass->name, "Give the mass in kilograms, or " + first.density->name + ".");
+    }
     const KeyReader& keys = *at->keys;
     const bool by_mass = at->mass && keys.has(*at->mass);
     if (by_mass && keys.has(*at->density))

@@ -145,6 +145,7 @@ TEST(BaseTable, SaysWhatIsWrong)
     expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.51,1\n", {":52:", "a row is missing"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.50,x\n", {":52:"});
     expect_refused("", {"is empty"});
+    expect_refused("time_s,acceleration_m_s2\n", {"no row of numbers"});
 }
 
 TEST(BaseTable, AccelerationAndDisplacementTogetherDoNotDrift)

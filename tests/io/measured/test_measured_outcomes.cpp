@@ -57,6 +57,8 @@ TEST(MeasuredOutcomes, BadTablesAreRefused)
     expect_refused("fell,pga_m_s2\n1,300\n", "outside (0, 100]");
     expect_refused("fell,pga_m_s2\n1,-3\n", "outside (0, 100]");
     expect_refused("fell,pga_m_s2\n1,x\n", "a.csv:2: pga_m_s2 = \"x\" is not a number");
+    expect_refused("fell,pga_m_s2,pgv_m_s\n1,0.001,1\n", "a.csv:2: the peak velocity 1 m/s is 1000 s");
+    expect_refused("fell,pga_m_s2,pgv_m_s\n1,100,1e-323\n", "outside (0, 20]");
     expect_refused("fell,pga_g,motion_id\n1,1,0.5\n", "is not a whole number");
 }
 

@@ -38,7 +38,7 @@ std::map<std::string, std::string> seeds_made_here()
 
 fs::path corpus()
 {
-    return fs::path(STYLOBATE_SOURCE_DIR) / "tests/io/records/corpus/record";
+    return fs::path(STYLOBATE_SOURCE_DIR) / "tests/fuzz/corpus/record";
 }
 
 std::string content_of(const fs::path& path)

@@ -439,6 +439,44 @@ TEST_F(ResultStore, ATornEndOfAnUnfinishedFileIsNotThere)
 
 /// A run that goes on behind a damaged record must not find the whole ones that lay behind it again: another order of
 /// the realizations would have two rows of one.
+TEST_F(ResultStore, RowsThatAreOnlyAnnouncedTakeNoMemory)
+{
+    constexpr std::uint64_t many = std::uint64_t{1} << 40; // a place for each would take 8 TB
+    {
+        const auto writer = ResultWriter::create(file, sample_header(many));
+        for (const std::uint64_t index : {many - 1, std::uint64_t{0}, many / 3})
+            writer->add(sample_row(index));
+        EXPECT_TRUE(writer->has(many / 3));
+        EXPECT_FALSE(writer->has(1));
+    }
+    const ResultReader reader(file);
+    EXPECT_EQ(reader.done(), 3u);
+    EXPECT_TRUE(reader.has(many - 1));
+    EXPECT_FALSE(reader.has(many));
+    EXPECT_EQ(bits(reader.row(many / 3)), bits(sample_row(many / 3)));
+    expect_part(refusal([&] { reader.row(1); }), "does not hold realization 1 yet");
+}
+
+/// From the first way to find a row to the second one.
+TEST_F(ResultStore, RowsAreFoundWhileTheyBecomeMany)
+{
+    constexpr std::uint64_t total = 1 << 14;
+    const auto writer = ResultWriter::create(file, sample_header(total));
+    for (std::uint64_t i = 0; i < total / 16; ++i) {
+        writer->add(sample_row(5 * i % total));
+        ASSERT_TRUE(writer->has(5 * (i / 2) % total)) << i;
+    }
+    std::uint64_t rows = 0, last = 0;
+    writer->for_each_row([&](const ResultRow& row) {
+        EXPECT_EQ(row.index % 5, 0u);
+        EXPECT_EQ(row.index, 5 * rows);
+        last = row.index;
+        ++rows;
+    });
+    EXPECT_EQ(rows, total / 16);
+    EXPECT_EQ(last, 5 * (total / 16 - 1));
+}
+
 TEST_F(ResultStore, RowsBehindADamagedOneDoNotComeBack)
 {
     const std::uint64_t total = 20;

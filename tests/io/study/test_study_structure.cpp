@@ -280,6 +280,8 @@ TEST(StudyStructure, RefusesMisusedKeysOfColumns)
     expect_refused(
         "depth_m = 1\nblocks = 1\ndrum_width_m = 1\ntop_width_m = 0.8\ndrum_height_m = 1\ndensity_kg_m3 = 2e3",
         "temple.toml:7: structure.top_width_m = 0.8 tapers a column of one drum");
+    expect_refused("depth_m = 1\nblocks = 3\ndrum_width_m = 1\ntop_width_m = 0.8\ndrum_height_m = 1",
+                   "temple.toml:3: structure.density_kg_m3 is missing", {"kg/m3"});
     expect_refused(drums_of_seven + "capital = { width_m = 0.05, height_m = 0.01 }",
                    "temple.toml:10: structure.capital.mass_kg is missing", {"density_kg_m3"});
     expect_refused(drums_of_seven + "capital = { height_m = 0.01, mass_kg = 0.1 }",

@@ -1,0 +1,271 @@
+#include "tests/fuzz/hdf5_edits.hpp"
+
+#include "io/files/hdf5.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace stylobate::fuzz {
+namespace {
+
+using hdf5::Handle;
+
+struct Object {
+    std::string path;
+    bool dataset = false;
+};
+
+void collect(hid_t group, const std::string& above, std::vector<Object>& all)
+{
+    for (const std::string& name : hdf5::names_in(group)) {
+        const std::string path = above + name;
+        const Handle object = hdf5::open_object(group, name);
+        const bool is_group = H5Iget_type(object.id()) == H5I_GROUP;
+        all.push_back({path, !is_group});
+        if (is_group && all.size() < 500) // a link to a group above it would have no end
+            collect(object.id(), path + "/", all);
+    }
+}
+
+double any_double(ByteSource& recipe)
+{
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    constexpr double values[] = {
+        0,   -0.0, 1,    -1,   0.5,   2,      3,      100, 1000, 1e6,
+        1e9, 1e19, 1e-9, 1e-3, 1e300, 5e-324, -1e300, inf, -inf, std::numeric_limits<double>::quiet_NaN(),
+        255, 256,  4e9,  9e15};
+    const std::uint8_t which = recipe.byte();
+    return which < std::size(values) ? values[which] : recipe.number<std::int16_t>() * (which % 2 == 0 ? 1.0 : 0.001);
+}
+
+std::uint64_t any_count(ByteSource& recipe)
+{
+    const std::uint8_t which = recipe.byte();
+    if (which < 64)
+        return std::uint64_t{1} << which;
+    if (which < 128)
+        return (std::uint64_t{1} << (which - 64)) - 1;
+    return which < 192 ? which - 128u : ~std::uint64_t{0} - (which - 192u);
+}
+
+std::string any_text(const std::string& before, ByteSource& recipe)
+{
+    static const char* const texts[] = {"",
+                                        " ",
+                                        "\n",
+                                        "a\nb",
+                                        "a\n\nb",
+                                        "stylobate",
+                                        "stylobate-measured",
+                                        "surface",
+                                        "replay",
+                                        "fragility",
+                                        "rare",
+                                        "friction[0] friction[0]",
+                                        "friction[999999]",
+                                        "a[",
+                                        "a[]",
+                                        "a[1]x",
+                                        "1/2",
+                                        "3/2",
+                                        "999999999999/1",
+                                        "mm",
+                                        "deg",
+                                        "kg",
+                                        "m/s2",
+                                        "command",
+                                        "table sensor",
+                                        "[study]\nseed = 1\n"};
+    std::string text = before;
+    switch (recipe.below(4)) {
+    case 0:
+        return texts[recipe.below(std::size(texts))];
+    case 1:
+        return recipe.text(12);
+    case 2:
+        text.resize(recipe.below(text.size() + 1));
+        return text;
+    default:
+        text.insert(recipe.below(text.size() + 1), recipe.text(4));
+        return text;
+    }
+}
+
+/// A value for an attribute, of the type that it had or of another one.
+void change_attribute(hid_t object, ByteSource& recipe)
+{
+    const std::vector<std::string> names = hdf5::attributes_of(object);
+    if (names.empty())
+        return;
+    const std::string name = names[recipe.below(names.size())];
+    const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+    H5T_class_t kind = H5Tget_class(type.id());
+    std::string before;
+    if (kind == H5T_STRING)
+        before = hdf5::read_any_text(object, name);
+    const std::uint8_t how = recipe.byte();
+    H5Adelete(object, name.c_str());
+    if (how % 8 == 0)
+        return;
+    if (how % 8 == 1) // of another type
+        kind = kind == H5T_STRING ? H5T_FLOAT : kind == H5T_FLOAT ? H5T_INTEGER : H5T_STRING;
+    if (kind == H5T_STRING)
+        hdf5::write_text(object, name, any_text(before, recipe));
+    else if (kind == H5T_INTEGER)
+        hdf5::write_number(object, name, how % 8 == 2 ? H5T_STD_U8LE : H5T_STD_U64LE, any_count(recipe));
+    else
+        hdf5::write_real(object, name, any_double(recipe));
+}
+
+/// One element of a data set in one piece. (The library itself breaks on some writes into packed ones.)
+void change_element(hid_t dataset, ByteSource& recipe)
+{
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    if (H5Pget_layout(creation.id()) != H5D_CONTIGUOUS)
+        return;
+    const Handle space(H5Dget_space(dataset), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space.id());
+    if (rank < 0 || rank > 4)
+        return;
+    hsize_t dims[4] = {}, at[4] = {};
+    H5Sget_simple_extent_dims(space.id(), dims, nullptr);
+    for (int d = 0; d < rank; ++d)
+        at[d] = recipe.below(static_cast<std::size_t>(dims[d]));
+    if (rank > 0)
+        H5Sselect_elements(space.id(), H5S_SELECT_SET, 1, at);
+    const Handle one(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle type(H5Dget_type(dataset), H5Tclose);
+    switch (H5Tget_class(type.id())) {
+    case H5T_INTEGER: {
+        const std::uint64_t value = any_count(recipe);
+        H5Dwrite(dataset, H5T_NATIVE_UINT64, one.id(), space.id(), H5P_DEFAULT, &value);
+        break;
+    }
+    case H5T_FLOAT: {
+        const double value = any_double(recipe);
+        H5Dwrite(dataset, H5T_NATIVE_DOUBLE, one.id(), space.id(), H5P_DEFAULT, &value);
+        break;
+    }
+    case H5T_STRING: {
+        const std::string text = any_text("", recipe);
+        const char* value = text.c_str();
+        if (H5Tis_variable_str(type.id()) > 0)
+            H5Dwrite(dataset, type.id(), one.id(), space.id(), H5P_DEFAULT, &value);
+        break;
+    }
+    case H5T_ENUM: {
+        const std::uint8_t value = recipe.byte();
+        if (H5Tget_size(type.id()) == 1)
+            H5Dwrite(dataset, type.id(), one.id(), space.id(), H5P_DEFAULT, &value);
+        break;
+    }
+    default:
+        break;
+    }
+}
+
+/// Puts a data set of another shape or type into the place of one, with values that are zero or not there at all.
+void replace_dataset(hid_t file, const std::string& path, ByteSource& recipe)
+{
+    hdf5::Dims dims;
+    Handle type;
+    {
+        const Handle old(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+        dims = hdf5::dims_of(file, path);
+        type = Handle(H5Dget_type(old.id()), H5Tclose);
+    }
+    const std::uint8_t how = recipe.byte();
+    if (how % 4 == 0) {
+        const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32BE, H5T_STD_I32LE, H5T_STD_U64LE, H5T_STD_U8LE, H5T_C_S1};
+        type = Handle(H5Tcopy(types[recipe.below(std::size(types))]), H5Tclose);
+    } else if (how % 4 == 1 && !dims.empty()) {
+        dims[recipe.below(dims.size())] = any_count(recipe);
+    } else if (how % 4 == 2) {
+        dims.push_back(recipe.below(3));
+    } else if (!dims.empty()) {
+        dims.pop_back();
+    }
+    H5Ldelete(file, path.c_str(), H5P_DEFAULT);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    double count = 1;
+    for (const hsize_t n : dims)
+        count *= static_cast<double>(n);
+    constexpr double most_allocated = 4096;
+    H5Pset_alloc_time(creation.id(), count > most_allocated ? H5D_ALLOC_TIME_LATE : H5D_ALLOC_TIME_EARLY);
+    if (how >= 128 && !dims.empty() && dims.size() <= 4 && count <= most_allocated) { // in pieces, packed
+        hsize_t piece[4];
+        for (std::size_t d = 0; d < dims.size(); ++d)
+            piece[d] = std::max<hsize_t>(1, std::min<hsize_t>(dims[d], 16));
+        H5Pset_chunk(creation.id(), static_cast<int>(dims.size()), piece);
+        H5Pset_deflate(creation.id(), 6);
+        H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_INCR);
+    }
+    const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
+    const Handle made(H5Dcreate2(file, path.c_str(), type.id(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                      H5Dclose);
+}
+
+/// A name for another object: moved, linked twice, to nothing, or into another file.
+void change_name(hid_t file, const std::vector<Object>& all, const std::string& path, ByteSource& recipe)
+{
+    const std::string other = all[recipe.below(all.size())].path;
+    const std::uint8_t how = recipe.byte();
+    if (how % 8 == 0) {
+        H5Ldelete(file, path.c_str(), H5P_DEFAULT);
+        return;
+    }
+    std::string name = how % 8 <= 3 ? other : path.substr(0, path.rfind('/') + 1) + recipe.text(8);
+    name = name.substr(0, name.find('\0'));
+    if (how % 8 <= 2)
+        H5Ldelete(file, other.c_str(), H5P_DEFAULT);
+    if (how % 2 == 0)
+        H5Lcreate_hard(file, path.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    else if (how < 64)
+        H5Lcreate_external("/nowhere.h5", "/a", file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    else
+        H5Lcreate_soft(how < 128 ? "/nothing" : ("/" + path).c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+}
+
+} // namespace
+
+void edit_hdf5(hid_t file, ByteSource& recipe)
+{
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    try {
+        const std::uint8_t how = recipe.byte();
+        if (how < 64) { // of the file itself
+            change_attribute(file, recipe);
+            return;
+        }
+        std::vector<Object> all;
+        collect(file, "", all);
+        if (all.empty())
+            return;
+        const Object& object = all[recipe.below(all.size())];
+        if (how < 96)
+            change_attribute(hdf5::open_object(file, object.path).id(), recipe);
+        else if (how < 128)
+            change_name(file, all, object.path, recipe);
+        else if (object.dataset && how < 208)
+            change_element(Handle(H5Dopen2(file, object.path.c_str(), H5P_DEFAULT), H5Dclose).id(), recipe);
+        else if (object.dataset)
+            replace_dataset(file, object.path, recipe);
+    } catch (const hdf5::Error&) { // an edit before took away what this one is of
+    }
+}
+
+bool edit_hdf5_file(const std::filesystem::path& path, ByteSource& recipe, std::size_t most)
+{
+    try {
+        Handle file = hdf5::open_file(path, true);
+        for (; most > 0 && !recipe.empty(); --most)
+            edit_hdf5(file.id(), recipe);
+        file.close();
+        return true;
+    } catch (const hdf5::Error&) {
+        return false;
+    }
+}
+
+} // namespace stylobate::fuzz
