@@ -13,7 +13,7 @@ namespace stylobate::fuzz {
 /// What the library cannot do is left out.
 void edit_hdf5(hid_t file, ByteSource& recipe);
 
-/// Up to `most` changes of a file. @returns false where the file could not be closed whole
+/// Up to `most` changes of a file. @returns false where it could not be closed whole, or has become a large one
 bool edit_hdf5_file(const std::filesystem::path& path, ByteSource& recipe, std::size_t most);
 
 } // namespace stylobate::fuzz
