@@ -33,7 +33,7 @@ page() {
         print "|---|---:|---:|---:|---:|---:|"
         n = split("record study results campaign table nrml", names, " ")
         for (i = 1; i <= n; ++i)
-            printf "| `%s` | %.3g million | %.1f | %d | %d | %d |\n", names[i], inputs[names[i]] / 1e6, hours[names[i]],
+            printf "| `%s` | %.3g million | %.2f | %d | %d | %d |\n", names[i], inputs[names[i]] / 1e6, hours[names[i]],
                    edges[names[i]], peak[names[i]], found[names[i]]
     }' "$runs" | scripts/into_page.sh fuzz.sh docs/reliability.md
 }
