@@ -142,8 +142,9 @@ void check_same(Ranks& ranks, const RunPlan& plan)
 
 } // namespace
 
-Progress run_on_ranks(const Experiment& experiment, const RunOptions& options, RunPlan plan, const ResultHeader& header,
-                      bool heard, const std::function<void(const ResultRow&)>& take, Observer& observer)
+SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, RunPlan plan,
+                       const ResultHeader& header, bool heard, const std::function<void(const ResultRow&)>& take,
+                       Observer& observer)
 {
     Ranks& ranks = *options.ranks;
     const Study& study = experiment.study();
@@ -187,14 +188,12 @@ Progress run_on_ranks(const Experiment& experiment, const RunOptions& options, R
     const bool complete = deal.finish();
     if (leads)
         observer.progress(progress = whole.all(progress)); // the others may have ended after this one
-    else
-        progress.done = complete ? places.size() : std::min(progress.done, places.size() - 1);
     if (complete && heard) {
         const std::string all = ranks.of_first(rows);
         if (!leads)
             received.each(all, take);
     }
-    return progress;
+    return {progress, complete};
 }
 
 void share_rows(Ranks& ranks, const ResultHeader& header,

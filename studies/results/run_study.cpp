@@ -1,7 +1,7 @@
 #include "studies/results/run_study.hpp"
 
-#include "studies/experiment/trajectory.hpp"
 #include "studies/cluster/shared_round.hpp"
+#include "studies/experiment/trajectory.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -87,10 +87,13 @@ public:
         const DoneSet::Part before = plan.done.all();
         Progress part{.done = before.end, .collapsed = before.collapsed, .invalid = before.invalid};
         RoundObserver observed(observer, progress, round.fair);
-        if (options.ranks)
-            part = run_on_ranks(
+        if (options.ranks) { // a round that ends as somebody asks to stop is incomplete, for all ranks alike
+            const SharedRun shared = run_on_ranks(
                 experiment, options, plan, kind_.header(), heard_, [&](const ResultRow& row) { take(row); }, observed);
-        else if (before.end < size)
+            progress = joined(progress, shared.progress, round.fair);
+            return shared.complete;
+        }
+        if (before.end < size)
             part = run_ensemble(experiment, options, plan, observed);
         else if (round.fair)
             estimate_share(part, before.end - before.invalid, before.collapsed);

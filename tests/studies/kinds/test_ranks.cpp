@@ -53,9 +53,11 @@ class StudiesOnRanks : public MadeResults {
 protected:
     void have_the_bytes_of_one(const LoadedStudy& loaded)
     {
+        fs::remove(file);
         make_results(loaded, file);
         for (const int size : {1, 2, 4}) {
             const std::string by_ranks = (folder / ("by_" + std::to_string(size) + ".h5")).string();
+            fs::remove(by_ranks);
             EXPECT_TRUE(run_by(size, loaded, by_ranks, patient));
             EXPECT_TRUE(bytes_of(by_ranks) == bytes_of(file)) << size << " ranks";
         }
@@ -80,6 +82,7 @@ TEST_F(StudiesOnRanks, AreContinuedByAnyNumberOfThem)
     for (const LoadedStudy& loaded : {ready_study("small_scale_column", two_cells(200)),
                                       ready_study("rare_collapse", {"rare.samples=100", "rare.repeats=5"})}) {
         const std::string whole = (folder / "whole.h5").string(), part = (folder / "part.h5").string();
+        fs::remove(whole);
         make_results(loaded, whole);
         for (const int who : {0, 2}) {
             fs::remove(part);
