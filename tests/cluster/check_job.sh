@@ -10,6 +10,7 @@ if [[ $kind == mpi ]]; then
     command -v mpirun >/dev/null && "$program" info | grep -q "^MPI: .*MPI" ||
         { echo "skipped: no mpirun, or a program without MPI"; exit 77; }
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    export LAUNCH="mpirun --bind-to none" # the cluster has more cores than the machine
 fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

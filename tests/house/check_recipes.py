@@ -67,8 +67,8 @@ for file, line in (("CITATION.cff", f"version: {version.group(1)}"),
                    ("docs/library.md", f"find_package(stylobate {major_minor} REQUIRED)")):
     check(line in (root / file).read_text(), f"{file}: not '{line}'")
 
-# every library that the project looks for is a dependency of both
-looked_for = {name.lower() for name in re.findall(r"find_package\((\w+) REQUIRED", (root / "CMakeLists.txt").read_text())}
+# every library that the project cannot do without is a dependency of both
+looked_for = {name.lower() for name in re.findall(r"^find_package\((\w+) REQUIRED", (root / "CMakeLists.txt").read_text(), re.M)}
 looked_for |= {"eigen3", "xsimd", "tomlplusplus"}
 names = {"tbb": {"tbb", "tbb-devel"}, "eigen3": {"eigen"}, "boost": {"boost", "libboost-headers"},
          "zlib": {"zlib", "zlib-api"}}
