@@ -74,7 +74,8 @@ public:
     void send(int to, std::string content) override
     {
         forget_sent();
-        Sent& sent = sent_.emplace_back(std::move(content), MPI_Request{});
+        sent_.push_back({std::move(content), MPI_Request{}});
+        Sent& sent = sent_.back();
         MPI_Isend(sent.content.data(), static_cast<int>(sent.content.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD,
                   &sent.request);
     }
