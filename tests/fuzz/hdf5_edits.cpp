@@ -97,7 +97,7 @@ void change_attribute(hid_t object, ByteSource& recipe)
     const std::vector<std::string> names = hdf5::attributes_of(object);
     if (names.empty())
         return;
-    const std::string name = names[recipe.below(names.size())];
+    const std::string& name = names[recipe.below(names.size())];
     const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute.id()), H5Tclose);
     H5T_class_t kind = H5Tget_class(type.id());
