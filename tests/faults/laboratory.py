@@ -133,14 +133,23 @@ class Laboratory:
         try:
             process.wait(timeout=after_s)
         except subprocess.TimeoutExpired:
-            children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+            children = children_of(process.pid)
             for child in children if random.random() < 0.5 else random.sample(children, min(1, len(children))):
                 try:
                     os.kill(int(child), signal.SIGKILL)
                     killed = True
                 except ProcessLookupError:
                     pass
-        return process.wait() != 0 and killed
+        try:
+            return process.wait(timeout=120) != 0 and killed
+        except subprocess.TimeoutExpired:
+            # Open MPI 4.1.4 sometimes does not notice that all ranks have ended before they met
+            left = [child for child in children_of(process.pid) if state_of(child) != "Z"]
+            process.kill()
+            process.wait()
+            if left:
+                raise RuntimeError(f"{len(left)} of {ranks} ranks go on 120 s after others were killed: {words}") from None
+            return killed
 
     def path(self, name):
         return self.folder / name
@@ -149,6 +158,18 @@ class Laboratory:
         for name in names:
             path = self.path(name)
             shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+
+
+def children_of(pid):
+    return pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+
+
+def state_of(pid):
+    """As `ps` has it: "Z" of one that has ended."""
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return "Z"
 
 
 def digest(path):
