@@ -56,8 +56,7 @@ double chunks(benchmark::State& state, Isa isa, const Study& study, int warm)
             }
     }
     const Realization& r = lanes.realization(0);
-    const auto free = std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& block) { return !block.fixed; });
-    const double block_steps = static_cast<double>(lanes.lanes()) * static_cast<double>(free) * chunk_steps;
+    const double block_steps = static_cast<double>(lanes.lanes()) * static_cast<double>(r.free_blocks()) * chunk_steps;
     state.counters["block_steps_per_second"] =
         benchmark::Counter(block_steps, benchmark::Counter::kIsIterationInvariantRate);
     return block_steps;

@@ -177,13 +177,10 @@ private:
 
     std::optional<std::uint64_t> next()
     {
-        // without the lock: it may wait for another process
-        std::optional<std::uint64_t> place = plan_.next_place ? plan_.next_place() : std::nullopt;
-        const std::lock_guard lock(mutex_);
-        if (!plan_.next_place)
-            place = plan_.next_undone(next_, places_.end);
+        const std::optional<std::uint64_t> place = next_place_(); // it may wait: without the lock
         if (!place || stopped_)
             return std::nullopt;
+        const std::lock_guard lock(mutex_);
         const std::uint64_t index = plan_.index(order_.index(*place));
         running_.emplace(index, *place);
         return index;
@@ -199,10 +196,7 @@ private:
         ++progress_.done;
         progress_.collapsed += outcome.state == State::collapsed;
         progress_.invalid += outcome.state == State::invalid;
-        std::uint64_t free_blocks = 0;
-        for (const Block& block : realization.blocks)
-            free_blocks += !block.fixed;
-        progress_.block_steps += free_blocks * outcome.steps;
+        progress_.block_steps += realization.free_blocks() * outcome.steps;
         ++delivered_;
     }
 
@@ -234,6 +228,11 @@ private:
     const KernelTable& kernels_;
     const int threads_;
     const RunPlan& plan_;
+    /// The plan's, or the places that are to be done, in their order.
+    const std::function<std::optional<std::uint64_t>()> next_place_ = plan_.next_place ? plan_.next_place : [this] {
+        const std::lock_guard lock(mutex_);
+        return plan_.next_undone(next_, places_.end);
+    };
     Observer& observer_;
     const Clock::time_point start_ = Clock::now();
     std::mutex mutex_; ///< guards the sink, the observer and what follows

@@ -105,6 +105,14 @@ struct Realization {
     int drums = 0;             ///< blocks without the ground
 
     int beds() const { return static_cast<int>(joints.size()) - watched; }
+    /// Blocks that are stepped.
+    std::uint64_t free_blocks() const
+    {
+        std::uint64_t count = 0;
+        for (const Block& block : blocks)
+            count += !block.fixed;
+        return count;
+    }
     BaseExtension base;
     BaseChange change;
     double gravity_m_s2 = 9.81;

@@ -11,22 +11,32 @@ namespace stylobate {
 namespace {
 
 /// First letter of a message.
-enum Word : char {
-    asks = 'a',   ///< for a portion
-    dealt_ = 'd', ///< a portion; an empty one is the last
-    gives = 'g',  ///< what has come of some number
-    stops = 's',
-    ready = 'r', ///< this rank needs nothing more
-    ends = 'e',  ///< all ranks are ready; and whether the deal was stopped
+enum class Word : char {
+    ask = 'a',     ///< for a portion
+    portion = 'p', ///< the numbers; none: the last one has been dealt
+    give = 'g',    ///< what has come of some number
+    stop = 's',    ///< to all ranks, by way of rank 0
+    ready = 'r',   ///< this rank needs nothing more
+    end = 'e',     ///< all ranks are ready
 };
 
 constexpr std::uint64_t largest_portion = 256;
 /// How long a thread without messages sleeps: what a portion may come late, against the cost of looking.
 constexpr std::chrono::milliseconds between_looks{1};
 
-std::string word(Word first, std::string_view rest = {})
+std::string text_of(Word first, std::string_view rest = {})
 {
-    return std::string(1, first).append(rest);
+    return std::string(1, static_cast<char>(first)).append(rest);
+}
+
+Word word_of(const Ranks::Message& message)
+{
+    return static_cast<Word>(message.content.front());
+}
+
+std::string_view content_of(const Ranks::Message& message)
+{
+    return std::string_view(message.content).substr(1);
 }
 
 } // namespace
@@ -37,7 +47,7 @@ std::uint64_t Deal::portion(std::uint64_t left, int ranks)
 }
 
 Deal::Deal(Ranks& ranks, Stock stock, std::size_t ahead, std::function<void(std::string_view)> take)
-    : ranks_(ranks), stock_(std::move(stock)), ahead_(ahead), take_(std::move(take)), others_running_(ranks.size() - 1),
+    : ranks_(ranks), stock_(std::move(stock)), ahead_(ahead), take_(std::move(take)),
       thread_([this] { ranks_.leads() ? lead() : follow(); })
 {
 }
@@ -107,9 +117,10 @@ bool Deal::finish()
     return !stopped_;
 }
 
-/// A portion, as a message. @pre the lock is held
+/// A portion, as a message.
 std::string Deal::dealt()
 {
+    const std::lock_guard lock(mutex_);
     std::vector<std::uint64_t> numbers;
     const std::uint64_t most = portion(stock_.left, ranks_.size());
     while (!stopped_ && numbers.size() < most) {
@@ -119,67 +130,63 @@ std::string Deal::dealt()
         numbers.push_back(*number);
     }
     stock_.left -= std::min<std::uint64_t>(stock_.left, numbers.size());
-    return word(dealt_, {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(std::uint64_t)});
+    return text_of(Word::portion,
+                   {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(std::uint64_t)});
 }
 
-void Deal::handle(const Ranks::Message& message)
+void Deal::take(std::string_view content)
 {
-    const std::string_view content = std::string_view(message.content).substr(1);
-    switch (static_cast<Word>(message.content.front())) {
-    case asks: {
-        std::unique_lock lock(mutex_);
-        std::string numbers = dealt();
-        lock.unlock();
-        ranks_.send(message.from, std::move(numbers));
-        break;
-    }
-    case gives:
-        try {
-            take_(content);
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_)
-                error_ = std::current_exception();
-            stopped_ = true;
-        }
-        break;
-    case stops:
+    if (error_) // nothing of what comes now is kept
+        return;
+    try {
+        take_(content);
+    } catch (...) {
+        error_ = std::current_exception();
         stop();
-        break;
-    case ready:
-        --others_running_;
-        break;
-    default:
-        break;
     }
-}
-
-void Deal::pause(std::unique_lock<std::mutex>& lock)
-{
-    changed_.wait_for(lock, between_looks);
 }
 
 void Deal::lead()
 {
+    int running = ranks_.size() - 1;
+    bool told_stop = false;
     std::unique_lock lock(mutex_);
-    while ((others_running_ > 0 || !ready_) && !left_early_) {
+    while ((running > 0 || !ready_) && !left_early_) {
+        const bool tell_stop = stopped_ && !told_stop;
         lock.unlock();
+        if (tell_stop)
+            tell_all(text_of(Word::stop));
+        told_stop |= tell_stop;
         bool any = false;
-        while (const std::optional<Ranks::Message> message = ranks_.receive()) {
-            handle(*message);
-            any = true;
+        for (; const std::optional<Ranks::Message> message = ranks_.receive(); any = true) {
+            const Word word = word_of(*message);
+            if (word == Word::ask)
+                ranks_.send(message->from, dealt());
+            else if (word == Word::give)
+                take(content_of(*message));
+            else if (word == Word::stop)
+                stop();
+            else if (word == Word::ready)
+                --running;
         }
         lock.lock();
         if (!any)
-            pause(lock);
+            changed_.wait_for(lock, between_looks);
     }
+    const bool tell_stop = stopped_ && !told_stop;
+    lock.unlock();
     if (left_early_)
         return;
-    const std::string last = word(ends, stopped_ ? "s" : "");
-    lock.unlock();
-    for (int rank = 1; rank < ranks_.size(); ++rank)
-        ranks_.send(rank, last);
+    if (tell_stop)
+        tell_all(text_of(Word::stop));
+    tell_all(text_of(Word::end));
     ranks_.await_sent();
+}
+
+void Deal::tell_all(const std::string& content)
+{
+    for (int rank = 1; rank < ranks_.size(); ++rank)
+        ranks_.send(rank, content);
 }
 
 void Deal::follow()
@@ -187,43 +194,47 @@ void Deal::follow()
     bool asked = false, told_stop = false, told_ready = false;
     std::unique_lock lock(mutex_);
     while (!left_early_) {
-        std::deque<std::string> given = std::exchange(given_, {});
+        const std::deque<std::string> given = std::exchange(given_, {});
         const bool ask = !asked && !used_up_ && !stopped_ && hand_.size() <= ahead_;
         const bool tell_stop = stopped_ && !told_stop, tell_ready = ready_ && !told_ready;
         lock.unlock();
         for (const std::string& content : given)
-            ranks_.send(0, word(gives, content));
+            ranks_.send(0, text_of(Word::give, content));
         if (ask)
-            ranks_.send(0, word(asks));
+            ranks_.send(0, text_of(Word::ask));
         if (tell_stop)
-            ranks_.send(0, word(stops));
+            ranks_.send(0, text_of(Word::stop));
         if (tell_ready)
-            ranks_.send(0, word(ready));
+            ranks_.send(0, text_of(Word::ready));
         asked |= ask;
         told_stop |= tell_stop;
         told_ready |= tell_ready;
         bool any = false;
-        while (const std::optional<Ranks::Message> message = ranks_.receive()) {
-            any = true;
-            const std::string_view content = std::string_view(message->content).substr(1);
-            if (message->content.front() == ends) {
-                const std::lock_guard relock(mutex_);
-                stopped_ |= !content.empty();
-                ranks_.await_sent();
-                return;
+        for (; const std::optional<Ranks::Message> message = ranks_.receive(); any = true) {
+            const Word word = word_of(*message);
+            if (word == Word::end)
+                return ranks_.await_sent();
+            if (word == Word::stop)
+                stop();
+            if (word == Word::portion) {
+                asked = false;
+                pick_up(content_of(*message));
             }
-            std::vector<std::uint64_t> numbers(content.size() / sizeof(std::uint64_t));
-            std::memcpy(numbers.data(), content.data(), content.size());
-            asked = false;
-            const std::lock_guard relock(mutex_);
-            hand_.insert(hand_.end(), numbers.begin(), numbers.end());
-            used_up_ = numbers.empty();
-            changed_.notify_all();
         }
         lock.lock();
         if (!any && given_.empty())
-            pause(lock);
+            changed_.wait_for(lock, between_looks);
     }
+}
+
+void Deal::pick_up(std::string_view portion)
+{
+    std::vector<std::uint64_t> numbers(portion.size() / sizeof(std::uint64_t));
+    std::memcpy(numbers.data(), portion.data(), portion.size());
+    const std::lock_guard lock(mutex_);
+    hand_.insert(hand_.end(), numbers.begin(), numbers.end());
+    used_up_ = numbers.empty();
+    changed_.notify_all();
 }
 
 } // namespace stylobate

@@ -3,8 +3,7 @@
 ///
 /// Rank 0 deals. Every rank has a few numbers ahead and asks for more before they are used up; a portion is an eighth
 /// of a rank's share of what is left (guided self-scheduling: Polychronopoulos and Kuck 1987), so that the ranks end
-/// together. A thread of each rank sends and receives, so that no thread that computes waits for a message that another
-/// process has not answered yet.
+/// together. A thread of each rank sends and receives, so that those that compute hardly ever wait for another process.
 
 #include "ensemble/ranks/ranks.hpp"
 
@@ -42,7 +41,7 @@ public:
     std::optional<std::uint64_t> next();
     /// Gives rank 0 what has come of a number. @pre this is another rank
     void give(std::string content);
-    /// Deals no more, to any rank.
+    /// Deals no more, to any rank; what ranks have in hand falls.
     void stop();
     bool stopped() const;
     /// Waits until every rank has come here, and rank 0 has taken what was given.
@@ -54,10 +53,11 @@ public:
 
 private:
     void lead();
-    void follow();
-    void handle(const Ranks::Message& message);
     std::string dealt();
-    void pause(std::unique_lock<std::mutex>& lock);
+    void take(std::string_view content);
+    void tell_all(const std::string& content);
+    void follow();
+    void pick_up(std::string_view portion);
 
     Ranks& ranks_;
     Stock stock_;
@@ -68,9 +68,8 @@ private:
     std::deque<std::uint64_t> hand_;
     std::deque<std::string> given_;
     bool stopped_ = false, used_up_ = false, ready_ = false, left_early_ = false;
-    std::exception_ptr error_;
-    int others_running_;
-    std::thread thread_; ///< sends and receives
+    std::exception_ptr error_; ///< of the thread below, for `finish`
+    std::thread thread_;       ///< sends and receives
 };
 
 } // namespace stylobate

@@ -366,12 +366,9 @@ private:
     {
         Work& work = work_[lane];
         const FollowJob& j = job(work);
-        std::uint64_t free_blocks = 0;
-        for (const Block& block : j.realization.blocks)
-            free_blocks += !block.fixed;
         const std::size_t lost =
             work.leg.window < 0 && j.windows ? j.windows->size() - work.next_window : 0; // it ended before them
-        course_.end(work.leg, free_blocks * (steps_[lane] - work.leg.step), lost);
+        course_.end(work.leg, j.realization.free_blocks() * (steps_[lane] - work.leg.step), lost);
         work.busy = false;
         lanes_.clear(static_cast<int>(lane));
     }

@@ -125,8 +125,7 @@ public:
                 plan.sink = [&](const Realization& r, const Outcome& o) {
                     collapsed += o.state == State::collapsed;
                     valid += o.state != State::invalid;
-                    for (const Block& block : r.blocks)
-                        cost_.block_steps += block.fixed ? 0 : o.steps;
+                    cost_.block_steps += r.free_blocks() * o.steps;
                 };
                 const Progress p = run_ensemble(experiment, options, plan, quietly);
                 if (p.done < plan.total)

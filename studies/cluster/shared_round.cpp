@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <mutex>
 #include <span>
@@ -47,19 +48,10 @@ private:
     std::vector<std::byte> row_;
 };
 
-std::uint64_t block_steps_of(const Realization& realization, const Outcome& outcome)
-{
-    std::uint64_t free_blocks = 0;
-    for (const Block& block : realization.blocks)
-        free_blocks += !block.fixed;
-    return free_blocks * outcome.steps;
-}
-
 /// What rank 0 knows of the whole round: it takes the rows, and makes of its own progress that of all ranks.
 class Whole : public Observer {
 public:
-    Whole(const RunPlan& plan, const RunOrder& order, const std::function<void(const ResultRow&)>& take,
-          Observer& observer)
+    Whole(const RunPlan& plan, const RunOrder& order, const TakeRow& take, Observer& observer)
         : order_(order), places_(order.places(plan.shard)),
           done_(plan.done.parts().empty() ? DoneSet(order) : plan.done), take_(take), observer_(observer)
     {
@@ -100,7 +92,7 @@ private:
     mutable std::mutex mutex_; ///< guards what follows: rows come from the executor and from the deal
     DoneSet done_;
     std::uint64_t block_steps_ = 0, run_ = 0;
-    const std::function<void(const ResultRow&)>& take_;
+    const TakeRow& take_;
     Observer& observer_;
 };
 
@@ -130,21 +122,20 @@ private:
 /// Ranks on machines of different kinds could choose different realizations: that is an error, not a result.
 void check_same(Ranks& ranks, const RunPlan& plan)
 {
-    const std::string mine =
-        fmt::format("{} realizations, checksum {:08x}", plan.total, crc32_of(std::as_bytes(std::span(plan.indices))));
-    const std::string first = ranks.of_first(mine);
-    const std::string other = first_said(ranks, mine == first ? "" : fmt::format("rank {}: {}", ranks.rank(), mine));
-    if (!other.empty())
+    const std::vector<std::string> all = ranks.of_all(
+        fmt::format("{} realizations, checksum {:08x}", plan.total, crc32_of(std::as_bytes(std::span(plan.indices)))));
+    const auto other =
+        std::find_if(all.begin(), all.end(), [&](const std::string& of_rank) { return of_rank != all[0]; });
+    if (other != all.end())
         throw std::runtime_error(fmt::format("the ranks have chosen different realizations for the next round (rank 0: "
-                                             "{}; {}): run them on machines of one kind, with one program",
-                                             first, other));
+                                             "{}; rank {}: {}): run them on machines of one kind, with one program",
+                                             all[0], other - all.begin(), *other));
 }
 
 } // namespace
 
 SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, RunPlan plan,
-                       const ResultHeader& header, bool heard, const std::function<void(const ResultRow&)>& take,
-                       Observer& observer)
+                       const ResultHeader& header, bool heard, const TakeRow& take, Observer& observer)
 {
     Ranks& ranks = *options.ranks;
     const Study& study = experiment.study();
@@ -154,12 +145,11 @@ SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, 
     const RunOrder::Places places = order.places(plan.shard);
     RowBytes bytes(header), received(header);
     std::string rows; // of the round, where all are to hear them
-    const auto kept = [&](const ResultRow& row) {
+    const TakeRow take_here = [&](const ResultRow& row) {
         take(row);
         if (heard)
             bytes.append(rows, row);
     };
-    const std::function<void(const ResultRow&)> take_here = kept;
     Whole whole(plan, order, take_here, observer);
 
     std::uint64_t next = places.begin;
@@ -176,15 +166,14 @@ SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, 
         const ResultRow row = result_row(study, realization, outcome);
         if (leads)
             return whole.add(row, 0);
-        const std::uint64_t block_steps = block_steps_of(realization, outcome);
+        const std::uint64_t block_steps = realization.free_blocks() * outcome.steps;
         std::string content(reinterpret_cast<const char*>(&block_steps), sizeof block_steps);
         bytes.append(content, row);
         deal.give(std::move(content));
     };
     DealObserver observed(deal, leads ? &whole : nullptr, observer);
     Progress progress = run_ensemble(experiment, options, plan, observed);
-    if (observed.stop_requested())
-        deal.stop();
+    observed.stop_requested(); // it may have been asked at the very end
     const bool complete = deal.finish();
     if (leads)
         observer.progress(progress = whole.all(progress)); // the others may have ended after this one
@@ -196,9 +185,8 @@ SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, 
     return {progress, complete};
 }
 
-void share_rows(Ranks& ranks, const ResultHeader& header,
-                const std::function<void(const std::function<void(const ResultRow&)>&)>& each,
-                const std::function<void(const ResultRow&)>& take)
+void share_rows(Ranks& ranks, const ResultHeader& header, const std::function<void(const TakeRow&)>& each,
+                const TakeRow& take)
 {
     RowBytes bytes(header);
     std::string rows;

@@ -8,6 +8,8 @@
 
 namespace stylobate {
 
+using TakeRow = std::function<void(const ResultRow&)>;
+
 struct SharedRun {
     Progress progress;
     bool complete = false;
@@ -21,14 +23,12 @@ struct SharedRun {
 /// @return whether nobody has asked to stop, the same on all ranks; and on rank 0 the counts of all of them
 /// @throws what `run_ensemble` and `take` throw; std::runtime_error if the ranks have not the same round before them
 SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, RunPlan plan,
-                       const ResultHeader& header, bool heard, const std::function<void(const ResultRow&)>& take,
-                       Observer& observer);
+                       const ResultHeader& header, bool heard, const TakeRow& take, Observer& observer);
 
 /// Gives all ranks the rows that rank 0 has. Collective.
 /// @param each calls its argument with every row; of rank 0
 /// @param take takes them, on the others
-void share_rows(Ranks& ranks, const ResultHeader& header,
-                const std::function<void(const std::function<void(const ResultRow&)>&)>& each,
-                const std::function<void(const ResultRow&)>& take);
+void share_rows(Ranks& ranks, const ResultHeader& header, const std::function<void(const TakeRow&)>& each,
+                const TakeRow& take);
 
 } // namespace stylobate

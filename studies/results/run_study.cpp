@@ -111,8 +111,6 @@ public:
         const RunOrder order(total);
         const RunOrder::Places places = order.places(shard);
         progress.total = places.size();
-        if (!options.leads())
-            return true;
         FollowPlan plan;
         plan.recorded = kept_trajectories;
         for (std::uint64_t index = 0; index < total; ++index) {
@@ -128,7 +126,7 @@ public:
             if (f.realization.index < kept_trajectories)
                 store_.add(f.trajectory); // before its row: where the row is, it is
             take(result_row(experiment.study(), f.realization, f.outcome));
-            progress.block_steps += free_blocks(f.realization) * f.outcome.steps;
+            progress.block_steps += f.realization.free_blocks() * f.outcome.steps;
             progress.seconds = seconds();
             progress.rate = static_cast<double>(++run_now) / progress.seconds;
             count(f.outcome.state);
@@ -155,12 +153,6 @@ private:
         progress.collapsed += state == State::collapsed;
         progress.invalid += state == State::invalid;
         estimate_share(progress, progress.done - progress.invalid, progress.collapsed);
-    }
-
-    static std::uint64_t free_blocks(const Realization& realization)
-    {
-        return static_cast<std::uint64_t>(std::count_if(realization.blocks.begin(), realization.blocks.end(),
-                                                        [](const Block& block) { return !block.fixed; }));
     }
 
     void take(const ResultRow& row)

@@ -44,8 +44,7 @@ settings() { # of one kind, one to a line
     counts) printf '%s\n' "${axes[@]}" --set study.realizations=100 --set output.realizations=none ;;
     adaptive) printf '%s\n' "${axes[@]}" --set surface.adaptive.budget=1000 ;;
     rare) printf '%s\n' --set rare.samples=100 --set rare.repeats=5 ;;
-    twins) printf '%s\n' "${axes[@]}" --set study.realizations=6 --set twins.followed=1 \
-        --set run.max_invalid_fraction=0.5 ;;
+    twins) printf '%s\n' "${axes[@]}" --set study.realizations=6 --set twins.followed=1 ;;
     fragility) printf '%s\n' --set study.realizations=2 --set fragility.motions=8 --set fragility.contacts=1 ;;
     sensitivity) printf '%s\n' --set sensitivity.samples=16 ;;
     esac
@@ -77,7 +76,8 @@ for kind in rows counts adaptive; do
     "$program" info stopped.h5 >/dev/null
     mpirun --oversubscribe -n 2 "$program" run "$inputs/${study[$kind]}.toml" "${set[@]}" -o stopped.h5 --mpi \
         --threads 1 --quiet >terminated.log 2>&1 &
-    sleep 0.5
+    begun=$(stat -c %s stopped.h5)
+    while kill -0 $! 2>/dev/null && [[ $(stat -c %s stopped.h5) == "$begun" ]]; do sleep 0.01; done # it goes on
     kill -TERM $! 2>/dev/null || true
     wait $! || true
     "$program" info stopped.h5 >/dev/null

@@ -34,7 +34,6 @@ STUDIES = {
         {
             "study.realizations": "4",
             "twins.followed": "2",
-            "run.max_invalid_fraction": "0.5",
             "surface.frequency_hz": "{from=2.0,to=4.0,count=2}",
             "surface.pga_m_s2": "{from=2.0,to=9.0,count=2}",
         },

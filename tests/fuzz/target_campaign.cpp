@@ -89,6 +89,19 @@ const std::string& original()
     return bytes;
 }
 
+template <class Read>
+Verdict judge_read(const Read& read)
+{
+    Campaign campaign;
+    const Verdict verdict = judged([&] {
+        campaign = read();
+        check_sizes(campaign);
+    });
+    if (verdict == Verdict::accepted)
+        check_written_again(campaign);
+    return verdict;
+}
+
 Verdict judge_hdf5(std::string_view input)
 {
     ByteSource recipe(input);
@@ -96,14 +109,7 @@ Verdict judge_hdf5(std::string_view input)
     write_file(file, original());
     if (!edit_hdf5_file(file, recipe, 8))
         return Verdict::refused;
-    Campaign campaign;
-    const Verdict verdict = judged([&] {
-        campaign = read_here(file);
-        check_sizes(campaign);
-    });
-    if (verdict == Verdict::accepted)
-        check_written_again(campaign);
-    return verdict;
+    return judge_read([&] { return read_here(file); });
 }
 
 Verdict judge_folder(std::string_view input)
@@ -122,14 +128,7 @@ Verdict judge_folder(std::string_view input)
             write_file(made / name, input.substr(0, end));
         input.remove_prefix(std::min(end, input.size()));
     }
-    Campaign campaign;
-    const Verdict verdict = judged([&] {
-        campaign = read_campaign(made);
-        check_sizes(campaign);
-    });
-    if (verdict == Verdict::accepted)
-        check_written_again(campaign);
-    return verdict;
+    return judge_read([&] { return read_campaign(made); });
 }
 
 Verdict judge(std::string_view input)

@@ -165,8 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SmallStudy{
                         "adaptive", "small_scale_column_adaptive.toml",
                         with(four_cells, {"surface.adaptive={budget=60,minimum=4,half_width=0.05,borrow=true}"})},
-                    SmallStudy{"replicas", "twins_column.toml",
-                               with(four_cells, {"twins.followed=1", "run.max_invalid_fraction=1"})},
+                    SmallStudy{"replicas", "twins_column.toml", with(four_cells, {"twins.followed=1"})},
                     SmallStudy{"fragility",
                                "fragility_column.toml",
                                {"study.realizations=6", "fragility.motions=8",

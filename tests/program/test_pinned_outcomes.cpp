@@ -133,7 +133,7 @@ const std::vector<ReducedStudy>& reduced_studies()
                 {"surface.adaptive={budget=60,minimum=4,half_width=0.05,borrow=true}"}),
         surface("small_scale_monolith", 1, 4, 4, 12),
         surface("synthetic_earthquake", 1, 4, 4, 12),
-        surface("twins_column", 1, 4, 4, 12, {"twins.followed=1", "run.max_invalid_fraction=1"}),
+        surface("twins_column", 1, 4, 4, 12, {"twins.followed=1"}),
     };
     return all;
 }

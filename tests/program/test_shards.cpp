@@ -65,8 +65,8 @@ TEST_F(Shards, OfOtherKindsAreTheirBytes)
 {
     expect_same_bytes(inputs + "free_rocking.toml", {"study.realizations=5"}, {3});
     expect_same_bytes(inputs + "twins_column.toml",
-                      {"study.realizations=4", "twins.followed=2", "run.max_invalid_fraction=0.5",
-                       "surface.frequency_hz={from=2.0,to=4.0,count=2}", "surface.pga_m_s2={from=2.0,to=9.0,count=2}"},
+                      {"study.realizations=4", "twins.followed=2", "surface.frequency_hz={from=2.0,to=4.0,count=2}",
+                       "surface.pga_m_s2={from=2.0,to=9.0,count=2}"},
                       {3});
     expect_same_bytes(inputs + "fragility_column.toml",
                       {"study.realizations=2", "fragility.motions=8", "fragility.contacts=1"}, {3});

@@ -14,9 +14,7 @@ namespace {
 constexpr int realizations = 6;
 constexpr std::uint64_t originals = 16 * realizations;
 const std::vector<std::string> small_twins = short_surface(realizations);
-const std::vector<std::string> twins =
-    with(small_twins, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2",
-                       "run.max_invalid_fraction=0.1"}); // some in other contact forms
+const std::vector<std::string> twins = with(small_twins, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2"});
 
 class TwinsProgram : public Program {
 protected:

@@ -124,13 +124,37 @@ TEST(Deal, AnyRankStopsAllOfThem)
     }
 }
 
+/// A rank that has numbers in hand, and asks for none, hears of it too.
+TEST(Deal, AStopIsHeardByARankThatIsBusy)
+{
+    for (const int who : {0, 1}) {
+        std::uint64_t next = 0;
+        std::atomic<int> busy = 0;
+        ThreadRanks(3).run([&](Ranks& ranks) {
+            Deal deal(ranks, stock_of(1'000'000'000, next), 2, [](std::string_view) {});
+            EXPECT_TRUE(deal.next());
+            ++busy;
+            while (busy < 3)
+                std::this_thread::yield();
+            if (ranks.rank() == who)
+                deal.stop();
+            while (!deal.stopped())
+                std::this_thread::yield();
+            EXPECT_FALSE(deal.next());
+            EXPECT_FALSE(deal.finish());
+        });
+    }
+}
+
 TEST(Deal, AnErrorOfWhatIsTakenComesOutOnRankZeroAndStopsTheOthers)
 {
     std::uint64_t next = 0;
-    std::atomic<int> errors = 0, stopped = 0;
+    std::atomic<int> errors = 0, stopped = 0, taken = 0;
     ThreadRanks(2).run([&](Ranks& ranks) {
-        Deal deal(ranks, stock_of(1'000'000'000, next), 2,
-                  [](std::string_view) { throw std::runtime_error("the disk is full"); });
+        Deal deal(ranks, stock_of(1'000'000'000, next), 2, [&](std::string_view) {
+            ++taken;
+            throw std::runtime_error("the disk is full");
+        });
         while (const std::optional<std::uint64_t> number = deal.next())
             if (!ranks.leads())
                 deal.give("x");
@@ -143,6 +167,7 @@ TEST(Deal, AnErrorOfWhatIsTakenComesOutOnRankZeroAndStopsTheOthers)
     });
     EXPECT_EQ(errors, 1);
     EXPECT_EQ(stopped, 1);
+    EXPECT_EQ(taken, 1) << "taken after a failure";
 }
 
 TEST(Deal, PortionsShrinkWithWhatIsLeft)

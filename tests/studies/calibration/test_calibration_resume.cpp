@@ -4,6 +4,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/calibration/calibration.hpp"
+#include "tests/ensemble/ranks/thread_ranks.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -15,6 +16,8 @@ namespace fs = std::filesystem;
 
 namespace stylobate {
 namespace {
+
+using test::ThreadRanks;
 
 /// Asks to stop once so many parameter sets are done.
 class StopAfter : public Observer {
@@ -101,6 +104,44 @@ TEST_F(CalibrationResume, TheBitsAreThoseOfOneGo)
     EXPECT_EQ(last.restored_sets, second.kept_sets);
     expect_same(last, one_go);
     EXPECT_FALSE(fs::exists(sets_)) << "what is complete needs it no longer";
+}
+
+/// Begun by one process, continued by three ranks, of which rank 0 alone has the file.
+TEST_F(CalibrationResume, RanksHaveTheBitsOfOneProcess)
+{
+    Observer patient;
+    const Calibration alone = run(patient, {});
+    StopAfter soon(17);
+    const Calibration begun = run(soon, sets_);
+    ASSERT_FALSE(begun.complete);
+    ThreadRanks(3).run([&](Ranks& ranks) {
+        CalibrationOptions options = options_;
+        if (ranks.leads())
+            options.kept = sets_;
+        RunOptions how{best_isa(), 1};
+        how.ranks = &ranks;
+        Observer own;
+        const Calibration found = calibrate(campaign_, start_, options, how, own);
+        EXPECT_EQ(found.complete, ranks.leads());
+        if (!ranks.leads())
+            return;
+        EXPECT_EQ(found.restored_sets, begun.kept_sets);
+        expect_same(found, alone);
+    });
+}
+
+/// Whichever of them is asked to stop: rank 0 keeps what is whole, and the others end.
+TEST_F(CalibrationResume, AnyRankStopsAllOfThem)
+{
+    for (const int who : {0, 2}) {
+        ThreadRanks(3).run([&](Ranks& ranks) {
+            CalibrationOptions options = options_;
+            RunOptions how{best_isa(), 1};
+            how.ranks = &ranks;
+            StopAfter stop(ranks.rank() == who ? 0 : ~std::uint64_t{0});
+            EXPECT_FALSE(calibrate(campaign_, start_, options, how, stop).complete) << "stopped by rank " << who;
+        });
+    }
 }
 
 TEST_F(CalibrationResume, WhatIsCutOrDamagedIsMadeAnew)

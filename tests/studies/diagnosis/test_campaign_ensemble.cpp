@@ -1,6 +1,7 @@
 /// Simulated campaigns with labels: which are simulated, that they are the same whoever simulates them, and that an
 /// interrupted ensemble continues.
 
+#include "tests/ensemble/ranks/thread_ranks.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include "io/files/temporary_folder.hpp"
@@ -205,9 +206,11 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
         text << std::ifstream(file).rdbuf();
         return text.str();
     };
-    const auto simulate = [&](const char* file, Isa isa, int threads, Observer& observer) {
+    const auto simulate = [&](const char* file, Isa isa, int threads, Observer& observer, Ranks* ranks = nullptr) {
+        RunOptions options{isa, threads};
+        options.ranks = ranks;
         return simulate_ensemble(
-            campaign(), study, causes, {}, plan, shown, folder.path() / file, {isa, threads},
+            campaign(), study, causes, {}, plan, shown, folder.path() / file, options,
             [&](std::uint64_t done, std::uint64_t) {
                 if (auto* impatient = dynamic_cast<Impatient*>(&observer))
                     impatient->done = done;
@@ -232,6 +235,20 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
     EXPECT_EQ(rest.cached, 30U);
     EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "parts"));
     EXPECT_EQ(rest.distance, whole.distance);
+
+    // three ranks go on where one process was, and all of them have all campaigns
+    Impatient one(30);
+    EXPECT_FALSE(simulate("ranks", best_isa(), 1, one).complete);
+    test::ThreadRanks(3).run([&](Ranks& ranks) {
+        Observer own;
+        const CampaignEnsemble shared = simulate("ranks", best_isa(), 1, own, &ranks);
+        EXPECT_TRUE(shared.complete);
+        EXPECT_EQ(shared.cached, 30U);
+        EXPECT_EQ(shared.distance, whole.distance);
+        EXPECT_EQ(shared.simulations, rest.simulations);
+        EXPECT_EQ(shared.block_steps, rest.block_steps);
+    });
+    EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "ranks"));
 
     // another seed is another ensemble, and does not continue this one
     plan.seed = 2;

@@ -1,5 +1,6 @@
 /// Studies that several ranks run together have the bytes of one that a process runs alone.
 
+#include "studies/cluster/shared_round.hpp"
 #include "tests/ensemble/ranks/thread_ranks.hpp"
 #include "tests/studies/verify/results_made.hpp"
 
@@ -95,6 +96,31 @@ TEST_F(StudiesOnRanks, AreContinuedByAnyNumberOfThem)
             EXPECT_TRUE(bytes_of(part) == bytes_of(whole)) << "stopped by rank " << who;
         }
     }
+}
+
+/// Ranks whose decisions differ, as on machines whose numbers do, end with an error instead of a mixture.
+TEST_F(StudiesOnRanks, ThatHaveOtherRoundsBeforeThemAreRefused)
+{
+    const LoadedStudy loaded = ready_study("small_scale_column", two_cells(10));
+    const ResultHeader header = loaded.result_header();
+    std::atomic<int> refused = 0;
+    test::ThreadRanks(3).run([&](Ranks& ranks) {
+        const std::vector<std::uint64_t> indices = {0, 1, ranks.rank() == 1 ? 3U : 2U};
+        RunPlan plan;
+        plan.indices = indices;
+        plan.total = indices.size();
+        RunOptions options{best_isa(), 1};
+        options.ranks = &ranks;
+        Observer own;
+        try {
+            run_on_ranks(
+                loaded.experiment(), options, plan, header, true, [](const ResultRow&) {}, own);
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("rank 1: 3 realizations"), std::string::npos) << error.what();
+            ++refused;
+        }
+    });
+    EXPECT_EQ(refused, 3);
 }
 
 /// Rank 0 tells of all ranks, and the last it tells is the end.

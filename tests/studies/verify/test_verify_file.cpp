@@ -84,6 +84,19 @@ TEST_F(VerifyFile, FindsTheLastBitOfOneValueOfOneRealization)
     EXPECT_EQ(check_of(input, "replay").differences.at(0).where, "input/" + ResultReader(file).header().input_names[0]);
 }
 
+/// The kinetic energy of a column at rest is what rounding leaves of it, of either sign.
+TEST_F(VerifyFile, TakesColumnsAtRest)
+{
+    const LoadedStudy quiet =
+        ready_study("small_scale_column", {"study.realizations=200", "surface.frequency_hz={from=0.5,to=0.5,count=1}",
+                                           "surface.pga_m_s2={from=1.0,to=1.0,count=1}"});
+    make_results(quiet, file);
+    int below = 0;
+    ResultReader(file).for_each_row([&](const ResultRow& row) { below += row.outcome.energy_kinetic_j < 0; });
+    EXPECT_GT(below, 0) << "the test shows nothing";
+    EXPECT_TRUE(verified(file).well()) << text_of(verified(file));
+}
+
 TEST_F(VerifyFile, FindsRowsThatContradictThemselves)
 {
     make_results(ready_study("small_scale_column", two_cells(4)), file);
