@@ -7,6 +7,11 @@
 #                                                        replace those of the trial before
 set -euo pipefail
 
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+    sed -n '2,/^set /{s/^# \{0,1\}//;/^set /d;p}' "${BASH_SOURCE[0]}"
+    exit
+fi
+
 stage="finding the project"
 report() {
     local status=$?
