@@ -415,6 +415,29 @@ TEST(Campaigns, AreTheirSeeds)
 }
 
 /// The study that goes with a campaign lays out the same blocks and joints, by the reader of study files.
+TEST(Campaigns, AreRepeatedWithOtherSpecimensAndTheSameLaw)
+{
+    Wish wish;
+    wish.most_motions = 2;
+    wish.effects = std::vector<std::string>{"drag"};
+    const VirtualCampaign made = make_campaign(5, wish);
+    const VirtualCampaign with = another_like(made, 3, true), again = another_like(made, 3, true);
+    const VirtualCampaign without = another_like(made, 3, false), other = another_like(made, 4, true);
+    EXPECT_EQ(with.campaign.runs.front().blocks.x_m.values, again.campaign.runs.front().blocks.x_m.values);
+    EXPECT_EQ(with.model.effects, made.model.effects);
+    EXPECT_EQ(without.model.effects, Effects());
+    EXPECT_EQ(without.model.beds[0].friction, with.model.beds[0].friction) << "the same specimen, but for the effect";
+    EXPECT_NE(other.model.beds[0].friction, with.model.beds[0].friction);
+    EXPECT_NE(made.model.beds[0].friction, with.model.beds[0].friction);
+    EXPECT_EQ(with.model.parameters, made.model.parameters);
+    ASSERT_EQ(with.runs.size(), made.runs.size());
+    for (std::size_t i = 0; i < made.runs.size(); ++i) {
+        EXPECT_EQ(with.runs[i].shaking.peak_m_s2, made.runs[i].shaking.peak_m_s2);
+        EXPECT_EQ(with.campaign.runs[i].motion_id, made.campaign.runs[i].motion_id);
+        EXPECT_EQ(with.campaign.runs[i].repeat, made.campaign.runs[i].repeat);
+    }
+}
+
 TEST(Campaigns, HaveAStudyOfTheirSpecimen)
 {
     for (int kind = 0; kind < 5; ++kind) {

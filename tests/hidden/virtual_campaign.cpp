@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace stylobate::hidden {
 
@@ -171,6 +172,31 @@ MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index,
     return seen;
 }
 
+/// Each motion so many times, the specimen put back by hand in between.
+void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, const std::vector<int>& repeats,
+               bool table_seen)
+{
+    const State* worn = nullptr;
+    made.campaign.specimen = made.planned.specimen;
+    made.runs.reserve(static_cast<std::size_t>(std::accumulate(repeats.begin(), repeats.end(), 0))); // `worn` points
+    for (std::size_t i = 0; i < shakings.size(); ++i)
+        for (int repeat = 0; repeat < repeats[i]; ++repeat) {
+            const int index = static_cast<int>(made.runs.size());
+            TrueRun run;
+            run.shaking = shakings[i];
+            run.history =
+                one_run(made.model, made.planned, run.shaking,
+                        Draws(made.seed, Draw::placement, static_cast<std::uint64_t>(index)), worn, run.start);
+            made.runs.push_back(std::move(run));
+            if (made.model.effects.persists)
+                worn = &made.runs.back().history.end;
+            MeasuredRun seen = seen_run(made, made.runs.back(), index, table_seen);
+            seen.motion_id = static_cast<int>(i);
+            seen.repeat = repeat;
+            made.campaign.runs.push_back(std::move(seen));
+        }
+}
+
 } // namespace
 
 VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
@@ -216,29 +242,37 @@ VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
             repeats[static_cast<std::size_t>((thrice + 2) % motions)] = 3;
     }
     std::vector<Shaking> shakings = draw_motions(made.planned, seed, motions);
-    const State* worn = nullptr;
+    for (int i = 0; i < motions; ++i)
+        choose_amplitude(made.model, made.planned, seed, i, shakings[static_cast<std::size_t>(i)]);
     made.campaign.source = fmt::format("campaign_{}", seed);
-    made.campaign.specimen = made.planned.specimen;
-    made.runs.reserve(3 * shakings.size()); // `worn` points into it
-    for (int i = 0; i < motions; ++i) {
-        Shaking& shaking = shakings[static_cast<std::size_t>(i)];
-        choose_amplitude(made.model, made.planned, seed, i, shaking);
-        for (int repeat = 0; repeat < repeats[static_cast<std::size_t>(i)]; ++repeat) {
-            const int index = static_cast<int>(made.runs.size());
-            TrueRun run;
-            run.shaking = shaking;
-            run.history = one_run(made.model, made.planned, shaking,
-                                  Draws(seed, Draw::placement, static_cast<std::uint64_t>(index)), worn, run.start);
-            made.runs.push_back(std::move(run));
-            if (made.model.effects.persists)
-                worn = &made.runs.back().history.end;
-            MeasuredRun seen = seen_run(made, made.runs.back(), index, table_seen);
-            seen.motion_id = i;
-            seen.repeat = repeat;
-            made.campaign.runs.push_back(std::move(seen));
-        }
-    }
+    shake_all(made, shakings, repeats, table_seen);
     return made;
+}
+
+VirtualCampaign another_like(const VirtualCampaign& made, std::uint64_t number, bool with_effects)
+{
+    VirtualCampaign other;
+    other.seed = made.seed + ((number + 1) << 32U);
+    other.planned = made.planned;
+    other.model =
+        make_specimen(made.planned, made.model.law, Draws(other.seed, Draw::making), Draws(made.seed, Draw::law));
+    other.of_command = made.of_command;
+    if (with_effects) {
+        other.effects = made.effects;
+        other.model.effects = made.model.effects;
+    }
+    std::vector<Shaking> shakings;
+    std::vector<int> repeats;
+    for (std::size_t i = 0; i < made.runs.size(); ++i) {
+        if (made.campaign.runs[i].repeat == 0) {
+            shakings.push_back(made.runs[i].shaking);
+            repeats.push_back(0);
+        }
+        ++repeats.back();
+    }
+    other.campaign.source = fmt::format("{}_like_{}", made.campaign.source, number);
+    shake_all(other, shakings, repeats, !made.campaign.runs.front().table.x_m.values.empty());
+    return other;
 }
 
 } // namespace stylobate::hidden

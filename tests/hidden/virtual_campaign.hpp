@@ -43,4 +43,9 @@ struct VirtualCampaign {
 /// One seed, one campaign: two thirds or more of them hide nothing.
 VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish = {});
 
+/// The same laboratory on another day: motions, amplitudes, contact law and effects of a campaign; another specimen of
+/// the same plan, put back otherwise, seen with other noise. The friction that a `Wish` has changed is not kept.
+/// @param number any, a campaign each   @param with_effects false: nothing is hidden in it
+VirtualCampaign another_like(const VirtualCampaign& made, std::uint64_t number, bool with_effects);
+
 } // namespace stylobate::hidden

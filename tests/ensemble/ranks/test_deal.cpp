@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <chrono>
 #include <map>
 #include <numeric>
 #include <set>
+#include <thread>
 
 namespace stylobate {
 namespace {
@@ -104,6 +106,33 @@ TEST(Deal, ARankThatIsSlowGetsLess)
     });
     EXPECT_EQ(by_slow + by_others, count);
     EXPECT_LE(by_slow, 3 * Deal::portion(count, 3));
+}
+
+/// What waits to be taken has a bound: a portion is asked for behind what has come of the one before, and rank 0 reads
+/// in order.
+TEST(Deal, RanksWaitForARankZeroThatFallsBehind)
+{
+    constexpr std::uint64_t count = 20'000, ahead = 2;
+    std::uint64_t next = 0;
+    std::atomic<std::int64_t> waiting = 0;
+    std::int64_t most = 0;
+    std::uint64_t taken = 0;
+    ThreadRanks(3).run([&](Ranks& ranks) {
+        Deal deal(ranks, stock_of(count, next), ahead, [&](std::string_view) {
+            most = std::max(most, waiting.load());
+            --waiting;
+            ++taken;
+            std::this_thread::sleep_for(std::chrono::microseconds(20)); // far longer than the others need for one
+        });
+        if (!ranks.leads()) // rank 0 makes none itself
+            while (deal.next()) {
+                ++waiting;
+                deal.give("x");
+            }
+        EXPECT_TRUE(deal.finish());
+    });
+    EXPECT_EQ(taken, count);
+    EXPECT_LE(most, static_cast<std::int64_t>(2 * 2 * (Deal::portion(count, 3) + ahead)));
 }
 
 TEST(Deal, AnyRankStopsAllOfThem)
