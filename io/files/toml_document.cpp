@@ -205,7 +205,8 @@ toml::table parse_setting(const std::string& value, const std::string& place)
     }
 }
 
-std::vector<std::string> split_key(const std::string& key, const std::string& place)
+/// The parts of a dotted key; none if it is not one.
+std::vector<std::string> key_parts(const std::string& key)
 {
     std::vector<std::string> parts(1);
     for (const char c : key) {
@@ -214,14 +215,46 @@ std::vector<std::string> split_key(const std::string& key, const std::string& pl
         else if (is_bare(c))
             parts.back() += c;
         else
-            parts.assign(deepest_setting + 1, ""); // not a key at all
+            return {};
     }
     const bool whole = std::none_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
-    if (!whole || parts.size() > deepest_setting)
+    return whole && parts.size() <= deepest_setting ? parts : std::vector<std::string>{};
+}
+
+std::vector<std::string> split_key(const std::string& key, const std::string& place)
+{
+    std::vector<std::string> parts = key_parts(key);
+    if (parts.empty())
         throw InputError(place, 0,
                          "the key must be the dotted name of a key of the study file.\n"
                          "  For example --set study.realizations=64.");
     return parts;
+}
+
+/// Puts a value at a path, making tables on the way.
+/// @param fail throws for a path through what is no table: its name, and what it is
+template <class Fail>
+void put(TomlValue& root, const std::vector<std::string>& parts, TomlValue given, const Fail& fail)
+{
+    TomlValue* table = &root;
+    std::string path;
+    for (const std::string& part : parts) {
+        if (table->type != TomlValue::Type::table)
+            fail(fmt::format("{} = {} is {}, not a table, and has no key {}.", path, table->shown(), table->type_name(),
+                             part));
+        path += (path.empty() ? "" : ".") + part;
+        TomlValue* next = table->find(part);
+        if (next == nullptr) {
+            TomlValue fresh;
+            fresh.key = part;
+            fresh.place = given.place;
+            table->entries.push_back(std::move(fresh));
+            next = &table->entries.back();
+        }
+        table = next;
+    }
+    given.key = parts.back();
+    *table = std::move(given);
 }
 
 } // namespace
@@ -327,25 +360,20 @@ void apply_setting(TomlValue& root, const std::string& setting)
     if (given.type != TomlValue::Type::string)
         given.text = value;
 
-    TomlValue* table = &root;
-    std::string path;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (table->type != TomlValue::Type::table)
-            throw InputError(place, 0,
-                             fmt::format("{} = {} is {}, not a table, and has no key {}.", path, table->shown(),
-                                         table->type_name(), parts[i]));
-        path += (path.empty() ? "" : ".") + parts[i];
-        TomlValue* next = table->find(parts[i]);
-        if (next == nullptr) {
-            TomlValue fresh;
-            fresh.key = parts[i];
-            fresh.place = here;
-            table->entries.push_back(std::move(fresh));
-            next = &table->entries.back();
-        }
-        table = next;
-    }
-    *table = std::move(given);
+    put(root, parts, std::move(given), [&](const std::string& text) { throw InputError(place, 0, text); });
+}
+
+void apply_value(TomlValue& root, const std::string& key, const TomlValue& value, const std::string& why)
+{
+    const auto fail = [&](const std::string& text) {
+        throw InputError(value.place.source, value.place.line, fmt::format("{}: {}", why, text));
+    };
+    const std::vector<std::string> parts = key_parts(key);
+    if (parts.empty())
+        fail(fmt::format("\"{}\" is not the dotted name of a key of the study file.\n  For example "
+                         "\"contact.friction\" = 0.4.",
+                         key));
+    put(root, parts, value, fail);
 }
 
 std::string toml_quoted(std::string_view text)

@@ -44,6 +44,11 @@ TomlValue parse_toml(const std::string& text, const std::string& name);
 /// @throws InputError with "--set KEY=VALUE" as the place
 void apply_setting(TomlValue& root, const std::string& setting);
 
+/// Lays a value of another table over the tree at a dotted key, in place of what is there.
+/// @param why what the key is one of, for messages: "variants.dowels"
+/// @throws InputError at the value's place
+void apply_value(TomlValue& root, const std::string& key, const TomlValue& value, const std::string& why);
+
 /// A string in TOML's double quotes.
 std::string toml_quoted(std::string_view text);
 /// A finite number as a TOML float that reads back to the same bits.

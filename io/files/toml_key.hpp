@@ -55,7 +55,8 @@ enum class KeyType {
     texts,    ///< a list of strings
     table,
     tables,       ///< a list of tables
-    table_or_list ///< a table, or a list of such tables
+    table_or_list, ///< a table, or a list of such tables
+    named          ///< tables under names of the user's, all with these keys; without keys, with any
 };
 
 /// A key is used only where another one has one of these values.

@@ -1,5 +1,6 @@
 #include "io/keys/study_tables.hpp"
 
+#include "io/keys/compare_keys.hpp"
 #include "io/keys/contact_keys.hpp"
 #include "io/keys/excitation_keys.hpp"
 #include "io/keys/kind_keys.hpp"
@@ -31,7 +32,8 @@ const TableKey& study_file_keys()
                                 &excitation_keys::table, &surface_keys::table, &twins_keys::table,
                                 &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table,
                                 &perturbation_table(), &mechanisms_table(), &initial_keys::table, &output_keys::table,
-                                &outcome_keys::table, &run_keys::table});
+                                &outcome_keys::table, &run_keys::table, &variants_keys::table,
+                                &optimise_keys::table});
     return file;
 }
 

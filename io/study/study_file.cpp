@@ -354,6 +354,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     choose_steps(top.table(run_keys::table), study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
+    variant_names(top); // what is wrong with them is said here
+    read_optimise(top);
     if (top.has("twins")) {
         study.twins = read_twins(top.table(twins_keys::table), study);
         if (study.total() > most_realizations)
@@ -395,9 +397,11 @@ std::string read_text(const std::filesystem::path& file)
 
 } // namespace
 
-Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+namespace {
+
+/// The study of a tree that was read from a file.
+Study study_of(const TomlValue& root, const std::filesystem::path& file)
 {
-    const TomlValue root = read_toml(read_text(file), file.string(), overrides);
     Study study = read_tree(root, std::filesystem::absolute(file).parent_path());
     // beside the study, if it is there; absolute, so that the study means the same from any folder
     const auto find_beside = [&](std::string& named, const TomlValue& table) {
@@ -418,6 +422,35 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
         find_beside(study.vertical->file, *root.find("mechanisms")->find("vertical_motion"));
     study.text = study_text(study);
     return study;
+}
+
+} // namespace
+
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+{
+    return study_of(read_toml(read_text(file), file.string(), overrides), file);
+}
+
+Study read_variant(const std::filesystem::path& file, const std::string& variant,
+                   const std::vector<std::string>& overrides)
+{
+    TomlValue root = read_toml(read_text(file), file.string(), overrides);
+    apply_variant(root, variant, file.string());
+    return study_of(root, file);
+}
+
+std::vector<std::string> read_variant_names(const std::filesystem::path& file,
+                                            const std::vector<std::string>& overrides)
+{
+    const TomlValue root = read_toml(read_text(file), file.string(), overrides);
+    return variant_names(KeyReader(&root, "", root.place));
+}
+
+std::optional<OptimiseSpec> read_optimisation(const std::filesystem::path& file,
+                                              const std::vector<std::string>& overrides)
+{
+    const TomlValue root = read_toml(read_text(file), file.string(), overrides);
+    return read_optimise(KeyReader(&root, "", root.place));
 }
 
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides)

@@ -2,8 +2,10 @@
 /// The study file: TOML in, `Study` out, every key checked.
 
 #include "ensemble/model/study.hpp"
+#include "io/study/study_variants.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,17 @@ namespace stylobate {
 /// @throws InputError with file, line, key, value, the allowed range and what to do: a misspelt key ('did you mean'),
 ///         a wrong type, a missing key, a value out of range, a key that the chosen kind does not use
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The study with one of its [variants] laid over it.
+/// @throws InputError as above, and if there is no such variant
+Study read_variant(const std::filesystem::path& file, const std::string& variant,
+                   const std::vector<std::string>& overrides = {});
+/// Names of its [variants], in the order of their characters.
+std::vector<std::string> read_variant_names(const std::filesystem::path& file,
+                                            const std::vector<std::string>& overrides = {});
+/// Its [optimise]; nothing if it has none.
+std::optional<OptimiseSpec> read_optimisation(const std::filesystem::path& file,
+                                              const std::vector<std::string>& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
 /// A relative `excitation.file` is left as it is.

@@ -117,6 +117,12 @@ LoadedStudy LoadedStudy::from_file(const std::string& file, const std::vector<st
     return LoadedStudy(with_motions(read_study(file, settings)));
 }
 
+LoadedStudy LoadedStudy::from_variant(const std::string& file, const std::string& variant,
+                                      const std::vector<std::string>& settings)
+{
+    return LoadedStudy(with_motions(read_variant(file, variant, settings)));
+}
+
 LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeader& header, const std::string& file,
                                       const std::vector<std::string>& settings)
 {

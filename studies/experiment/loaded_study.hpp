@@ -25,6 +25,10 @@ public:
     /// @throws InputError for whatever is wrong with the study or its record
     static LoadedStudy from_file(const std::string& file, const std::vector<std::string>& settings);
 
+    /// One of the [variants] of a study file. @throws InputError as above, and if there is no such variant
+    static LoadedStudy from_variant(const std::string& file, const std::string& variant,
+                                    const std::vector<std::string>& settings);
+
     /// From the study inside a results file. `settings` may only give the present path of the record.
     /// @throws InputError as above, and if the record is not the one that the results were made with
     /// @param study as parsed from its text

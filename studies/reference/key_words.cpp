@@ -55,6 +55,8 @@ std::string type_words(const TomlKey& key)
         return "list of tables";
     case KeyType::table_or_list:
         return "table, or list of tables";
+    case KeyType::named:
+        return "table under a name of your choice";
     }
     return {};
 }

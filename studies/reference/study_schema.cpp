@@ -150,6 +150,8 @@ private:
             return array_of(Json::object().member("type", "string"));
         case KeyType::table:
             return table(key, path, Json::object());
+        case KeyType::named:
+            return key.keys.empty() ? Json::object().member("type", "object") : table(key, path, Json::object());
         case KeyType::tables:
             return array_of(table(key, path, Json::object()));
         case KeyType::table_or_list: {
@@ -166,17 +168,28 @@ private:
         schema.member("type", "object");
         Json properties = Json::object();
         std::vector<std::string> required;
+        const TomlKey* named = nullptr; // tables of all other names
+        Json others = Json::object();
         for (const TomlKey* key : table.keys) {
             const std::string inner = path.empty() ? key->name : path + "." + key->name;
             Json described = of(*key, inner);
             describe(*key, described);
+            if (key->type == KeyType::named) {
+                named = key;
+                others = described;
+                continue;
+            }
             properties.member(key->name, described);
             if (key->needed() && key->used.empty())
                 required.push_back(key->name);
         }
         if (path.empty())
             properties.member("claim", Json::object().member("description", "read by stylobate_claims"));
-        schema.member("properties", properties).member("additionalProperties", false);
+        schema.member("properties", properties);
+        if (named)
+            schema.member("additionalProperties", others);
+        else
+            schema.member("additionalProperties", false);
         if (!required.empty())
             schema.member("required", Json::list(required));
         const Json conditions = path.empty() ? of_studies() : of_own_keys(table, path);

@@ -90,6 +90,10 @@ private:
             return line(key.name + " = " + value, about);
         if (key.absent_is_value)
             return line("# " + key.name + " = " + key.absent, about);
+        if (key.type == KeyType::named)
+            return line("# " + (key.keys.empty() ? key.name + " = { \"TABLE.KEY\" = ... }"
+                                                 : "\"TABLE.KEY\" = " + inline_table(key)),
+                        about);
         const bool of_tables = !key.keys.empty() && !key.keys.front()->keys.empty(); // [perturbation.mechanisms]
         if (of_tables)
             return line("# " + key.name + ".NAME.KEY = { distribution = \"normal\", sd = ... }", about);

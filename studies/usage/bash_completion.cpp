@@ -176,7 +176,7 @@ std::vector<SettableKey> settable_keys()
     for_each_key([&](const std::string& path, const TomlKey& key) {
         if (!list.empty() && path.starts_with(list))
             return;
-        if (key.type == KeyType::tables)
+        if (key.type == KeyType::tables || key.type == KeyType::named)
             list = path + ".";
         const bool plain = key.keys.empty() && key.type != KeyType::table && key.type != KeyType::tables;
         if (!plain)

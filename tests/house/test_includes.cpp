@@ -45,6 +45,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/estimators/rare", {"ensemble/estimators/resampling", "ensemble/numerics"}},
     {"ensemble/estimators/sensitivity", {"ensemble/estimators/resampling"}},
     {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
+    {"ensemble/estimators/paired", {"ensemble/numerics"}},
 
     {"io/files", {}},
     {"io/tables", {"io/files"}},

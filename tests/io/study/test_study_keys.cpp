@@ -110,6 +110,7 @@ std::vector<std::string> samples()
             "[sensitivity]\nsamples = 10\n[perturbation]\nfriction = { distribution = \"normal\", cov = 0.01 }\n",
         "[study]\nkind = \"rare\"\n" + drums + contact + "[excitation]\n" + harmonic +
             "[rare]\n[perturbation]\nfriction = { distribution = \"normal\", cov = 0.01 }\n"};
+    all.push_back(single(harmonic) + "[variants]\nNAME = { }\n[optimise]\nbudget = 100\nKEY = { from = 1, to = 2 }\n");
     all.push_back(single(harmonic) + "[mechanisms]\nvertical_motion = { file = \"v\" }\n");
     // each mechanism with as little as it takes
     for (const MechanismRule& rule : mechanism_rules()) {
@@ -188,6 +189,7 @@ std::pair<std::string, std::string> of_another_type(const TomlKey& key)
     case KeyType::texts:
         return {"true", "not a list"};
     case KeyType::table:
+    case KeyType::named:
     case KeyType::table_or_list:
         return {"true", "not a table"};
     case KeyType::tables:

@@ -1,0 +1,78 @@
+#pragma once
+/// The difference of two probabilities that are estimated from the same realizations.
+///
+/// Of n pairs b reached the limit state in the variant alone and c in the base alone. The difference variant - base is
+/// d = (b - c) / n, and its variance (q - d2) / n, q = (b + c) / n: pairs that end alike add nothing to it. The interval
+/// is the score interval of Tango, "Equivalence test and confidence interval for the difference in proportions for the
+/// paired-sample design", Statistics in Medicine 17 (1998) 891: all d with
+///
+///   |b - c - n d| <= z sqrt(n (2 q10 + d (1 - d)))
+///
+/// where q10 is the most likely probability of the pairs of c, given d: the larger root of
+/// 2 n x2 - (b + c - (2 n - b + c) d) x - c d (1 - d) = 0. Without a discordant pair its limits are -+ z2 / (n + z2).
+///
+/// Chosen among Tango's, Agresti and Min's ("Simple improved confidence intervals for comparing matched proportions",
+/// Statistics in Medicine 24 (2005) 729) and Bonett and Price's, by exact summation: with five expected discordant
+/// pairs or more the coverage of Tango's is 0.935 to 0.976 at level 0.95, and it is conservative with fewer. Agresti and
+/// Min's falls to 0.83 where an intervention acts in one direction alone, which is the usual case (docs/compare.md).
+///
+/// Groups (runs under one motion) are not independent trials. Their counts are divided by the design effect
+///
+///   D = G / (G - 1) sum over groups (b_g - c_g - n_g d)2 / (n (q - d2)),   within [1/2, mean pairs of a group]
+///
+/// and z becomes Student's quantile of G - 1 degrees of freedom; without a discordant pair D is its upper bound, as if
+/// each group were one pair. The design effect is that of Rao and Scott, "A simple method for the analysis of clustered
+/// binary data", Biometrics 48 (1992) 577; its use with Tango's interval is an own choice. Measured coverage:
+/// docs/compare.md.
+///
+/// Strata (cells of a surface) have equal weights, however many pairs each has: d is the mean of the cells' differences,
+/// its variance V the sum of theirs over the square of their number, and Tango's interval is taken at the number of
+/// pairs (Q - d2) / V that has this variance, at most twice what equal cells would have (Q the mean share of discordant
+/// pairs; own choice).
+
+#include "ensemble/estimators/paired/paired_counts.hpp"
+
+#include <span>
+
+namespace stylobate {
+
+/// Numbers of pairs as real numbers: a design effect divides them.
+struct PairedDifference {
+    double value = 0; ///< variant - base; NaN without pairs
+    double lower = -1;
+    double upper = 1;
+    double design_effect = 1;
+    double quantile = 0; ///< z, or Student's
+
+    double half_width() const { return (upper - lower) / 2; }
+};
+
+/// Limits at a quantile: z of the level, or another one. @param pairs > 0, of them `variant_only` and `base_only`
+PairedDifference score_interval(double pairs, double base_only, double variant_only, double quantile);
+
+/// Of independent pairs.
+PairedDifference paired_difference(const PairedCounts& counts, double level);
+/// Of groups of pairs that depend on each other; those without pairs are left out. One group alone: [-1, 1].
+PairedDifference grouped_difference(std::span<const PairedCounts> groups, double level);
+/// The mean over strata with pairs.
+PairedDifference stratified_difference(std::span<const PairedCounts> strata, double level);
+/// The same at a quantile.
+PairedDifference stratified_at(std::span<const PairedCounts> strata, double quantile);
+
+/// Quantile of the standard normal distribution for a two-sided level.
+double two_sided_normal(double level);
+
+/// How many realizations of each of two studies that are drawn independently have an interval of this half width:
+/// Newcombe's hybrid score interval ("Interval estimation for the difference between independent proportions",
+/// Statistics in Medicine 17 (1998) 873, method 10) of the shares that were found. Without a discordant pair it is as
+/// wide as the paired one, so that the number is that of the pairs.
+///
+/// @param base, variant shares   @param base_effect, variant_effect design effects of the shares, 1 of independent
+///        trials   @param half_width > 0
+double unpaired_realizations(double base, double variant, double half_width, double quantile, double base_effect = 1,
+                             double variant_effect = 1);
+
+/// Design effect of the share of one side, as D above. @param reached of a group in one of the two
+double share_effect(std::span<const PairedCounts> groups, std::uint64_t (PairedCounts::*reached)() const);
+
+} // namespace stylobate

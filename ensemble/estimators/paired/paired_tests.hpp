@@ -1,0 +1,37 @@
+#pragma once
+/// Exact tests of whether two studies differ, and what many tests at once allow to be named.
+///
+/// Without an effect the two outcomes of a pair may be exchanged, and with them the sign of every group's difference
+/// x = (reached in the variant alone) - (reached in the base alone): all signs are equally likely, and the p-value is
+/// the share of sign patterns whose sum is at least as large. Where every group is one pair this is the exact test of
+/// McNemar, "Note on the sampling error of the difference between correlated proportions or percentages", Psychometrika
+/// 12 (1947) 153: Binomial(b + c, 1/2). The sum over sign patterns is exact too, by their distribution over whole
+/// numbers.
+///
+/// Many cells: the p-values are adjusted. The cells of a surface have draws of their own, so that their tests are
+/// independent; then the procedure of Benjamini and Hochberg ("Controlling the false discovery rate", Journal of the
+/// Royal Statistical Society B 57 (1995) 289) bounds the expected share of false names among all names. The stripes of
+/// a fragility study share structures and motions; there Holm's procedure ("A simple sequentially rejective multiple
+/// test procedure", Scandinavian Journal of Statistics 6 (1979) 65), valid under any dependence, bounds the probability
+/// of any false name.
+
+#include "ensemble/estimators/paired/paired_counts.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+/// Two-sided, twice the smaller of the two one-sided values, at most 1. Exact; with more than 1e8 steps of the
+/// distribution by the normal approximation with the correction for continuity.
+/// @param groups each exchangeable as a whole
+double sign_flip_p(std::span<const PairedCounts> groups);
+/// Of independent pairs: McNemar's exact test.
+double mcnemar_p(const PairedCounts& counts);
+
+/// Adjusted values: those at most alpha are named at the rate alpha.
+std::vector<double> benjamini_hochberg(const std::vector<double>& p);
+std::vector<double> holm(const std::vector<double>& p);
+
+} // namespace stylobate

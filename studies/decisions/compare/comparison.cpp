@@ -1,0 +1,85 @@
+#include "studies/decisions/compare/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+const char* to_string(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::better:
+        return "better";
+    case Verdict::worse:
+        return "worse";
+    case Verdict::less:
+        return "less";
+    case Verdict::more:
+        return "more";
+    case Verdict::open:
+        return "open";
+    }
+    return "?";
+}
+
+const char* to_string(CommonDraws draws)
+{
+    switch (draws) {
+    case CommonDraws::same:
+        return "same numbers";
+    case CommonDraws::quantiles:
+        return "same quantiles";
+    case CommonDraws::other:
+        return "other numbers";
+    case CommonDraws::base_only:
+        return "base alone";
+    case CommonDraws::variant_only:
+        return "variant alone";
+    }
+    return "?";
+}
+
+double PlaceComparison::largest() const
+{
+    return std::max(std::abs(lower), std::abs(upper));
+}
+
+Verdict LimitComparison::verdict(const PlaceComparison& place) const
+{
+    if (place.upper < 0)
+        return damage ? Verdict::better : Verdict::less;
+    if (place.lower > 0)
+        return damage ? Verdict::worse : Verdict::more;
+    return Verdict::open;
+}
+
+std::vector<std::size_t> LimitComparison::named(double rate, bool worse) const
+{
+    std::vector<std::size_t> found;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+        if (cells[cell].p_adjusted <= rate && (cells[cell].difference > 0) == worse)
+            found.push_back(cell);
+    std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+        return std::abs(cells[a].difference) > std::abs(cells[b].difference);
+    });
+    return found;
+}
+
+std::size_t Comparison::cells() const
+{
+    if (!frequency_hz.empty())
+        return frequency_hz.size() * pga_m_s2.size();
+    return std::max<std::size_t>(1, intensity.size());
+}
+
+std::string Comparison::place(std::size_t cell) const
+{
+    if (!frequency_hz.empty())
+        return fmt::format("{:.3g} Hz, {:.3g} m/s2", frequency_hz[cell / pga_m_s2.size()],
+                           pga_m_s2[cell % pga_m_s2.size()]);
+    return intensity.empty() ? "all" : fmt::format("{} = {:.4g}", measure, intensity[cell]);
+}
+
+} // namespace stylobate

@@ -1,0 +1,101 @@
+#pragma once
+/// What an intervention changes, by limit state and place, as plain data.
+
+#include "ensemble/estimators/paired/paired_counts.hpp"
+#include "studies/experiment/limit_state.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What a difference comes to at the level of its interval.
+enum class Verdict {
+    better, ///< of damage: its probability is smaller
+    worse,
+    less, ///< of what is no damage, as rocking without collapse
+    more,
+    open ///< the interval contains 0
+};
+const char* to_string(Verdict verdict);
+
+/// One limit state in one cell or stripe, or in all.
+struct PlaceComparison {
+    PairedCounts counts;
+    Share base, variant;    ///< each side's own probability with its interval
+    double difference = 0;  ///< variant - base; NaN without pairs
+    double lower = -1;      ///< paired interval
+    double upper = 1;
+    double unpaired = 0;    ///< realizations of each study that an unpaired comparison needs for the same half width
+    double p = 1;           ///< exact two-sided test that the studies do not differ
+    double p_adjusted = 1;  ///< over the cells of the limit state; of all cells together as `p`
+
+    /// How many times as many realizations an unpaired comparison would need.
+    double saving() const { return unpaired / static_cast<double>(counts.pairs()); }
+    /// The largest difference of either sign that the interval contains.
+    double largest() const;
+};
+
+struct LimitComparison {
+    std::string name;     ///< "collapse", "peak_0.35"
+    std::string describe; ///< "a block falls"
+    bool damage = true;   ///< whether more of it is worse
+    std::vector<PlaceComparison> cells;
+    PlaceComparison overall;
+
+    Verdict verdict(const PlaceComparison& place) const;
+    /// Cells that are named at the rate of false names: those where it is worse (or more), or better.
+    std::vector<std::size_t> named(double rate, bool worse) const;
+};
+
+/// How the draws of one perturbed quantity are related, as found in the pairs.
+enum class CommonDraws {
+    same,         ///< the same numbers
+    quantiles,    ///< the same quantiles of distributions that differ
+    other,        ///< other numbers
+    base_only,    ///< the variant does not draw it
+    variant_only, ///< the base does not draw it
+};
+const char* to_string(CommonDraws draws);
+
+struct CommonInput {
+    std::string name; ///< "friction"
+    CommonDraws draws = CommonDraws::same;
+    std::uint64_t numbers = 1; ///< how many of the quantity (joints, blocks) are so
+};
+
+struct VariantComparison {
+    std::string name;       ///< "dowels"
+    std::string results;    ///< its results file
+    std::string study_toml; ///< its canonical study
+    std::uint64_t pairs = 0;                                        ///< that both studies have valid
+    std::uint64_t invalid_base = 0, invalid_variant = 0, dropped = 0; ///< dropped: invalid in either
+    std::vector<CommonInput> inputs;
+    std::vector<std::string> notes; ///< what else differs, in sentences
+    std::vector<LimitComparison> limits;
+};
+
+struct Comparison {
+    std::string kind; ///< of the studies
+    std::string title;
+    std::string base_name, base_results, base_toml;
+    std::string code_version;
+    double level = interval_level; ///< of intervals and verdicts
+    double rate = 0.05;            ///< of false names among the cells that are named
+    std::string adjustment;        ///< "benjamini-hochberg" or "holm"; empty: there is one cell
+    std::vector<double> frequency_hz, pga_m_s2; ///< axes of a surface
+    std::string measure;                        ///< of a fragility study
+    std::vector<double> intensity;              ///< its stripes; none of a cloud
+    std::uint64_t motions = 0;                  ///< of a fragility study: the groups of pairs
+    std::uint64_t adaptive_budget = 0;          ///< realizations of each study at most; 0: all were run
+    double adaptive_margin = 0;                 ///< difference that matters
+    std::uint64_t adaptive_rounds = 0;
+    std::vector<VariantComparison> variants;
+
+    std::size_t cells() const;
+    /// "2.5 Hz, 4 m/s2", "pga_m_s2 = 3", "all".
+    std::string place(std::size_t cell) const;
+};
+
+} // namespace stylobate

@@ -1,0 +1,224 @@
+/// Differences of paired probabilities: closed forms, published values, and the coverage of the intervals.
+
+#include "ensemble/estimators/paired/paired_difference.hpp"
+
+#include "tests/ensemble/estimators/paired_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace stylobate {
+namespace {
+
+/// In Tango's notation: n pairs of which b and c are discordant.
+PairedCounts counts(std::uint64_t n, std::uint64_t variant_only, std::uint64_t base_only)
+{
+    return {0, base_only, variant_only, n - variant_only - base_only};
+}
+
+TEST(PairedDifference, WithoutADiscordantPairHasTheClosedForm)
+{
+    for (const std::uint64_t n : {1, 8, 100, 100000}) {
+        const PairedDifference found = paired_difference(counts(n, 0, 0), 0.95);
+        const double z2 = 1.959963984540054 * 1.959963984540054, limit = z2 / (static_cast<double>(n) + z2);
+        EXPECT_EQ(found.value, 0);
+        EXPECT_NEAR(found.upper, limit, 1e-12);
+        EXPECT_NEAR(found.lower, -limit, 1e-12);
+    }
+}
+
+/// The limits solve (b - c - n d)2 = z2 n (2 q10 + d (1 - d)) with the q10 that maximises the trinomial likelihood,
+/// found here by a search over q10 and not by the root of its equation.
+TEST(PairedDifference, LimitsSolveTheScoreEquation)
+{
+    for (const auto& [n, b, c] : std::vector<std::array<std::uint64_t, 3>>{
+             {44, 1, 0}, {32, 5, 2}, {100, 0, 9}, {256, 30, 31}, {16, 12, 1}, {20, 20, 0}}) {
+        const PairedDifference found = paired_difference(counts(n, b, c), 0.95);
+        for (const double d : {found.lower, found.upper}) {
+            if (std::abs(d) == 1)
+                continue;
+            const auto N = static_cast<double>(n), B = static_cast<double>(b), C = static_cast<double>(c);
+            const auto likelihood = [&](double q) {
+                const double p01 = q + d, rest = 1 - 2 * q - d;
+                if (q < 0 || p01 < 0 || rest < 0)
+                    return -std::numeric_limits<double>::infinity();
+                const auto term = [](double k, double p) { return k == 0 ? 0.0 : k * std::log(p); };
+                return term(B, p01) + term(C, q) + term(N - B - C, rest);
+            };
+            double low = std::max(0.0, -d), high = (1 - d) / 2;
+            for (int i = 0; i < 200; ++i) { // golden section
+                const double a = high - 0.6180339887 * (high - low), e = low + 0.6180339887 * (high - low);
+                (likelihood(a) < likelihood(e) ? low : high) = likelihood(a) < likelihood(e) ? a : e;
+            }
+            const double q = (low + high) / 2, variance = N * (2 * q + d * (1 - d));
+            EXPECT_NEAR(std::abs(B - C - N * d) / std::sqrt(variance), 1.959964, 2e-4) << n << " " << b << " " << c;
+        }
+        EXPECT_LE(found.lower, found.value);
+        EXPECT_GE(found.upper, found.value);
+    }
+    EXPECT_EQ(paired_difference(counts(20, 20, 0), 0.95).upper, 1);
+}
+
+/// Tango (1998), table III: 44 pairs, of which (12, 0), (13, 1) ... here its example of contact lenses: 43 of 44 and 44
+/// of 44, that is one discordant pair.
+TEST(PairedDifference, HasTheLimitsOfThePublishedExample)
+{
+    const PairedDifference found = paired_difference(counts(44, 0, 1), 0.95);
+    EXPECT_NEAR(found.lower, -0.118, 5e-4);
+    EXPECT_NEAR(found.upper, 0.059, 5e-3);
+}
+
+TEST(PairedDifference, ExchangingTheStudiesReflectsTheInterval)
+{
+    const PairedDifference one = paired_difference(counts(60, 9, 2), 0.9), other = paired_difference(counts(60, 2, 9), 0.9);
+    EXPECT_NEAR(one.lower, -other.upper, 1e-12);
+    EXPECT_NEAR(one.upper, -other.lower, 1e-12);
+}
+
+TEST(PairedDifference, GroupsOfOnePairAreIndependentPairs)
+{
+    std::vector<PairedCounts> groups;
+    PairedCounts all;
+    for (int i = 0; i < 50; ++i) {
+        PairedCounts one;
+        one.add(i % 3 == 0, i % 4 == 0);
+        groups.push_back(one);
+        all += one;
+    }
+    const PairedDifference grouped = grouped_difference(groups, 0.95), plain = paired_difference(all, 0.95);
+    EXPECT_EQ(grouped.lower, plain.lower);
+    EXPECT_EQ(grouped.upper, plain.upper);
+}
+
+TEST(PairedDifference, CopiesOfAPairGiveTheIntervalOfTheGroups)
+{
+    // ten copies of each pair: as much is known as of single pairs, but for Student's quantile
+    std::vector<PairedCounts> groups;
+    for (int i = 0; i < 40; ++i) {
+        PairedCounts one;
+        for (int k = 0; k < 10; ++k)
+            one.add(i % 4 == 0, i % 2 == 0);
+        groups.push_back(one);
+    }
+    const PairedDifference grouped = grouped_difference(groups, 0.95);
+    EXPECT_NEAR(grouped.design_effect, 10, 1e-9); // its bound; unbounded it is 10 x 40 / 39
+    const PairedDifference expected = score_interval(40, 0, 10, 2.0227);
+    EXPECT_NEAR(grouped.lower, expected.lower, 1e-4);
+    EXPECT_NEAR(grouped.upper, expected.upper, 1e-4);
+}
+
+TEST(PairedDifference, OneGroupOrNoneSaysNothing)
+{
+    const std::vector<PairedCounts> one = {{3, 2, 1, 4}};
+    EXPECT_EQ(grouped_difference(one, 0.95).lower, -1);
+    EXPECT_EQ(grouped_difference(one, 0.95).upper, 1);
+    EXPECT_TRUE(std::isnan(grouped_difference({}, 0.95).value));
+    EXPECT_TRUE(std::isnan(stratified_difference({}, 0.95).value));
+}
+
+TEST(PairedDifference, StrataHaveEqualWeights)
+{
+    const std::vector<PairedCounts> strata = {{0, 10, 0, 10}, {0, 0, 100, 100}};
+    EXPECT_NEAR(stratified_difference(strata, 0.95).value, 0, 1e-12);
+    // equal cells that are alike: as many pairs in one
+    const std::vector<PairedCounts> alike(16, PairedCounts{5, 3, 6, 18});
+    const PairedDifference all = paired_difference({80, 48, 96, 288}, 0.95),
+                           strata16 = stratified_difference(alike, 0.95);
+    EXPECT_NEAR(strata16.value, all.value, 1e-12);
+    EXPECT_NEAR(strata16.half_width(), all.half_width(), 0.03 * all.half_width()); // n - 1 for n
+}
+
+TEST(PairedDifference, UnpairedNumberIsThatOfTheVariances)
+{
+    // a large sample: n' = n (p1 q1 + p2 q2) / (q - d2)
+    const PairedCounts c{40000, 6000, 4000, 50000};
+    const PairedDifference found = paired_difference(c, 0.95);
+    const double p1 = 0.46, p2 = 0.44, q = 0.1, d = -0.02;
+    const double want = 1e5 * (p1 * (1 - p1) + p2 * (1 - p2)) / (q - d * d);
+    EXPECT_NEAR(unpaired_realizations(p1, p2, found.half_width(), found.quantile), want, 0.01 * want);
+    // without a discordant pair nothing is saved beyond the pairs
+    const PairedDifference none = paired_difference(counts(200, 0, 0), 0.95);
+    EXPECT_NEAR(unpaired_realizations(0, 0, none.half_width(), none.quantile), 200, 1);
+}
+
+constexpr int repeats = 10000;
+
+/// The share of the repeats whose interval holds the truth.
+template <class Draw>
+double coverage(double truth, const Draw& draw)
+{
+    int held = 0;
+    for (int i = 0; i < repeats; ++i) {
+        const PairedDifference found = draw();
+        held += found.lower <= truth && truth <= found.upper;
+    }
+    return held / static_cast<double>(repeats);
+}
+
+/// With at least eight expected discordant pairs 95 +- 1 %, of 10000 repeats (3 standard errors are 0.7 %); with fewer
+/// no less.
+TEST(PairedDifferenceStatistics, IntervalsOfPairsCover)
+{
+    std::mt19937_64 random(1);
+    for (const std::uint64_t n : {32, 128, 512})
+        for (const double base : {0.05, 0.3, 0.5, 0.9})
+            for (const double change : {0.0, -0.04, 0.08})
+                for (const double correlation : {0.0, 0.5, 0.85}) {
+                    const PairedTruth truth{base, base + change, correlation};
+                    if (truth.both() > std::min(truth.base, truth.variant))
+                        continue;
+                    const double covered = coverage(
+                        truth.difference(), [&] { return paired_difference(truth.draw(n, random), 0.95); });
+                    const double expected = static_cast<double>(n) * truth.discordant();
+                    EXPECT_GE(covered, 0.94) << n << " " << base << " " << change << " " << correlation;
+                    if (expected >= 8) {
+                        EXPECT_LE(covered, expected >= 20 ? 0.96 : 0.97) << n << " " << base << " " << change << " " << correlation;
+                    }
+                }
+}
+
+TEST(PairedDifferenceStatistics, IntervalsOfGroupsCover)
+{
+    std::mt19937_64 random(2);
+    const GroupedTruth truths[] = {
+        {0, 1, 0, 0, 0.9}, {0, 1, -0.3, 0.5, 0.9}, {-1, 2, -0.5, 0.3, 0.5}, {0, 3, -1, 0.5, 0.9}};
+    for (const std::size_t groups : {20, 40})
+        for (const std::size_t pairs : {4, 10})
+            for (const GroupedTruth& truth : truths) {
+                const double covered = coverage(truth.difference(), [&] {
+                    return grouped_difference(truth.draw(groups, pairs, random), 0.95);
+                });
+                EXPECT_GE(covered, 0.94) << groups << " " << pairs << " " << truth.mean << " " << truth.shift;
+                EXPECT_LE(covered, 0.97) << groups << " " << pairs << " " << truth.mean << " " << truth.shift;
+            }
+}
+
+/// Cells whose probabilities differ, some without any discordant pair.
+TEST(PairedDifferenceStatistics, IntervalsOfStrataCover)
+{
+    std::mt19937_64 random(3);
+    for (const bool uneven : {false, true})
+        for (const double change : {0.0, -0.1}) {
+            std::vector<PairedTruth> truths;
+            double mean = 0;
+            for (int i = 0; i < 16; ++i) {
+                const double base = i < 6 ? 0.001 : i > 11 ? 0.999 : 0.15 * (i - 5);
+                const bool inside = i >= 6 && i <= 11;
+                truths.push_back({base, inside ? std::max(0.01, base + change) : base, inside ? 0.6 : 0.99});
+                mean += truths.back().difference() / 16;
+            }
+            const double covered = coverage(mean, [&] {
+                std::vector<PairedCounts> strata;
+                for (std::size_t i = 0; i < truths.size(); ++i)
+                    strata.push_back(truths[i].draw(uneven && i % 2 == 0 ? 64 : 24, random));
+                return stratified_difference(strata, 0.95);
+            });
+            EXPECT_NEAR(covered, 0.95, 0.01) << uneven << " " << change;
+        }
+}
+
+} // namespace
+} // namespace stylobate
