@@ -68,6 +68,13 @@ struct ReportOptions {
     std::optional<double> animate_seconds; ///< for running them again
 };
 
+/// What `compare` is asked for (studies/app/decisions).
+struct CompareOptions {
+    std::vector<std::string> files; ///< study files or finished results, the base first; one study file: its [variants]
+    std::string output;             ///< the comparison; empty: the base's name with _comparison.h5
+    double level = 0.95;            ///< of intervals and verdicts
+};
+
 /// What `calibrate` is asked for.
 struct CalibrateOptions {
     std::string study;              ///< to begin from; empty: by the specimen (`default_study`)
@@ -95,6 +102,7 @@ struct NewStudyOptions {
 int run_command(const CommonOptions& options, const std::string& study, std::string results, const std::string& shard);
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
                   bool partial);
+int compare_command(const CommonOptions& options, const CompareOptions& wanted);
 int check_command(const CommonOptions& options, const std::string& study, const CheckOptions& wanted);
 int verify_command(const CommonOptions& options, const std::string& results, const VerifyChoice& wanted);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,

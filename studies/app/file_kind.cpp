@@ -32,6 +32,7 @@ constexpr KindWords kind_words[] = {
     {FileKind::results, "the results of a study", "the results of a study (HDF5)"},
     {FileKind::diagnosis, "a diagnosis", "a diagnosis"},
     {FileKind::calibration, "a calibration", "a calibration"},
+    {FileKind::comparison, "a comparison of studies", "a comparison"},
     {FileKind::campaign, "a measured campaign", "a measured campaign (HDF5, or a folder of CSV files)"},
     {FileKind::outcomes, "a table of measured outcomes", "a table of measured outcomes (CSV with a column 'fell')"},
     {FileKind::record, "a record of ground motion", "records of ground motion"},
@@ -57,12 +58,16 @@ constexpr Use uses[] = {
     {FileKind::study, "check", "stylobate check {}",
      "before a run: its time, memory and file, and where the study is weak; --to png: draws the structure"},
     {FileKind::study, "run", "stylobate run {}", "runs it, or continues an unfinished result of it"},
+    {FileKind::study, "compare", "stylobate compare {}",
+     "compares it with its [variants], or with other studies, under the same draws"},
     {FileKind::results, "export", "stylobate export {} --to png", "draws it; --to csv: its tables"},
     {FileKind::results, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::results, "replay", "stylobate replay {} --realization I",
      "runs one realization again, with its trajectory"},
     {FileKind::results, "verify-file", "stylobate verify-file {}", "verifies it, and runs some realizations again"},
     {FileKind::results, "merge", "stylobate merge {} OTHERS -o ALL.h5", "joins it with the other shards of its study"},
+    {FileKind::results, "compare", "stylobate compare {} OTHERS -o COMPARISON.h5",
+     "compares it with the results of variants of its study"},
     {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds the errors of the simulation and their causes"},
@@ -89,6 +94,8 @@ RecognisedFile of_sealed(const fs::path& file)
     const Hdf5Label label = hdf5_label(file);
     if (label.format == "stylobate-diagnosis")
         return {FileKind::diagnosis, ""};
+    if (label.format == "stylobate-comparison")
+        return {FileKind::comparison, ""};
     return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind} : RecognisedFile{};
 }
 

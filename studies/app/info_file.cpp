@@ -12,6 +12,8 @@
 #include "io/study/study_file.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/calibration/calibration_file.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/experiment/loaded_study.hpp"
@@ -162,6 +164,15 @@ void tell_diagnosis(const std::string& file, Told& told)
                             count_words(d.runs, "run", "runs"), d.code_version, verdict_heading(d), verdict_words(d));
 }
 
+void tell_comparison(const std::string& file, Told& told)
+{
+    const Comparison comparison = read_comparison(file);
+    told.text = fmt::format("a comparison of studies of kind '{}', by stylobate {}\n{}", comparison.kind,
+                            comparison.code_version, comparison_text(comparison));
+    told.json = comparison_json(comparison);
+    told.json.member("holds", "comparison").member("code_version", comparison.code_version);
+}
+
 void tell_calibration(const std::string& file, Told& told)
 {
     const StoredCalibration c = read_calibration(file);
@@ -260,6 +271,9 @@ void print_file(const CommonOptions& options, const std::string& file)
         break;
     case FileKind::diagnosis:
         tell_diagnosis(file, told);
+        break;
+    case FileKind::comparison:
+        tell_comparison(file, told);
         break;
     case FileKind::calibration:
         tell_calibration(file, told);

@@ -126,6 +126,7 @@ public:
         add_run();
         add_merge();
         add_check();
+        add_compare();
         add_replay();
         add_verify();
         add_record();
@@ -257,6 +258,27 @@ private:
         add_set(*merge, options_);
         add_common(*merge, options_);
         merge->callback([this] { status_ = merge_command(options_, files_, output_, partial_); });
+    }
+
+    void add_compare()
+    {
+        auto* compare = app_.add_subcommand(
+            "compare", "what interventions change: studies run under the same draws and the same shaking, differences "
+                       "of all limit states with paired intervals; continues unfinished results");
+        compare
+            ->add_option("STUDY", compare_.files,
+                         "study files, the base first (one alone: its [variants]); or finished results of them")
+            ->required();
+        compare->add_option("-o,--output", compare_.output,
+                            "the comparison (default: the base's name with _comparison.h5); the results of the studies "
+                            "go beside it, under their names");
+        compare->add_option("--level", compare_.level, "confidence of intervals and verdicts")
+            ->check(CLI::Range(0.5, 0.9999))
+            ->capture_default_str();
+        add_force(*compare, options_);
+        add_set(*compare, options_);
+        add_common(*compare, options_, {"cpu", "cuda"});
+        compare->callback([this] { status_ = compare_command(options_, compare_); });
     }
 
     void add_replay()
@@ -506,6 +528,7 @@ private:
     CommonOptions options_;
     CheckOptions check_;
     VerifyChoice verify_;
+    CompareOptions compare_;
     int status_ = exit_done;
 
     std::string file_, study_, output_; // what a verb reads, besides, and writes

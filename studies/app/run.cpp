@@ -109,6 +109,10 @@ std::unique_ptr<Prepared> prepare(const CommonOptions& options, const std::strin
         throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, why));
     all->warnings = all->loaded.warnings(study);
     all->notice = kind.prepare(all->loaded.experiment(), study);
+    if (const auto variants = read_variant_names(study, options.set); !variants.empty())
+        all->notice += fmt::format("{}{} has [variants] ({}), which run leaves out: it computes the base alone. "
+                                   "stylobate compare {} computes them all.",
+                                   all->notice.empty() ? "" : "\n", study, fmt::join(variants, ", "), study);
     all->run = options.run_options();
     if (all->run.leads() && std::filesystem::exists(results))
         all->file = ResultWriter::is_finished(results, all->header) ? "finished" : "begun";

@@ -18,8 +18,7 @@ struct Wilson {
 Wilson wilson(double share, double trials, double z)
 {
     const double z2 = z * z, middle = (share + z2 / (2 * trials)) / (1 + z2 / trials);
-    const double half =
-        z / (1 + z2 / trials) * std::sqrt(share * (1 - share) / trials + z2 / (4 * trials * trials));
+    const double half = z / (1 + z2 / trials) * std::sqrt(share * (1 - share) / trials + z2 / (4 * trials * trials));
     return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
@@ -189,6 +188,24 @@ double share_effect(std::span<const PairedCounts> groups, std::uint64_t (PairedC
         between += excess * excess;
     }
     return bounded_effect(between, sums.pairs * share * (1 - share), sums);
+}
+
+double strata_effect(std::span<const PairedCounts> strata, std::uint64_t (PairedCounts::*reached)() const)
+{
+    double cells = 0, mean = 0, variance = 0, all = 0;
+    for (const PairedCounts& cell : strata) {
+        const auto n = static_cast<double>(cell.pairs());
+        if (n == 0)
+            continue;
+        const double share = static_cast<double>((cell.*reached)()) / n;
+        cells += 1;
+        all += n;
+        mean += share;
+        variance += share * (1 - share) / std::max(n - 1, 1.0);
+    }
+    mean /= cells;
+    const double without = mean * (1 - mean) / all;
+    return without > 0 ? std::max(variance / (cells * cells) / without, 0.01) : 1.0;
 }
 
 } // namespace stylobate

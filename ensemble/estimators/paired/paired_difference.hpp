@@ -2,9 +2,9 @@
 /// The difference of two probabilities that are estimated from the same realizations.
 ///
 /// Of n pairs b reached the limit state in the variant alone and c in the base alone. The difference variant - base is
-/// d = (b - c) / n, and its variance (q - d2) / n, q = (b + c) / n: pairs that end alike add nothing to it. The interval
-/// is the score interval of Tango, "Equivalence test and confidence interval for the difference in proportions for the
-/// paired-sample design", Statistics in Medicine 17 (1998) 891: all d with
+/// d = (b - c) / n, and its variance (q - d2) / n, q = (b + c) / n: pairs that end alike add nothing to it. The
+/// interval is the score interval of Tango, "Equivalence test and confidence interval for the difference in proportions
+/// for the paired-sample design", Statistics in Medicine 17 (1998) 891: all d with
 ///
 ///   |b - c - n d| <= z sqrt(n (2 q10 + d (1 - d)))
 ///
@@ -13,8 +13,9 @@
 ///
 /// Chosen among Tango's, Agresti and Min's ("Simple improved confidence intervals for comparing matched proportions",
 /// Statistics in Medicine 24 (2005) 729) and Bonett and Price's, by exact summation: with five expected discordant
-/// pairs or more the coverage of Tango's is 0.935 to 0.976 at level 0.95, and it is conservative with fewer. Agresti and
-/// Min's falls to 0.83 where an intervention acts in one direction alone, which is the usual case (docs/compare.md).
+/// pairs or more the coverage of Tango's is 0.935 to 0.976 at level 0.95, and it is conservative with fewer. Agresti
+/// and Min's falls to 0.83 where an intervention acts in one direction alone, which is the usual case
+/// (docs/compare.md).
 ///
 /// Groups (runs under one motion) are not independent trials. Their counts are divided by the design effect
 ///
@@ -25,10 +26,10 @@
 /// binary data", Biometrics 48 (1992) 577; its use with Tango's interval is an own choice. Measured coverage:
 /// docs/compare.md.
 ///
-/// Strata (cells of a surface) have equal weights, however many pairs each has: d is the mean of the cells' differences,
-/// its variance V the sum of theirs over the square of their number, and Tango's interval is taken at the number of
-/// pairs (Q - d2) / V that has this variance, at most twice what equal cells would have (Q the mean share of discordant
-/// pairs; own choice).
+/// Strata (cells of a surface) have equal weights, however many pairs each has: d is the mean of the cells'
+/// differences, its variance V the sum of theirs over the square of their number, and Tango's interval is taken at the
+/// number of pairs (Q - d2) / V that has this variance, at most twice what equal cells would have (Q the mean share of
+/// discordant pairs; own choice).
 
 #include "ensemble/estimators/paired/paired_counts.hpp"
 
@@ -74,5 +75,9 @@ double unpaired_realizations(double base, double variant, double half_width, dou
 
 /// Design effect of the share of one side, as D above. @param reached of a group in one of the two
 double share_effect(std::span<const PairedCounts> groups, std::uint64_t (PairedCounts::*reached)() const);
+
+/// The same of the mean over strata of equal weight: their variance over that of as many trials without strata, at
+/// least 0.01.
+double strata_effect(std::span<const PairedCounts> strata, std::uint64_t (PairedCounts::*reached)() const);
 
 } // namespace stylobate

@@ -7,18 +7,18 @@
 
 namespace stylobate {
 
-const char* to_string(Verdict verdict)
+const char* to_string(ChangeVerdict verdict)
 {
     switch (verdict) {
-    case Verdict::better:
+    case ChangeVerdict::better:
         return "better";
-    case Verdict::worse:
+    case ChangeVerdict::worse:
         return "worse";
-    case Verdict::less:
+    case ChangeVerdict::less:
         return "less";
-    case Verdict::more:
+    case ChangeVerdict::more:
         return "more";
-    case Verdict::open:
+    case ChangeVerdict::open:
         return "open";
     }
     return "?";
@@ -46,13 +46,13 @@ double PlaceComparison::largest() const
     return std::max(std::abs(lower), std::abs(upper));
 }
 
-Verdict LimitComparison::verdict(const PlaceComparison& place) const
+ChangeVerdict LimitComparison::verdict(const PlaceComparison& place) const
 {
     if (place.upper < 0)
-        return damage ? Verdict::better : Verdict::less;
+        return damage ? ChangeVerdict::better : ChangeVerdict::less;
     if (place.lower > 0)
-        return damage ? Verdict::worse : Verdict::more;
-    return Verdict::open;
+        return damage ? ChangeVerdict::worse : ChangeVerdict::more;
+    return ChangeVerdict::open;
 }
 
 std::vector<std::size_t> LimitComparison::named(double rate, bool worse) const

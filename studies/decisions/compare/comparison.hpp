@@ -11,25 +11,25 @@
 namespace stylobate {
 
 /// What a difference comes to at the level of its interval.
-enum class Verdict {
+enum class ChangeVerdict {
     better, ///< of damage: its probability is smaller
     worse,
     less, ///< of what is no damage, as rocking without collapse
     more,
     open ///< the interval contains 0
 };
-const char* to_string(Verdict verdict);
+const char* to_string(ChangeVerdict verdict);
 
 /// One limit state in one cell or stripe, or in all.
 struct PlaceComparison {
     PairedCounts counts;
-    Share base, variant;    ///< each side's own probability with its interval
-    double difference = 0;  ///< variant - base; NaN without pairs
-    double lower = -1;      ///< paired interval
+    Share base, variant;   ///< each side's own probability with its interval
+    double difference = 0; ///< variant - base; NaN without pairs
+    double lower = -1;     ///< paired interval
     double upper = 1;
-    double unpaired = 0;    ///< realizations of each study that an unpaired comparison needs for the same half width
-    double p = 1;           ///< exact two-sided test that the studies do not differ
-    double p_adjusted = 1;  ///< over the cells of the limit state; of all cells together as `p`
+    double unpaired = 0;   ///< realizations of each study that an unpaired comparison needs for the same half width
+    double p = 1;          ///< exact two-sided test that the studies do not differ
+    double p_adjusted = 1; ///< over the cells of the limit state; of all cells together as `p`
 
     /// How many times as many realizations an unpaired comparison would need.
     double saving() const { return unpaired / static_cast<double>(counts.pairs()); }
@@ -44,7 +44,7 @@ struct LimitComparison {
     std::vector<PlaceComparison> cells;
     PlaceComparison overall;
 
-    Verdict verdict(const PlaceComparison& place) const;
+    ChangeVerdict verdict(const PlaceComparison& place) const;
     /// Cells that are named at the rate of false names: those where it is worse (or more), or better.
     std::vector<std::size_t> named(double rate, bool worse) const;
 };
@@ -66,10 +66,10 @@ struct CommonInput {
 };
 
 struct VariantComparison {
-    std::string name;       ///< "dowels"
-    std::string results;    ///< its results file
-    std::string study_toml; ///< its canonical study
-    std::uint64_t pairs = 0;                                        ///< that both studies have valid
+    std::string name;                                                 ///< "dowels"
+    std::string results;                                              ///< its results file
+    std::string study_toml;                                           ///< its canonical study
+    std::uint64_t pairs = 0;                                          ///< that both studies have valid
     std::uint64_t invalid_base = 0, invalid_variant = 0, dropped = 0; ///< dropped: invalid in either
     std::vector<CommonInput> inputs;
     std::vector<std::string> notes; ///< what else differs, in sentences
@@ -81,9 +81,9 @@ struct Comparison {
     std::string title;
     std::string base_name, base_results, base_toml;
     std::string code_version;
-    double level = interval_level; ///< of intervals and verdicts
-    double rate = 0.05;            ///< of false names among the cells that are named
-    std::string adjustment;        ///< "benjamini-hochberg" or "holm"; empty: there is one cell
+    double level = interval_level;              ///< of intervals and verdicts
+    double rate = 0.05;                         ///< of false names among the cells that are named
+    std::string adjustment;                     ///< "benjamini-hochberg" or "holm"; empty: there is one cell
     std::vector<double> frequency_hz, pga_m_s2; ///< axes of a surface
     std::string measure;                        ///< of a fragility study
     std::vector<double> intensity;              ///< its stripes; none of a cloud

@@ -1,0 +1,178 @@
+/// `stylobate compare`: studies run under the same draws, and what differs between them.
+
+#include "ensemble/model/input_error.hpp"
+#include "io/files/atomic_file.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
+#include "studies/app/file_kind.hpp"
+#include "studies/app/output_path.hpp"
+#include "studies/app/run_report.hpp"
+#include "studies/decisions/compare/compare_studies.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace stylobate {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Studies = std::vector<std::unique_ptr<WholeRun>>;
+
+std::string default_output(const std::string& base)
+{
+    return fs::path(base).stem().string() + "_comparison.h5";
+}
+
+/// What the studies are called in the comparison: the base by its file, a variant by its own name.
+std::vector<std::string> names_of(const CompareOptions& wanted, const std::vector<std::string>& results)
+{
+    std::vector<std::string> names;
+    const std::string base = fs::path(wanted.files.front()).stem().string();
+    for (const std::string& file : results) {
+        std::string name = fs::path(file).stem().string();
+        if (wanted.files.size() == 1 && !names.empty())
+            name = name.substr(base.size() + 1);
+        names.push_back(name);
+    }
+    return names;
+}
+
+/// Whether a comparison may take the place of what is there: that of the same studies may, as `run` continues a file.
+void check_place(const CommonOptions& options, const std::string& output, const std::vector<std::string>& files,
+                 const std::vector<std::string>& texts)
+{
+    for (const std::string& file : files)
+        check_not_input(file, output);
+    AtomicFile::check(output);
+    std::error_code none;
+    if (!fs::exists(output, none))
+        return;
+    check_option_kind(output, FileKind::comparison, "-o");
+    if (options.force)
+        return;
+    const Comparison old = read_comparison(output);
+    std::vector<std::string> known = {old.base_toml};
+    for (const VariantComparison& variant : old.variants)
+        known.push_back(variant.study_toml);
+    if (known != texts)
+        throw InputError(output, 0,
+                         "is the comparison of other studies, and nothing was written.\n  Give --force to replace it, "
+                         "or name another file by -o.");
+}
+
+/// Nothing is left to run: computes the comparison, writes and prints it.
+int conclude(const CommonOptions& options, const CompareOptions& wanted, const std::vector<std::string>& files,
+             const std::string& output)
+{
+    const Comparison comparison = comparison_of(names_of(wanted, files), files, wanted.level);
+    write_comparison(comparison, output);
+    if (options.json) {
+        Json json = comparison_json(comparison);
+        json.member("comparison", output).member("complete", true);
+        fmt::print("{}\n", json.text());
+    } else if (!options.quiet) {
+        fmt::print("{}: {}", output, comparison_text(comparison));
+    }
+    return exit_done;
+}
+
+int interrupted(const CommonOptions& options, const Studies& studies, const std::string& output)
+{
+    std::uint64_t done = 0, total = 0;
+    for (const auto& study : studies) {
+        done += study->done();
+        total += study->header().total;
+    }
+    if (options.json)
+        fmt::print("{}\n", Json::object()
+                               .member("comparison", output)
+                               .member("complete", false)
+                               .member("realizations", done)
+                               .member("total", total)
+                               .text());
+    else if (!options.quiet)
+        fmt::print("Interrupted; {} of {} realizations are kept. The same command continues the comparison.\n", done,
+                   total);
+    return exit_interrupted;
+}
+
+/// Runs what the studies lack. @returns whether all is there
+bool run_all(const CommonOptions& options, const Studies& studies)
+{
+    Console console(options.quiet); // from here on an interrupt leaves files to be continued
+    for (const auto& study : studies)
+        for (const std::string& warning : study->warnings())
+            console.warn(study->name() + ": " + warning);
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        WholeRun& study = *studies[i];
+        if (!options.quiet && !study.finished())
+            say(fmt::format("{} ({} of {})\n", study.name(), i + 1, studies.size()));
+        if (console.stop_requested() || !study.run(options.run_options(), console))
+            return false;
+    }
+    return true;
+}
+
+int compare_study_files(const CommonOptions& options, const CompareOptions& wanted, const std::string& output)
+{
+    const Studies studies = studies_to_compare({wanted.files, options.set, fs::path(output).parent_path().string()});
+    std::vector<std::string> files, texts;
+    for (const auto& study : studies) {
+        files.push_back(study->results());
+        texts.push_back(study->header().study_toml);
+        check_option_kind(study->results(), FileKind::results, "compare: the results");
+    }
+    check_place(options, output, files, texts);
+    options.run_options(); // refuses an instruction set that is not there
+    for (const auto& study : studies)
+        study->check_drawn();
+    if (!run_all(options, studies))
+        return interrupted(options, studies, output);
+    const int status = conclude(options, wanted, files, output);
+    for (const auto& study : studies)
+        if (const std::string message =
+                too_many_invalid(study->study(), study->invalid(), study->header().total, study->results());
+            !message.empty()) {
+            say(fmt::format("stylobate: {}\n", message));
+            return exit_invalid;
+        }
+    return status;
+}
+
+int compare_results(const CommonOptions& options, const CompareOptions& wanted, const std::string& output)
+{
+    if (!options.set.empty())
+        throw InputError(fmt::format("--set {}: the studies of results are fixed", options.set.front()));
+    if (wanted.files.size() < 2)
+        throw InputError(wanted.files.front(), 0,
+                         "is one result.\n  Give those of its variants too: compare BASE.h5 VARIANT.h5 ...");
+    std::vector<std::string> texts;
+    for (const auto& results : results_to_compare(wanted.files))
+        texts.push_back(results->header().study_toml);
+    check_place(options, output, wanted.files, texts);
+    return conclude(options, wanted, wanted.files, output);
+}
+
+} // namespace
+
+int compare_command(const CommonOptions& options, const CompareOptions& wanted)
+{
+    for (const std::string& file : wanted.files)
+        check_kind(file, "compare");
+    const FileKind kind = recognise(wanted.files.front()).kind;
+    for (const std::string& file : wanted.files)
+        if (recognise(file).kind != kind)
+            throw InputError(fmt::format(
+                "compare: {} is {}, and {} is {}.\n  Give study files, or results of them all.", wanted.files.front(),
+                describe(recognise(wanted.files.front())), file, describe(recognise(file))));
+    const std::string output = wanted.output.empty() ? default_output(wanted.files.front()) : wanted.output;
+    return kind == FileKind::results ? compare_results(options, wanted, output)
+                                     : compare_study_files(options, wanted, output);
+}
+
+} // namespace stylobate

@@ -1,0 +1,28 @@
+#pragma once
+/// A comparison as lines for a terminal, as JSON and as a table of all its places.
+
+#include "io/tables/table.hpp"
+#include "studies/decisions/compare/comparison.hpp"
+#include "studies/report/json.hpp"
+
+#include <string>
+
+namespace stylobate {
+
+std::string comparison_text(const Comparison& comparison);
+Json comparison_json(const Comparison& comparison);
+/// A row for each variant, limit state and cell, and for all cells together.
+Table comparison_rows(const Comparison& comparison);
+
+/// "no difference larger than 0.03 shown", "better".
+std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place);
+/// "-0.043 [-0.060, -0.027]"
+std::string difference_text(const PlaceComparison& place);
+/// "friction: same numbers; drum_offset: same quantiles".
+std::string inputs_text(const VariantComparison& variant);
+/// What names of cells mean: "Benjamini-Hochberg, false names at most 5 %".
+std::string adjustment_text(const Comparison& comparison);
+/// How draws and motions are common by construction, in a sentence.
+std::string common_text(const Comparison& comparison);
+
+} // namespace stylobate

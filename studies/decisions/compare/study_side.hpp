@@ -1,0 +1,58 @@
+#pragma once
+/// One study of a comparison, as far as pairs need it: which limit states each realization reached.
+
+#include "io/store/result_store.hpp"
+#include "studies/experiment/limit_state.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct LimitDefinition {
+    std::string name, describe;
+    bool damage = true;                            ///< whether more of it is worse
+    std::function<bool(const ResultRow&)> reached; ///< of a valid realization
+};
+
+/// The limit states of a study: those of surfaces (limit_state.hpp), or the damage states of a fragility study.
+/// @param study, header must outlive what is returned
+std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultHeader& header);
+
+/// What became of the realizations of a study, by index.
+class StudySide {
+public:
+    /// @param originals realizations that are no replicas   @param kept of the inputs: those of every so many
+    /// realizations
+    StudySide(std::vector<LimitDefinition> limits, std::uint64_t originals);
+
+    void add(const ResultRow& row);
+
+    bool has(std::uint64_t index) const { return (state_[index] & present) != 0; }
+    bool valid(std::uint64_t index) const { return (state_[index] & invalid) == 0; }
+    /// @pre has(index) && valid(index)
+    bool reached(std::uint64_t index, std::size_t limit) const { return (state_[index] >> limit & 1) != 0; }
+    std::uint64_t size() const { return state_.size(); }
+    const std::vector<LimitDefinition>& limits() const { return limits_; }
+
+    /// Draws of some realizations, for the question which numbers two studies have in common.
+    struct Draws {
+        std::uint64_t index;
+        std::vector<double> inputs;
+    };
+    /// In the order of their indices.
+    std::vector<Draws> draws() const;
+
+private:
+    static constexpr std::uint32_t present = 1u << 31, invalid = 1u << 30;
+    static constexpr std::uint64_t most_draws = 512;
+
+    std::vector<LimitDefinition> limits_;
+    std::vector<std::uint32_t> state_;
+    std::vector<Draws> draws_;
+    std::uint64_t stride_;
+};
+
+} // namespace stylobate
