@@ -1,0 +1,75 @@
+#include "studies/decisions/compare/input_dependence.hpp"
+
+#include "ensemble/estimators/paired/paired_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace stylobate {
+
+namespace {
+
+/// A quantity, and which of the inputs it is.
+struct Quantity {
+    std::string name;
+    std::vector<std::size_t> inputs;
+};
+
+std::vector<Quantity> quantities_of(const std::vector<std::string>& inputs)
+{
+    std::vector<Quantity> all;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const std::string name = inputs[i].substr(0, inputs[i].find('['));
+        auto at = std::ranges::find(all, name, &Quantity::name);
+        if (at == all.end())
+            at = all.insert(all.end(), {name, {}});
+        at->inputs.push_back(i);
+    }
+    return all;
+}
+
+} // namespace
+
+std::vector<InputDependence> input_dependences(const ResultReader& rows, const StudySide& base,
+                                               const StudySide& variant, std::size_t base_limit,
+                                               std::size_t variant_limit, const PairLayout& layout)
+{
+    std::vector<InputDependence> all;
+    if (layout.groups > 0)
+        return all;
+    const std::uint64_t of_each_cell = std::max<std::uint64_t>(2, most_dependence_pairs / layout.cells);
+    const std::vector<Quantity> quantities = quantities_of(rows.header().input_names);
+    std::vector<PairedTrial> trials;
+    std::vector<std::vector<double>> values(quantities.size());
+    rows.for_each_row([&](const ResultRow& row) {
+        const std::uint64_t index = row.index;
+        if (index >= base.size() || !layout.has(index) || index % layout.per_cell >= of_each_cell || !base.has(index) ||
+            !variant.has(index) || !base.valid(index) || !variant.valid(index))
+            return;
+        trials.push_back({layout.cell(index), base.reached(index, base_limit), variant.reached(index, variant_limit)});
+        for (std::size_t q = 0; q < quantities.size(); ++q) {
+            double sum = 0;
+            for (const std::size_t i : quantities[q].inputs)
+                sum += row.inputs[i];
+            values[q].push_back(sum / static_cast<double>(quantities[q].inputs.size()));
+        }
+    });
+    if (trials.size() < 3)
+        return all;
+    std::vector<double> p;
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        const auto [least, most] = std::ranges::minmax(values[q]);
+        if (!std::isfinite(least) || !std::isfinite(most) || least == most)
+            continue;
+        all.push_back({quantities[q].name, dependence_on(trials, values[q], layout.level), 1});
+        p.push_back(all.back().found.p);
+    }
+    const std::vector<double> adjusted = holm(p);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        all[k].p_adjusted = adjusted[k];
+    std::ranges::stable_sort(all, {}, [](const InputDependence& one) { return one.found.p; });
+    return all;
+}
+
+} // namespace stylobate
