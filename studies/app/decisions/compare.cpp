@@ -7,6 +7,7 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/app/run_report.hpp"
+#include "studies/decisions/compare/adaptive_comparison.hpp"
 #include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 namespace stylobate {
 
@@ -46,8 +48,13 @@ std::vector<std::string> names_of(const CompareOptions& wanted, const std::vecto
 void check_place(const CommonOptions& options, const std::string& output, const std::vector<std::string>& files,
                  const std::vector<std::string>& texts)
 {
-    for (const std::string& file : files)
+    const auto place = [](const std::string& file) { return fs::absolute(file).lexically_normal(); };
+    for (const std::string& file : files) {
         check_not_input(file, output);
+        if (place(file) == place(output)) // though neither is there yet
+            throw InputError(
+                fmt::format("-o {}: is the results file of one of the studies; choose another output", output));
+    }
     AtomicFile::check(output);
     std::error_code none;
     if (!fs::exists(output, none))
@@ -65,11 +72,9 @@ void check_place(const CommonOptions& options, const std::string& output, const 
                          "or name another file by -o.");
 }
 
-/// Nothing is left to run: computes the comparison, writes and prints it.
-int conclude(const CommonOptions& options, const CompareOptions& wanted, const std::vector<std::string>& files,
-             const std::string& output)
+/// Writes the comparison and prints it.
+int conclude(const CommonOptions& options, const Comparison& comparison, const std::string& output)
 {
-    const Comparison comparison = comparison_of(names_of(wanted, files), files, wanted.level);
     write_comparison(comparison, output);
     if (options.json) {
         Json json = comparison_json(comparison);
@@ -102,12 +107,8 @@ int interrupted(const CommonOptions& options, const Studies& studies, const std:
 }
 
 /// Runs what the studies lack. @returns whether all is there
-bool run_all(const CommonOptions& options, const Studies& studies)
+bool run_all(const CommonOptions& options, const Studies& studies, Console& console)
 {
-    Console console(options.quiet); // from here on an interrupt leaves files to be continued
-    for (const auto& study : studies)
-        for (const std::string& warning : study->warnings())
-            console.warn(study->name() + ": " + warning);
     for (std::size_t i = 0; i < studies.size(); ++i) {
         WholeRun& study = *studies[i];
         if (!options.quiet && !study.finished())
@@ -128,12 +129,27 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
         check_option_kind(study->results(), FileKind::results, "compare: the results");
     }
     check_place(options, output, files, texts);
+    if (wanted.adaptive)
+        check_adaptive(studies.front()->study(), wanted.files.front(), {*wanted.adaptive, wanted.margin});
     options.run_options(); // refuses an instruction set that is not there
     for (const auto& study : studies)
         study->check_drawn();
-    if (!run_all(options, studies))
+    const std::vector<std::string> names = names_of(wanted, files);
+    std::optional<Comparison> comparison;
+    {
+        Console console(options.quiet); // from here on an interrupt leaves files to be continued
+        for (const auto& study : studies)
+            for (const std::string& warning : study->warnings())
+                console.warn(study->name() + ": " + warning);
+        if (wanted.adaptive)
+            comparison = compare_adaptively(studies, names, {*wanted.adaptive, wanted.margin}, wanted.level,
+                                            options.run_options(), console);
+        else if (run_all(options, studies, console))
+            comparison = comparison_of(names, files, wanted.level);
+    }
+    if (!comparison)
         return interrupted(options, studies, output);
-    const int status = conclude(options, wanted, files, output);
+    const int status = conclude(options, *comparison, output);
     for (const auto& study : studies)
         if (const std::string message =
                 too_many_invalid(study->study(), study->invalid(), study->header().total, study->results());
@@ -148,6 +164,9 @@ int compare_results(const CommonOptions& options, const CompareOptions& wanted, 
 {
     if (!options.set.empty())
         throw InputError(fmt::format("--set {}: the studies of results are fixed", options.set.front()));
+    if (wanted.adaptive)
+        throw InputError(fmt::format("--adaptive {}: {} is finished; give study files instead", *wanted.adaptive,
+                                     wanted.files.front()));
     if (wanted.files.size() < 2)
         throw InputError(wanted.files.front(), 0,
                          "is one result.\n  Give those of its variants too: compare BASE.h5 VARIANT.h5 ...");
@@ -155,7 +174,7 @@ int compare_results(const CommonOptions& options, const CompareOptions& wanted, 
     for (const auto& results : results_to_compare(wanted.files))
         texts.push_back(results->header().study_toml);
     check_place(options, output, wanted.files, texts);
-    return conclude(options, wanted, wanted.files, output);
+    return conclude(options, comparison_of(names_of(wanted, wanted.files), wanted.files, wanted.level), output);
 }
 
 } // namespace
