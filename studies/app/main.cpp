@@ -284,6 +284,8 @@ private:
             ->check(CLI::Range(0.001, 0.5))
             ->capture_default_str()
             ->needs(adaptive);
+        compare->add_flag("--search", compare_.search,
+                          "search the values of [optimise] for which the limit state is least probable");
         add_force(*compare, options_);
         add_set(*compare, options_);
         add_common(*compare, options_, {"cpu", "cuda"});

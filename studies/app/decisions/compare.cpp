@@ -11,6 +11,7 @@
 #include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/search/search.hpp"
 
 #include <fmt/format.h>
 
@@ -177,6 +178,36 @@ int compare_results(const CommonOptions& options, const CompareOptions& wanted, 
     return conclude(options, comparison_of(names_of(wanted, wanted.files), wanted.files, wanted.level), output);
 }
 
+int search_study(const CommonOptions& options, const CompareOptions& wanted)
+{
+    if (wanted.files.size() > 1)
+        throw InputError(
+            fmt::format("--search: takes one study file with [optimise], not {} files", wanted.files.size()));
+    if (wanted.adaptive || !wanted.output.empty())
+        throw InputError(fmt::format("{}: does not go with --search, whose points have results files of their own",
+                                     wanted.adaptive ? "--adaptive" : "-o " + wanted.output));
+    const SearchFiles files{wanted.files.front(), options.set, ""};
+    check_search(files);
+    const RunOptions run = options.run_options();
+    std::optional<SearchResult> result;
+    {
+        Console console(options.quiet); // from here on an interrupt leaves files to be continued
+        result = search(files, wanted.level, run, console);
+    }
+    if (!result) {
+        if (options.json)
+            fmt::print("{}\n", Json::object().member("complete", false).text());
+        else if (!options.quiet)
+            fmt::print("Interrupted; what was run is kept. The same command continues the search.\n");
+        return exit_interrupted;
+    }
+    if (options.json)
+        fmt::print("{}\n", search_json(*result).member("complete", true).text());
+    else if (!options.quiet)
+        fmt::print("{}", search_text(*result));
+    return exit_done;
+}
+
 } // namespace
 
 int compare_command(const CommonOptions& options, const CompareOptions& wanted)
@@ -189,6 +220,10 @@ int compare_command(const CommonOptions& options, const CompareOptions& wanted)
             throw InputError(fmt::format(
                 "compare: {} is {}, and {} is {}.\n  Give study files, or results of them all.", wanted.files.front(),
                 describe(recognise(wanted.files.front())), file, describe(recognise(file))));
+    if (wanted.search && kind != FileKind::results)
+        return search_study(options, wanted);
+    if (wanted.search)
+        throw InputError(fmt::format("--search: {} is a result; give the study file", wanted.files.front()));
     const std::string output = wanted.output.empty() ? default_output(wanted.files.front()) : wanted.output;
     return kind == FileKind::results ? compare_results(options, wanted, output)
                                      : compare_study_files(options, wanted, output);

@@ -22,13 +22,13 @@ enum Shade { better_much, better, not_named_less, none, not_named_more, worse, w
 
 std::vector<MapClass> classes()
 {
-    return {{better_much, "#2166ac", fmt::format("better by {:g} or more", large)},
+    return {{better_much, "#2166ac", fmt::format("better, ≥ {:g}", large)},
             {better, "#74add1", "better"},
             {not_named_less, "#d8e8f1", "less, not named"},
-            {none, "#f7f7f7", "no difference"},
+            {none, "#f7f7f7", "no change"},
             {not_named_more, "#fbe3d4", "more, not named"},
             {worse, "#ef8a62", "worse"},
-            {worse_much, "#b2182b", fmt::format("worse by {:g} or more", large)}};
+            {worse_much, "#b2182b", fmt::format("worse, ≥ {:g}", large)}};
 }
 
 double shade_of(const PlaceComparison& place, double rate)

@@ -106,14 +106,11 @@ TEST(PairedAllocationStatistics, IntervalsHoldWhereverItStops)
         held_mean += all.lower <= mean && mean <= all.upper;
     }
     const double cells = repeats * static_cast<double>(truths.size());
-    RecordProperty("cells", std::to_string(held / cells));
     EXPECT_GE(held / cells, 0.95) << "of fixed numbers: " << fixed / cells;
-    EXPECT_LE(held / cells, 0.985);
+    EXPECT_LE(held / cells, 0.99);
     EXPECT_LT(fixed / cells, 0.94);
     EXPECT_GE(held_mean / repeats, 0.95);
     EXPECT_LE(false_zero / zeros, 0.05);
-    std::printf("cells %.4f, fixed %.4f, mean %.4f, false %.4f\n", held / cells, fixed / cells, held_mean / repeats,
-                false_zero / zeros);
 }
 
 } // namespace
