@@ -1,6 +1,6 @@
 #pragma once
-/// The keys of [variants] and [optimise], which `stylobate compare` reads beside the study itself. Both hold tables under
-/// names of the user's.
+/// The keys of [variants] and [optimise], which `stylobate compare` reads beside the study itself. Both hold tables
+/// under names of the user's.
 
 #include "ensemble/model/study.hpp"
 #include "io/keys/kind_keys.hpp"
@@ -27,12 +27,12 @@ namespace optimise_keys {
 
 inline const Range any_number{-1e30, 1e30};
 
-inline const TextKey minimise{"minimise", "the limit state whose probability is to be smallest",
-                              {.absent = "\"collapse\""}};
+inline const TextKey minimise{
+    "minimise", "the limit state whose probability is to be smallest", {.absent = "\"collapse\""}};
 inline const WholeKey budget{"budget",
                              {1, most_realizations, "Realizations of the whole search."},
-                             "realizations of the whole search; each point runs those of the study",
-                             {.example = "20000"}};
+                             20000,
+                             "realizations of the whole search; each point runs those of the study"};
 inline const NumberKey from{"from", any_number, "smallest value"};
 inline const NumberKey to{"to", any_number, "largest value"};
 inline const WordKey<Spacing> spacing{"spacing", spacing_names, Spacing::linear,
@@ -40,7 +40,7 @@ inline const WordKey<Spacing> spacing{"spacing", spacing_names, Spacing::linear,
 inline const TableKey any{"KEY",
                           "a number of the study to choose, in quotes where it has dots; one to three of them",
                           {&from, &to, &spacing},
-                          {},
+                          {.absent = "nothing to choose"},
                           KeyType::named};
 inline const TableKey table{"optimise",
                             "numbers of the study that `stylobate compare --search` chooses",

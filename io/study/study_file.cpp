@@ -246,9 +246,11 @@ RunSpec read_run(const KeyReader& keys, ContactForm form)
     return r;
 }
 
-/// Refuses the table of another kind of study.
+/// Refuses the table of another kind of study, and what is wrong with those that are not the study's own.
 void check_tables(const KeyReader& top, StudyKind of_study)
 {
+    variant_names(top);
+    read_optimise(top);
     const char* word = word_for(study_kind_names, of_study);
     for (const TableKey* table :
          {&surface_keys::table, &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table})
@@ -354,8 +356,6 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     choose_steps(top.table(run_keys::table), study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
-    variant_names(top); // what is wrong with them is said here
-    read_optimise(top);
     if (top.has("twins")) {
         study.twins = read_twins(top.table(twins_keys::table), study);
         if (study.total() > most_realizations)

@@ -73,6 +73,9 @@ struct CompareOptions {
     std::vector<std::string> files; ///< study files or finished results, the base first; one study file: its [variants]
     std::string output;             ///< the comparison; empty: the base's name with _comparison.h5
     double level = 0.95;            ///< of intervals and verdicts
+    std::optional<std::uint64_t> adaptive; ///< pairs of each variant at most, where they are needed; none: all
+    double margin = 0.05;                  ///< of an adaptive comparison: a difference that does not matter
+    bool search = false;                   ///< for the values of [optimise]
 };
 
 /// What `calibrate` is asked for.
@@ -112,6 +115,9 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                    const std::string& component, const std::string& block);
 /// The pictures of results of every kind.
 std::vector<std::string> picture_names();
+/// Of a comparison. @param format "png", "csv", ...   @returns the file
+std::string export_comparison(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
+                              const std::string& format);
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
 int report_command(const CommonOptions& options, const std::string& file, const ReportOptions& wanted);
 /// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with

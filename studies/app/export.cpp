@@ -254,6 +254,15 @@ std::optional<fs::path> export_motion(const CommonOptions& options, const std::s
     return std::nullopt;
 }
 
+int report_written(const CommonOptions& options, const std::string& written)
+{
+    if (options.json)
+        fmt::print("{}\n", Json::object().member("written", written).text());
+    else if (!options.quiet)
+        fmt::print("{}\n", written);
+    return exit_done;
+}
+
 } // namespace
 
 std::vector<std::string> picture_names()
@@ -269,6 +278,12 @@ int export_command(const CommonOptions& options, const std::string& results, con
 {
     check_kind(results, "export");
     check_not_input(results, wanted.output);
+    if (recognise(results).kind == FileKind::comparison)
+        return report_written(options,
+                              export_comparison(options, results, wanted,
+                                                wanted.format.empty() && ending_of(wanted.output) == "csv" ? "csv"
+                                                : wanted.format == "csv"                                   ? "csv"
+                                                                         : format_of(wanted)));
     const std::string motion = motion_format_of(wanted);
     const std::string format = motion.empty() ? format_of(wanted) : motion;
     const std::optional<fs::path> written = !motion.empty() ? export_motion(options, results, wanted, motion)
@@ -276,13 +291,7 @@ int export_command(const CommonOptions& options, const std::string& results, con
                                                 ? export_picture(options, results, wanted, format)
                                             : format == "vtk" ? export_vtk(options, results, wanted)
                                                               : export_tables(options, results, wanted, format);
-    if (!written)
-        return exit_interrupted;
-    if (options.json)
-        fmt::print("{}\n", Json::object().member("written", written->string()).text());
-    else if (!options.quiet)
-        fmt::print("{}\n", written->string());
-    return exit_done;
+    return written ? report_written(options, written->string()) : static_cast<int>(exit_interrupted);
 }
 
 } // namespace stylobate

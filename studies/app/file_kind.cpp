@@ -68,6 +68,8 @@ constexpr Use uses[] = {
     {FileKind::results, "merge", "stylobate merge {} OTHERS -o ALL.h5", "joins it with the other shards of its study"},
     {FileKind::results, "compare", "stylobate compare {} OTHERS -o COMPARISON.h5",
      "compares it with the results of variants of its study"},
+    {FileKind::comparison, "export", "stylobate export {} --to png", "draws it; --to csv: its numbers"},
+    {FileKind::comparison, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds the errors of the simulation and their causes"},

@@ -275,6 +275,17 @@ private:
         compare->add_option("--level", compare_.level, "confidence of intervals and verdicts")
             ->check(CLI::Range(0.5, 0.9999))
             ->capture_default_str();
+        auto* adaptive = compare->add_option("--adaptive", compare_.adaptive,
+                                             "at most so many pairs of each variant of a surface, in rounds, where the "
+                                             "difference is undecided (default: all pairs)");
+        compare
+            ->add_option("--margin", compare_.margin,
+                         "adaptive: a cell is decided, too, where its difference is shown to be smaller than this")
+            ->check(CLI::Range(0.001, 0.5))
+            ->capture_default_str()
+            ->needs(adaptive);
+        compare->add_flag("--search", compare_.search,
+                          "search the values of [optimise] for which the limit state is least probable");
         add_force(*compare, options_);
         add_set(*compare, options_);
         add_common(*compare, options_, {"cpu", "cuda"});

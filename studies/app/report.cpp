@@ -7,6 +7,8 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration_page.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_page.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/json.hpp"
@@ -79,6 +81,9 @@ int report_command(const CommonOptions& options, const std::string& file, const 
     if (kind == FileKind::diagnosis) {
         check_no_realizations(options, wanted, file, "diagnosis");
         page = diagnosis_page(read_diagnosis(file), file, wanted.title).text();
+    } else if (kind == FileKind::comparison) {
+        check_no_realizations(options, wanted, file, "comparison");
+        page = comparison_page(read_comparison(file), file, wanted.title, warnings).text();
     } else if (kind == FileKind::calibration) {
         check_no_realizations(options, wanted, file, "calibration");
         page = calibration_page(read_calibration(file), file, wanted.title).text();

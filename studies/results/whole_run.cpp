@@ -76,6 +76,8 @@ bool WholeRun::run(const RunOptions& options, Observer& observer)
 
 bool WholeRun::run_some(std::span<const std::uint64_t> indices, const RunOptions& options, Observer& observer)
 {
+    if (finished_)
+        return true;
     open();
     ChosenKind chosen(loaded_.study(), header_, indices);
     const bool complete = run_study(loaded_.experiment(), chosen, *store_, options, observer).complete;
@@ -83,8 +85,21 @@ bool WholeRun::run_some(std::span<const std::uint64_t> indices, const RunOptions
     return complete;
 }
 
+void WholeRun::for_each_row(const std::function<void(const ResultRow&)>& f) const
+{
+    if (store_)
+        store_->for_each_row(f);
+    else if (std::filesystem::exists(results_))
+        ResultReader(results_).for_each_row(f);
+}
+
 std::uint64_t WholeRun::done() const
 {
+    if (store_) {
+        std::uint64_t rows = 0;
+        store_->for_each_row([&](const ResultRow&) { ++rows; });
+        return rows;
+    }
     return std::filesystem::exists(results_) ? ResultReader(results_).done() : 0;
 }
 

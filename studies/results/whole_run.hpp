@@ -7,6 +7,7 @@
 #include "studies/kinds/kind.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,8 +39,10 @@ public:
     /// Runs what is left, up to a complete file. @returns false if the observer has asked to stop
     bool run(const RunOptions& options, Observer& observer);
     /// Runs those of the realizations that are not in the file, which stays one to be continued.
-    /// @returns false if the observer has asked to stop   @pre !finished()
+    /// @returns false if the observer has asked to stop
     bool run_some(std::span<const std::uint64_t> indices, const RunOptions& options, Observer& observer);
+    /// All rows that are there, in any order.
+    void for_each_row(const std::function<void(const ResultRow&)>& f) const;
     /// Realizations that are in the file.
     std::uint64_t done() const;
     /// Of those that `run` has left: how many are invalid.

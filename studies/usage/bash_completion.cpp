@@ -18,11 +18,21 @@ struct FileWord {
 };
 
 constexpr FileWord file_words[] = {
-    {"", "STUDY", "toml"},          {"", "--study", "toml"},      {"", "RESULTS", "h5"},
-    {"", "MEASURED", "h5 csv"},     {"report", "FILE", "h5"},     {"", "FILE", "*"},
-    {"report", "--output", "html"}, {"new", "--output", "toml"},  {"export", "--output", "*"},
-    {"run", "--output", "h5"},      {"replay", "--output", "h5"}, {"calibrate", "--output", "h5"},
+    {"compare", "STUDY", "toml h5"},
+    {"", "STUDY", "toml"},
+    {"", "--study", "toml"},
+    {"", "RESULTS", "h5"},
+    {"", "MEASURED", "h5 csv"},
+    {"report", "FILE", "h5"},
+    {"", "FILE", "*"},
+    {"report", "--output", "html"},
+    {"new", "--output", "toml"},
+    {"export", "--output", "*"},
+    {"run", "--output", "h5"},
+    {"replay", "--output", "h5"},
+    {"calibrate", "--output", "h5"},
     {"diagnose", "--output", "h5"},
+    {"compare", "--output", "h5"},
 };
 
 std::string endings_of(const std::string& command, const std::string& word)

@@ -7,14 +7,17 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/app/run_report.hpp"
+#include "studies/decisions/compare/adaptive_comparison.hpp"
 #include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/search/search.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 namespace stylobate {
 
@@ -46,8 +49,13 @@ std::vector<std::string> names_of(const CompareOptions& wanted, const std::vecto
 void check_place(const CommonOptions& options, const std::string& output, const std::vector<std::string>& files,
                  const std::vector<std::string>& texts)
 {
-    for (const std::string& file : files)
+    const auto place = [](const std::string& file) { return fs::absolute(file).lexically_normal(); };
+    for (const std::string& file : files) {
         check_not_input(file, output);
+        if (place(file) == place(output)) // though neither is there yet
+            throw InputError(
+                fmt::format("-o {}: is the results file of one of the studies; choose another output", output));
+    }
     AtomicFile::check(output);
     std::error_code none;
     if (!fs::exists(output, none))
@@ -65,11 +73,9 @@ void check_place(const CommonOptions& options, const std::string& output, const 
                          "or name another file by -o.");
 }
 
-/// Nothing is left to run: computes the comparison, writes and prints it.
-int conclude(const CommonOptions& options, const CompareOptions& wanted, const std::vector<std::string>& files,
-             const std::string& output)
+/// Writes the comparison and prints it.
+int conclude(const CommonOptions& options, const Comparison& comparison, const std::string& output)
 {
-    const Comparison comparison = comparison_of(names_of(wanted, files), files, wanted.level);
     write_comparison(comparison, output);
     if (options.json) {
         Json json = comparison_json(comparison);
@@ -102,12 +108,8 @@ int interrupted(const CommonOptions& options, const Studies& studies, const std:
 }
 
 /// Runs what the studies lack. @returns whether all is there
-bool run_all(const CommonOptions& options, const Studies& studies)
+bool run_all(const CommonOptions& options, const Studies& studies, Console& console)
 {
-    Console console(options.quiet); // from here on an interrupt leaves files to be continued
-    for (const auto& study : studies)
-        for (const std::string& warning : study->warnings())
-            console.warn(study->name() + ": " + warning);
     for (std::size_t i = 0; i < studies.size(); ++i) {
         WholeRun& study = *studies[i];
         if (!options.quiet && !study.finished())
@@ -128,12 +130,27 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
         check_option_kind(study->results(), FileKind::results, "compare: the results");
     }
     check_place(options, output, files, texts);
+    if (wanted.adaptive)
+        check_adaptive(studies.front()->study(), wanted.files.front(), {*wanted.adaptive, wanted.margin});
     options.run_options(); // refuses an instruction set that is not there
     for (const auto& study : studies)
         study->check_drawn();
-    if (!run_all(options, studies))
+    const std::vector<std::string> names = names_of(wanted, files);
+    std::optional<Comparison> comparison;
+    {
+        Console console(options.quiet); // from here on an interrupt leaves files to be continued
+        for (const auto& study : studies)
+            for (const std::string& warning : study->warnings())
+                console.warn(study->name() + ": " + warning);
+        if (wanted.adaptive)
+            comparison = compare_adaptively(studies, names, {*wanted.adaptive, wanted.margin}, wanted.level,
+                                            options.run_options(), console);
+        else if (run_all(options, studies, console))
+            comparison = comparison_of(names, files, wanted.level);
+    }
+    if (!comparison)
         return interrupted(options, studies, output);
-    const int status = conclude(options, wanted, files, output);
+    const int status = conclude(options, *comparison, output);
     for (const auto& study : studies)
         if (const std::string message =
                 too_many_invalid(study->study(), study->invalid(), study->header().total, study->results());
@@ -148,6 +165,9 @@ int compare_results(const CommonOptions& options, const CompareOptions& wanted, 
 {
     if (!options.set.empty())
         throw InputError(fmt::format("--set {}: the studies of results are fixed", options.set.front()));
+    if (wanted.adaptive)
+        throw InputError(fmt::format("--adaptive {}: {} is finished; give study files instead", *wanted.adaptive,
+                                     wanted.files.front()));
     if (wanted.files.size() < 2)
         throw InputError(wanted.files.front(), 0,
                          "is one result.\n  Give those of its variants too: compare BASE.h5 VARIANT.h5 ...");
@@ -155,7 +175,37 @@ int compare_results(const CommonOptions& options, const CompareOptions& wanted, 
     for (const auto& results : results_to_compare(wanted.files))
         texts.push_back(results->header().study_toml);
     check_place(options, output, wanted.files, texts);
-    return conclude(options, wanted, wanted.files, output);
+    return conclude(options, comparison_of(names_of(wanted, wanted.files), wanted.files, wanted.level), output);
+}
+
+int search_study(const CommonOptions& options, const CompareOptions& wanted)
+{
+    if (wanted.files.size() > 1)
+        throw InputError(
+            fmt::format("--search: takes one study file with [optimise], not {} files", wanted.files.size()));
+    if (wanted.adaptive || !wanted.output.empty())
+        throw InputError(fmt::format("{}: does not go with --search, whose points have results files of their own",
+                                     wanted.adaptive ? "--adaptive" : "-o " + wanted.output));
+    const SearchFiles files{wanted.files.front(), options.set, ""};
+    check_search(files);
+    const RunOptions run = options.run_options();
+    std::optional<SearchResult> result;
+    {
+        Console console(options.quiet); // from here on an interrupt leaves files to be continued
+        result = search(files, wanted.level, run, console);
+    }
+    if (!result) {
+        if (options.json)
+            fmt::print("{}\n", Json::object().member("complete", false).text());
+        else if (!options.quiet)
+            fmt::print("Interrupted; what was run is kept. The same command continues the search.\n");
+        return exit_interrupted;
+    }
+    if (options.json)
+        fmt::print("{}\n", search_json(*result).member("complete", true).text());
+    else if (!options.quiet)
+        fmt::print("{}", search_text(*result));
+    return exit_done;
 }
 
 } // namespace
@@ -170,6 +220,10 @@ int compare_command(const CommonOptions& options, const CompareOptions& wanted)
             throw InputError(fmt::format(
                 "compare: {} is {}, and {} is {}.\n  Give study files, or results of them all.", wanted.files.front(),
                 describe(recognise(wanted.files.front())), file, describe(recognise(file))));
+    if (wanted.search && kind != FileKind::results)
+        return search_study(options, wanted);
+    if (wanted.search)
+        throw InputError(fmt::format("--search: {} is a result; give the study file", wanted.files.front()));
     const std::string output = wanted.output.empty() ? default_output(wanted.files.front()) : wanted.output;
     return kind == FileKind::results ? compare_results(options, wanted, output)
                                      : compare_study_files(options, wanted, output);

@@ -104,16 +104,15 @@ std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::
     return all;
 }
 
-Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level)
+Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
+                            const std::string& file, double level)
 {
-    const ReadStudy base(files.front());
-    const ResultHeader& header = base.reader.header();
-    const PairLayout layout = pair_layout(base.study, level);
+    const PairLayout layout = pair_layout(base, level);
     Comparison comparison;
     comparison.kind = header.kind;
-    comparison.title = base.study.title;
-    comparison.base_name = names.front();
-    comparison.base_results = fs::path(files.front()).filename().string();
+    comparison.title = base.title;
+    comparison.base_name = name;
+    comparison.base_results = fs::path(file).filename().string();
     comparison.base_toml = header.study_toml;
     comparison.code_version = code_version();
     comparison.level = level;
@@ -121,12 +120,21 @@ Comparison comparison_of(const std::vector<std::string>& names, const std::vecto
     comparison.frequency_hz = header.frequency_hz;
     comparison.pga_m_s2 = header.pga_m_s2;
     comparison.motions = layout.groups;
-    if (const auto& fragility = base.study.fragility) {
+    if (const auto& fragility = base.fragility) {
         comparison.measure = measure_name(fragility->measure, fragility->period_s);
         if (fragility->method == FragilityMethod::stripes)
             for (int i = 0; i < fragility->intensity.count; ++i)
                 comparison.intensity.push_back(fragility->intensity.value(i));
     }
+    return comparison;
+}
+
+Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level)
+{
+    const ReadStudy base(files.front());
+    const ResultHeader& header = base.reader.header();
+    const PairLayout layout = pair_layout(base.study, level);
+    Comparison comparison = comparison_facts(base.study, header, names.front(), files.front(), level);
     for (std::size_t i = 1; i < files.size(); ++i) {
         const ReadStudy variant(files[i]);
         VariantComparison found =

@@ -30,4 +30,8 @@ std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::
 /// @param names of the studies   @param files their results   @param level of intervals and verdicts
 Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level);
 
+/// A comparison with the base and without variants. @param file of its results
+Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
+                            const std::string& file, double level);
+
 } // namespace stylobate

@@ -188,6 +188,10 @@ std::string comparison_text(const Comparison& comparison)
 {
     std::string text = fmt::format("base {}; intervals at {:g} %. {}\n", comparison.base_name, 100 * comparison.level,
                                    common_text(comparison));
+    if (comparison.adaptive_budget > 0)
+        text += fmt::format("adaptive: at most {} pairs of each variant, in {} rounds, until collapse is decided or "
+                            "smaller than {:g}; intervals are valid wherever a cell has stopped\n",
+                            comparison.adaptive_budget, comparison.adaptive_rounds, comparison.adaptive_margin);
     for (const VariantComparison& variant : comparison.variants)
         text += variant_text(comparison, variant);
     return text;

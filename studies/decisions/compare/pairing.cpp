@@ -23,6 +23,12 @@ PairedCounts sum_of(std::span<const PairedCounts> counts)
     return all;
 }
 
+/// Level of the sides' own intervals: at the quantile of the looks where there are any.
+double side_level(const PairLayout& layout)
+{
+    return layout.looks ? std::erf(layout.looks->quantile() / std::sqrt(2.0)) : layout.level;
+}
+
 /// A side's own probability: by Jeffreys, or by the motions.
 Share share_of_side(std::span<const PairedCounts> groups, Reached reached, const PairLayout& layout)
 {
@@ -37,7 +43,7 @@ Share share_of_side(std::span<const PairedCounts> groups, Reached reached, const
         share.lower = limits.lower;
         share.upper = limits.upper;
     } else {
-        const BinomialInterval limits = jeffreys(trials, count, layout.level);
+        const BinomialInterval limits = jeffreys(trials, count, side_level(layout));
         share.lower = limits.lower;
         share.upper = limits.upper;
     }
@@ -62,7 +68,7 @@ Share mean_share(std::span<const PairedCounts> cells, Reached reached, const Pai
     share.probability = mean / number;
     const auto trials = static_cast<std::uint64_t>(std::llround(number * number / inverse));
     const auto count = static_cast<std::uint64_t>(std::llround(share.probability * static_cast<double>(trials)));
-    const BinomialInterval limits = jeffreys(trials, std::min(count, trials), layout.level);
+    const BinomialInterval limits = jeffreys(trials, std::min(count, trials), side_level(layout));
     share.lower = limits.lower;
     share.upper = limits.upper;
     return share;
@@ -82,6 +88,19 @@ double unpaired_of(const PlaceComparison& place, const PairedDifference& found, 
         return std::nan("");
     return unpaired_realizations(place.base.probability, place.variant.probability, found.half_width(), found.quantile,
                                  base_effect, variant_effect);
+}
+
+PairedDifference at_a_look(const PairedCounts& counts, const RepeatedLooks& looks)
+{
+    return score_interval(static_cast<double>(counts.pairs()), static_cast<double>(counts.base_only),
+                          static_cast<double>(counts.variant_only), looks.quantile());
+}
+
+/// By McNemar's statistic, valid at whichever look the cell has stopped.
+double p_at_a_look(const PlaceComparison& place, const PairLayout& layout)
+{
+    const auto b = static_cast<double>(place.counts.variant_only), c = static_cast<double>(place.counts.base_only);
+    return b + c > 0 ? layout.looks->p_value(std::abs(b - c) / std::sqrt(b + c)) : 1;
 }
 
 } // namespace
@@ -106,7 +125,7 @@ std::vector<PairedCounts> count_pairs(const StudySide& base, const StudySide& va
     const std::size_t groups = std::max<std::size_t>(1, layout.groups);
     std::vector<PairedCounts> counts(layout.cells * groups);
     for (std::uint64_t index = 0; index < base.size(); ++index)
-        if (base.has(index) && variant.has(index) && base.valid(index) && variant.valid(index))
+        if (layout.has(index) && base.has(index) && variant.has(index) && base.valid(index) && variant.valid(index))
             counts[layout.cell(index) * groups + layout.group(index)].add(base.reached(index, base_limit),
                                                                           variant.reached(index, variant_limit));
     return counts;
@@ -119,12 +138,15 @@ PlaceComparison compare_place(std::span<const PairedCounts> groups, const PairLa
     place.base = share_of_side(groups, &PairedCounts::base, layout);
     place.variant = share_of_side(groups, &PairedCounts::variant, layout);
     const bool grouped = layout.groups > 0;
-    const PairedDifference found =
-        grouped ? grouped_difference(groups, layout.level) : paired_difference(place.counts, layout.level);
+    const PairedDifference found = grouped ? grouped_difference(groups, layout.level)
+                                   : layout.looks && place.counts.pairs() > 0
+                                       ? at_a_look(place.counts, *layout.looks)
+                                       : paired_difference(place.counts, layout.level);
     take(place, found);
     place.unpaired = unpaired_of(place, found, grouped ? share_effect(groups, &PairedCounts::base) : 1,
                                  grouped ? share_effect(groups, &PairedCounts::variant) : 1);
-    place.p = place.p_adjusted = grouped ? sign_flip_p(groups) : mcnemar_p(place.counts);
+    place.p = grouped ? sign_flip_p(groups) : layout.looks ? p_at_a_look(place, layout) : mcnemar_p(place.counts);
+    place.p_adjusted = place.p;
     return place;
 }
 
@@ -142,11 +164,15 @@ PlaceComparison compare_overall(std::span<const PairedCounts> counts, const Pair
     place.counts = sum_of(counts);
     place.base = mean_share(counts, &PairedCounts::base, layout);
     place.variant = mean_share(counts, &PairedCounts::variant, layout);
-    const PairedDifference found = stratified_difference(counts, layout.level);
+    const PairedDifference found =
+        layout.looks ? stratified_at(counts, layout.looks->quantile()) : stratified_difference(counts, layout.level);
     take(place, found);
     place.unpaired = unpaired_of(place, found, strata_effect(counts, &PairedCounts::base),
                                  strata_effect(counts, &PairedCounts::variant));
-    place.p = place.p_adjusted = mcnemar_p(place.counts);
+    // in standard errors, from the interval
+    place.p = layout.looks ? layout.looks->p_value(std::abs(found.value) / found.half_width() * found.quantile)
+                           : mcnemar_p(place.counts);
+    place.p_adjusted = place.p;
     return place;
 }
 
@@ -156,7 +182,7 @@ VariantComparison compare_sides(const StudySide& base, const std::vector<std::st
 {
     VariantComparison found;
     for (std::uint64_t index = 0; index < base.size(); ++index) {
-        if (!base.has(index) || !variant.has(index))
+        if (!layout.has(index) || !base.has(index) || !variant.has(index))
             continue;
         found.invalid_base += !base.valid(index);
         found.invalid_variant += !variant.valid(index);

@@ -1,6 +1,7 @@
 #pragma once
 /// From the realizations of two studies to what the intervention changes.
 
+#include "ensemble/estimators/paired/repeated_looks.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/study_side.hpp"
 
@@ -12,8 +13,13 @@ struct PairLayout {
     std::size_t groups = 0;     ///< motions; 0: pairs are independent of each other
     std::uint64_t per_cell = 1; ///< realizations in a cell of a surface, or under a motion in a stripe
     double level = interval_level;
+    // of an adaptive comparison
+    std::vector<std::uint64_t> asked = {}; ///< (cells) of each cell's realizations the first so many; empty: all
+    const RepeatedLooks* looks = nullptr;  ///< whose quantile makes intervals valid; null: numbers are fixed
 
     std::size_t cell(std::uint64_t index) const { return groups > 0 ? index / per_cell % cells : index / per_cell; }
+    /// Whether a realization takes part.
+    bool has(std::uint64_t index) const { return asked.empty() || index % per_cell < asked[index / per_cell]; }
     std::size_t group(std::uint64_t index) const { return groups > 0 ? index / per_cell / cells : 0; }
 };
 PairLayout pair_layout(const Study& study, double level);

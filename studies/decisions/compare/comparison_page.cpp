@@ -1,0 +1,190 @@
+#include "studies/decisions/compare/comparison_page.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/files/temporary_folder.hpp"
+#include "studies/decisions/compare/comparison_picture.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/report/html_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+std::string side_text(const Share& share)
+{
+    return fmt::format("{:.3f} [{:.3f}, {:.3f}]", share.probability, share.lower, share.upper);
+}
+
+Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
+{
+    switch (limit.verdict(place)) {
+    case ChangeVerdict::better:
+        return tag("good", "better");
+    case ChangeVerdict::worse:
+        return tag("bad", "worse");
+    default:
+        return tag("", verdict_text(limit, place));
+    }
+}
+
+class ComparisonPage {
+public:
+    ComparisonPage(const Comparison& comparison, const std::string& file, const std::string& title,
+                   std::vector<std::string>& warnings)
+        : c_(comparison), warnings_(warnings),
+          page_(title.empty() ? "Comparison with " + (c_.title.empty() ? c_.base_name : c_.title) : title,
+                fmt::format("{}. Made by stylobate {}.", file, c_.code_version))
+    {
+    }
+
+    HtmlPage page()
+    {
+        page_.section("What changes");
+        page_.paragraph(
+            common_text(c_) +
+            fmt::format(" Differences are variant minus base, with paired intervals at {:g} %.", 100 * c_.level));
+        overall();
+        pictures();
+        named();
+        page_.section("What is common");
+        common();
+        page_.section("The studies");
+        page_.heading("Base: " + c_.base_name);
+        page_.block(c_.base_toml);
+        for (const VariantComparison& variant : c_.variants) {
+            page_.heading(variant.name);
+            page_.block(variant.study_toml);
+        }
+        return std::move(page_);
+    }
+
+private:
+    void overall()
+    {
+        for (const VariantComparison& variant : c_.variants) {
+            HtmlTable table{"lrrrrl",
+                            {"limit state", "base", variant.name, "difference", "unpaired would need", "verdict"},
+                            {},
+                            fmt::format("{}: {} pairs", variant.name, variant.pairs)};
+            if (variant.dropped > 0)
+                table.caption += fmt::format(", {} dropped as invalid in either", variant.dropped);
+            for (const LimitComparison& limit : variant.limits)
+                table.rows.push_back(
+                    {limit.describe, side_text(limit.overall.base), side_text(limit.overall.variant),
+                     difference_text(limit.overall),
+                     fmt::format("{:.0f} ({:.1f} times)", limit.overall.unpaired, limit.overall.saving()),
+                     verdict_tag(limit, limit.overall)});
+            page_.table(table);
+        }
+    }
+
+    void pictures()
+    {
+        const std::string limit = c_.variants.front().limits.front().name;
+        if (!c_.intensity.empty())
+            return stripes(limit);
+        if (c_.frequency_hz.empty())
+            return;
+        try {
+            const TemporaryFolder folder;
+            const auto png = folder / "map.png";
+            comparison_picture(c_, limit, "", png);
+            page_.figure(png_image(png, "Change of " + limit + " over frequency and PGA"),
+                         "Change of " + limit + ". Cells in full colours are named: " + adjustment_text(c_) + ".");
+        } catch (const InputError& error) {
+            warnings_.push_back(std::string("the map was not drawn: ") + error.what());
+            page_.note(std::string("The map was not drawn: ") + error.what());
+        }
+    }
+
+    void stripes(const std::string& limit)
+    {
+        Figure figure;
+        figure.title = "Shares of " + limit;
+        figure.x_label = c_.measure;
+        figure.y_label = "probability";
+        figure.x_log = true;
+        const auto add = [&](const LimitComparison& of, const std::string& name, Share PlaceComparison::*side) {
+            FigureSeries points{name, SeriesKind::points, c_.intensity, {}, {}, {}, name, "shares"};
+            FigureSeries line{name, SeriesKind::line, c_.intensity, {}, {}, {}, name, "lines"};
+            for (const PlaceComparison& place : of.cells) {
+                points.y.push_back((place.*side).probability);
+                points.low.push_back((place.*side).lower);
+                points.high.push_back((place.*side).upper);
+                line.y.push_back((place.*side).probability);
+            }
+            figure.series.push_back(std::move(line));
+            figure.series.push_back(std::move(points));
+        };
+        add(limit_of(c_.variants.front(), limit), c_.base_name, &PlaceComparison::base);
+        for (const VariantComparison& variant : c_.variants)
+            add(limit_of(variant, limit), variant.name, &PlaceComparison::variant);
+        page_.figure(figure_svg(figure), fmt::format("Shares of {} by stripe, with intervals of each share by the "
+                                                     "motions. The intervals of differences are narrower.",
+                                                     limit));
+    }
+
+    void named()
+    {
+        if (c_.cells() == 1)
+            return;
+        page_.section("Where it changes");
+        page_.paragraph("Cells that are named by the exact test of their discordant pairs, over all cells of a limit "
+                        "state: " +
+                        adjustment_text(c_) + ".");
+        for (const VariantComparison& variant : c_.variants)
+            for (const LimitComparison& limit : variant.limits)
+                if (limit.damage)
+                    for (const bool worse : {true, false})
+                        list(variant, limit, worse);
+    }
+
+    void list(const VariantComparison& variant, const LimitComparison& limit, bool worse)
+    {
+        const std::vector<std::size_t> cells = limit.named(c_.rate, worse);
+        const std::string what = fmt::format("{}: {} {} in {} of {} cells", variant.name, limit.name,
+                                             worse ? "worse" : "better", cells.size(), limit.cells.size());
+        if (cells.empty())
+            return page_.note(what + ".");
+        HtmlTable table{"lrrrr", {"place", "base", variant.name, "difference", "adjusted p"}, {}, what};
+        for (const std::size_t cell : cells)
+            table.rows.push_back({c_.place(cell), fmt::format("{:.3f}", limit.cells[cell].base.probability),
+                                  fmt::format("{:.3f}", limit.cells[cell].variant.probability),
+                                  difference_text(limit.cells[cell]),
+                                  fmt::format("{:.2g}", limit.cells[cell].p_adjusted)});
+        page_.table(table);
+    }
+
+    void common()
+    {
+        page_.paragraph("A drawn number depends on the seed, the realization, the quantity and the joint or block, and "
+                        "on nothing else of the study. The table is found in the numbers of the results.");
+        for (const VariantComparison& variant : c_.variants) {
+            HtmlTable table{"lrl", {"quantity", "numbers", "draws"}, {}, variant.name};
+            for (const CommonInput& input : variant.inputs)
+                table.rows.push_back({input.name, fmt::format("{}", input.numbers), to_string(input.draws)});
+            if (!table.rows.empty())
+                page_.table(table);
+            for (const std::string& note : variant.notes)
+                page_.note(variant.name + ": " + note);
+        }
+    }
+
+    const Comparison& c_;
+    std::vector<std::string>& warnings_;
+    HtmlPage page_;
+};
+
+} // namespace
+
+HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::string& title,
+                         std::vector<std::string>& warnings)
+{
+    return ComparisonPage(comparison, file, title, warnings).page();
+}
+
+} // namespace stylobate

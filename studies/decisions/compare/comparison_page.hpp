@@ -1,0 +1,19 @@
+#pragma once
+/// A comparison as a page.
+
+#include "studies/decisions/compare/comparison.hpp"
+#include "studies/report/html.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What the interventions change, where they harm, what is common, and how it was computed. Where the map cannot be
+/// drawn the page has a message.
+/// @param file for names   @param title empty: by the base
+/// @param warnings receives a line for a picture that could not be drawn
+HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::string& title,
+                         std::vector<std::string>& warnings);
+
+} // namespace stylobate

@@ -1,0 +1,244 @@
+#include "studies/decisions/search/search.hpp"
+
+#include "ensemble/estimators/paired/paired_difference.hpp"
+#include "ensemble/estimators/search/response_surface.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "io/files/toml_document.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/decisions/compare/comparable.hpp"
+#include "studies/decisions/compare/pairing.hpp"
+#include "studies/results/whole_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::size_t most_points = 60;
+constexpr double least_improvement = 2e-4; ///< of a probability: less is expected of a further point
+
+struct RunPoint {
+    SearchPlace place;
+    std::vector<double> value;
+    std::unique_ptr<WholeRun> run;
+    std::unique_ptr<StudySide> side;
+};
+
+OptimiseSpec spec_of(const SearchFiles& files)
+{
+    const std::optional<OptimiseSpec> spec = read_optimisation(files.study, files.settings);
+    if (!spec)
+        throw InputError(files.study, 0,
+                         "has no [optimise].\n  Give [optimise] with a line \"KEY\" = { from = ..., to = ... } and "
+                         "budget.");
+    return *spec;
+}
+
+/// The study with these values; its file is named by its text, so that no two studies have one.
+std::unique_ptr<WholeRun> run_at(const SearchFiles& files, const OptimiseSpec& spec, const std::vector<double>& value)
+{
+    std::vector<std::string> settings = files.settings;
+    for (std::size_t k = 0; k < value.size(); ++k)
+        settings.push_back(spec.keys[k].key + "=" + toml_number(value[k]));
+    LoadedStudy loaded = LoadedStudy::from_file(files.study, settings);
+    const std::string stem = std::filesystem::path(files.study).stem().string();
+    const std::string name =
+        value.empty() ? stem : fmt::format("{}_search_{:08x}", stem, study_crc32_of(loaded.result_header()));
+    return std::make_unique<WholeRun>(std::move(loaded), files.study,
+                                      (std::filesystem::path(files.folder) / (name + ".h5")).string());
+}
+
+std::vector<double> values_at(const OptimiseSpec& spec, const SearchPlace& place)
+{
+    std::vector<double> value;
+    for (std::size_t k = 0; k < place.size(); ++k)
+        value.push_back(spec.keys[k].value(place[k]));
+    return value;
+}
+
+std::unique_ptr<StudySide> side_of(const WholeRun& run)
+{
+    auto side = std::make_unique<StudySide>(limit_definitions(run.study(), run.header()), run.study().originals());
+    run.for_each_row([&](const ResultRow& row) { side->add(row); });
+    return side;
+}
+
+std::size_t limit_number(const StudySide& side, const std::string& name, const std::string& study)
+{
+    const auto found = std::ranges::find(side.limits(), name, &LimitDefinition::name);
+    if (found != side.limits().end())
+        return static_cast<std::size_t>(found - side.limits().begin());
+    std::string names;
+    for (const LimitDefinition& limit : side.limits())
+        names += (names.empty() ? "" : ", ") + limit.name;
+    throw InputError(
+        study, 0, fmt::format("optimise.minimise = \"{}\" is no limit state of the study.\n  It has {}.", name, names));
+}
+
+/// Shares of the points and the covariance of their errors, over the realizations that are valid in all of them.
+PairedNoise noise_of(const std::vector<RunPoint>& points, std::size_t limit, const PairLayout& layout)
+{
+    const std::size_t m = points.size(), groups = layout.groups;
+    std::vector<double> reached(groups * m), size(groups);
+    std::vector<std::size_t> stratum(groups);
+    for (std::uint64_t index = 0; index < points.front().side->size(); ++index) {
+        if (!std::ranges::all_of(points, [&](const RunPoint& p) { return p.side->has(index) && p.side->valid(index); }))
+            continue;
+        std::size_t group = layout.group(index);
+        if (groups == 0) { // a realization by itself, within its cell
+            group = size.size();
+            size.push_back(0);
+            stratum.push_back(layout.cell(index));
+            reached.resize(reached.size() + m);
+        }
+        size[group] += 1;
+        for (std::size_t i = 0; i < m; ++i)
+            reached[group * m + i] += points[i].side->reached(index, limit);
+    }
+    return paired_noise(reached, size, stratum, m);
+}
+
+class Search {
+public:
+    Search(const SearchFiles& files, double level, const RunOptions& options, Observer& observer)
+        : files_(files), options_(options), observer_(observer), spec_(spec_of(files))
+    {
+        result_.asked = spec_;
+        result_.level = level;
+    }
+
+    std::optional<SearchResult> run()
+    {
+        base_ = run_at(files_, spec_, {});
+        layout_ = pair_layout(base_->study(), result_.level);
+        if (!base_->run(options_, observer_))
+            return std::nullopt;
+        base_side_ = side_of(*base_);
+        limit_ = limit_number(*base_side_, spec_.minimise, files_.study);
+        const std::uint64_t each = base_->header().total;
+        result_.realizations = each;
+        for (const SearchPlace& place : first_places(spec_.keys.size()))
+            if (!add(place))
+                return std::nullopt;
+        const std::vector<SearchPlace> candidates = candidate_places(spec_.keys.size());
+        while (points_.size() < most_points) {
+            const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
+            const NextPlace next = next_place(surface, candidates, places());
+            if (next.improvement < least_improvement)
+                break;
+            result_.at_the_end = result_.realizations + each > spec_.budget;
+            if (result_.at_the_end)
+                break;
+            if (!add(next.place))
+                return std::nullopt;
+        }
+        conclude(candidates);
+        return std::move(result_);
+    }
+
+private:
+    std::vector<SearchPlace> places() const
+    {
+        std::vector<SearchPlace> all;
+        for (const RunPoint& point : points_)
+            all.push_back(point.place);
+        return all;
+    }
+
+    /// Runs a point. @returns whether it is complete
+    bool add(const SearchPlace& place)
+    {
+        RunPoint point{place, values_at(spec_, place), nullptr, nullptr};
+        point.run = run_at(files_, spec_, point.value);
+        if (!point.run->run(options_, observer_))
+            return false;
+        point.side = side_of(*point.run);
+        result_.realizations += point.run->header().total;
+        points_.push_back(std::move(point));
+        return true;
+    }
+
+    void conclude(const std::vector<SearchPlace>& candidates)
+    {
+        const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
+        const SearchAnswer answer = search_answer(surface, candidates, result_.level);
+        result_.best = values_at(spec_, answer.best);
+        const double z = two_sided_normal(result_.level);
+        result_.probability = std::clamp(answer.value.mean, 0.0, 1.0);
+        result_.lower = std::max(0.0, answer.value.mean - z * answer.value.sd);
+        result_.upper = std::min(1.0, answer.value.mean + z * answer.value.sd);
+        for (std::size_t k = 0; k < spec_.keys.size(); ++k) {
+            double from = 1, to = 0;
+            for (const SearchPlace& place : answer.flat) {
+                from = std::min(from, place[k]);
+                to = std::max(to, place[k]);
+            }
+            result_.flat_from.push_back(spec_.keys[k].value(from));
+            result_.flat_to.push_back(spec_.keys[k].value(to));
+        }
+        double least = 2;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const PlaceComparison change = change_of(points_[i]);
+            result_.points.push_back({points_[i].value, change.variant,
+                                      std::filesystem::path(points_[i].run->results()).filename().string()});
+            if (const double mean = surface.at(points_[i].place).mean; mean < least) {
+                least = mean;
+                result_.best_point = i;
+                result_.change = change;
+                result_.base = change.base;
+            }
+        }
+    }
+
+    PlaceComparison change_of(const RunPoint& point) const
+    {
+        return compare_overall(count_pairs(*base_side_, *point.side, limit_, limit_, layout_), layout_);
+    }
+
+    const SearchFiles& files_;
+    const RunOptions& options_;
+    Observer& observer_;
+    const OptimiseSpec spec_;
+    SearchResult result_;
+    PairLayout layout_;
+    std::size_t limit_ = 0;
+    std::unique_ptr<WholeRun> base_;
+    std::unique_ptr<StudySide> base_side_;
+    std::vector<RunPoint> points_;
+};
+
+} // namespace
+
+void check_search(const SearchFiles& files)
+{
+    const OptimiseSpec spec = spec_of(files);
+    const auto base = run_at(files, spec, {});
+    check_can_be_compared(base->header(), files.study);
+    limit_number(StudySide(limit_definitions(base->study(), base->header()), 1), spec.minimise, files.study);
+    const std::uint64_t each = base->header().total, first = first_places(spec.keys.size()).size() + 1;
+    if (spec.budget / each < first + 1)
+        throw InputError(files.study, 0,
+                         fmt::format("optimise.budget = {} holds {} runs of the study, which has {} realizations; the "
+                                     "search needs at least {} runs.\n  Give a budget of at least {}, or fewer "
+                                     "study.realizations.",
+                                     spec.budget, spec.budget / each, each, first + 1, (first + 1) * each));
+    base->check_drawn();
+    for (const double end : {0.0, 1.0}) { // both ends of all keys
+        const auto at_end = run_at(files, spec, values_at(spec, SearchPlace(spec.keys.size(), end)));
+        check_comparable(base->header(), files.study, at_end->header(), files.study + " (with a value of [optimise])");
+        at_end->check_drawn();
+    }
+}
+
+std::optional<SearchResult> search(const SearchFiles& files, double level, const RunOptions& options,
+                                   Observer& observer)
+{
+    return Search(files, level, options, observer).run();
+}
+
+} // namespace stylobate

@@ -1,0 +1,57 @@
+#pragma once
+/// The values of one to three numbers of a study for which a limit state is least probable.
+
+#include "ensemble/engine/executor.hpp"
+#include "ensemble/model/observer.hpp"
+#include "io/study/study_variants.hpp"
+#include "studies/decisions/compare/comparison.hpp"
+#include "studies/report/json.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct SearchedPoint {
+    std::vector<double> value; ///< (keys)
+    Share share;               ///< of the limit state
+    std::string results;       ///< its results file
+};
+
+struct SearchResult {
+    OptimiseSpec asked;
+    double level = interval_level;
+    std::uint64_t realizations = 0;    ///< of all points and the base together
+    std::vector<SearchedPoint> points; ///< in the order in which they were run
+    std::vector<double> best;          ///< (keys) the lowest place of the response surface
+    double probability = 0, lower = 0, upper = 1;
+    std::vector<double> flat_from, flat_to; ///< (keys) range of the places that are not shown to be worse
+    bool at_the_end = false;                ///< of the budget; else no improvement is expected any more
+    Share base;                             ///< of the study as it stands
+    std::size_t best_point = 0;             ///< of those that were run, by the surface
+    PlaceComparison change;                 ///< of that point against the base
+};
+
+struct SearchFiles {
+    std::string study;
+    std::vector<std::string> settings;
+    std::string folder; ///< of the points' results
+};
+
+/// Looks at everything that can be refused; nothing is written.
+/// @throws InputError if the study has no [optimise], cannot be compared, has no such limit state, if a key cannot take
+///         its values, or if the budget does not hold the first points
+void check_search(const SearchFiles& files);
+
+/// Runs the base, the first points, and then one point after the other where the response surface expects most
+/// (ensemble/estimators/search/response_surface.hpp), each into a results file of its own that is named by its study. A
+/// search that was interrupted takes the same points again, and finds their files.
+/// @returns nothing if the observer has asked to stop
+std::optional<SearchResult> search(const SearchFiles& files, double level, const RunOptions& options,
+                                   Observer& observer);
+
+std::string search_text(const SearchResult& result);
+Json search_json(const SearchResult& result);
+
+} // namespace stylobate

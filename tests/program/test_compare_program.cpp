@@ -1,0 +1,279 @@
+/// `stylobate compare` as its user runs it.
+
+#include "tests/program/program.hpp"
+
+#include <array>
+
+namespace stylobate {
+namespace {
+
+class Compare : public Program {
+protected:
+    void SetUp() override
+    {
+        Program::SetUp();
+        write_study(24, "[variants]\nneutral = {}\nsmoother = { \"contact.friction\" = 0.3 }\n");
+    }
+
+    /// 16 cells of a short column, with more behind it.
+    void write_study(int per_cell, const std::string& more) const
+    {
+        std::string text = R"([study]
+kind = "surface"
+realizations = )" + std::to_string(per_cell) +
+                           R"(
+[structure]
+blocks = 4
+drum_width_m = 0.048
+drum_height_m = 0.029
+depth_m = 0.048
+drum_mass_kg = 0.1355
+[contact]
+normal_stiffness_n_m2 = 4e6
+tangential_stiffness_n_m = 2e5
+friction = 0.68
+[excitation]
+kind = "harmonic"
+cycles = 4
+[surface]
+frequency_hz = { from = 4.0, to = 8.0, count = 4 }
+pga_m_s2 = { from = 4.0, to = 25.0, count = 4 }
+[perturbation]
+friction = { distribution = "normal", cov = 0.10, per = "joint" }
+drum_offset = { distribution = "normal", sd_m = 0.00024, per = "block" }
+phase = { distribution = "uniform" }
+)" + more;
+        write_bytes(folder / "col.toml", text);
+    }
+
+    void replace(const std::string& file, const std::string& from, const std::string& to) const
+    {
+        std::string text = read_bytes(folder / file);
+        const std::size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        write_bytes(folder / file, text.replace(at, from.size(), to));
+    }
+
+    JsonValue variant(const JsonValue& comparison, const std::string& name) const
+    {
+        for (const JsonValue& each : comparison["variants"].items)
+            if (each["name"].text == name)
+                return each;
+        ADD_FAILURE() << name;
+        return {};
+    }
+};
+
+TEST_F(Compare, ANeutralVariantHasNoDiscordantPair)
+{
+    const Ended ended = run(Words{"compare", "col.toml", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    for (const JsonMember& limit : variant(json, "neutral")["limit_states"].members) {
+        EXPECT_EQ(limit.value["overall"]["base_only"].number, 0) << limit.name;
+        EXPECT_EQ(limit.value["overall"]["variant_only"].number, 0) << limit.name;
+        EXPECT_EQ(limit.value["overall"]["verdict"].text, "open") << limit.name;
+        EXPECT_EQ(limit.value["worse_cells"].items.size() + limit.value["better_cells"].items.size(), 0U);
+    }
+    const JsonValue smoother = variant(json, "smoother")["limit_states"]["collapse"]["overall"];
+    EXPECT_GT(smoother["base_only"].number + smoother["variant_only"].number, 0);
+    EXPECT_EQ(names(), (Words{"col.h5", "col.toml", "col_comparison.h5", "col_neutral.h5", "col_smoother.h5"}));
+    EXPECT_EQ(run(Words{"info", "col_comparison.h5"}).status, 0);
+    EXPECT_EQ(json_of(run(Words{"info", "col_comparison.h5", "--json"}))["holds"].text, "comparison");
+}
+
+/// The counts of pairs from the rows of the two results files.
+TEST_F(Compare, PairsAreTheRowsOfOneIndex)
+{
+    const Ended ended = run(Words{"compare", "col.toml", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue collapse = variant(json_of(ended), "smoother")["limit_states"]["collapse"];
+    const std::vector<ResultRow> base = ResultReader(folder / "col.h5").rows(),
+                                 other = ResultReader(folder / "col_smoother.h5").rows();
+    ASSERT_EQ(base.size(), other.size());
+    std::vector<std::array<int, 4>> counts(16);
+    for (std::size_t i = 0; i < base.size(); ++i) {
+        const bool a = base[i].outcome.state == State::collapsed, b = other[i].outcome.state == State::collapsed;
+        ++counts[base[i].cell][a ? (b ? 0U : 1U) : b ? 2U : 3U];
+    }
+    std::array<int, 4> all{};
+    for (std::size_t cell = 0; cell < 16; ++cell) {
+        const char* keys[] = {"both", "base_only", "variant_only", "neither"};
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_EQ(collapse["cells"].items[cell][keys[k]].number, counts[cell][k]) << cell << keys[k];
+            all[k] += counts[cell][k];
+        }
+    }
+    EXPECT_NEAR(collapse["overall"]["difference"].number, (all[2] - all[1]) / 384.0, 1e-12);
+    // the same numbers were drawn
+    EXPECT_EQ(base[17].inputs.back(), other[17].inputs.back());
+    const JsonValue common = variant(json_of(ended), "smoother")["common"];
+    EXPECT_EQ(common.items[0]["quantity"].text, "friction");
+    EXPECT_EQ(common.items[0]["draws"].text, "same quantiles");
+    EXPECT_EQ(common.items[1]["draws"].text, "same numbers");
+}
+
+/// Results are those of `run`, and finished results give the same numbers.
+TEST_F(Compare, TakesFinishedResultsToo)
+{
+    ASSERT_EQ(run(Words{"compare", "col.toml"}).status, 0);
+    ASSERT_EQ(run(Words{"run", "col.toml", "--set", "contact.friction=0.3", "-o", "own.h5"}).status, 0);
+    EXPECT_TRUE(read_bytes(folder / "own.h5") == read_bytes(folder / "col_smoother.h5"));
+    const Ended by_results = run(Words{"compare", "col.h5", "own.h5", "-o", "r.h5", "--json"});
+    ASSERT_EQ(by_results.status, 0) << testing::PrintToString(by_results);
+    const JsonValue a = json_of(by_results)["variants"].items[0];
+    const JsonValue b = variant(json_of(run(Words{"compare", "col.toml", "--json"})), "smoother");
+    EXPECT_EQ(a["name"].text, "own");
+    for (const char* key : {"difference", "lower", "upper", "unpaired_realizations", "p"})
+        EXPECT_EQ(a["limit_states"]["collapse"]["overall"][key].number,
+                  b["limit_states"]["collapse"]["overall"][key].number);
+}
+
+TEST_F(Compare, TwoStudyFilesAreThoseOfTheirVariants)
+{
+    write_bytes(folder / "other.toml", read_bytes(folder / "col.toml"));
+    replace("other.toml", "friction = 0.68", "friction = 0.3");
+    ASSERT_EQ(run(Words{"compare", "col.toml", "other.toml"}).status, 0);
+    ASSERT_EQ(run(Words{"compare", "col.toml", "-o", "both.h5"}).status, 0);
+    EXPECT_TRUE(read_bytes(folder / "other.h5") == read_bytes(folder / "col_smoother.h5"));
+    EXPECT_TRUE(fs::exists(folder / "col_comparison.h5"));
+}
+
+TEST_F(Compare, ThreadsAndInterruptionsChangeNoByte)
+{
+    write_study(slow_build ? 24 : 160, "[variants]\nsmoother = { \"contact.friction\" = 0.3 }\n");
+    ASSERT_EQ(run(Words{"compare", "col.toml", "-o", "whole.h5"}).status, 0);
+    const std::string whole = read_bytes(folder / "whole.h5"), base = read_bytes(folder / "col.h5");
+    fs::remove(folder / "col.h5");
+    fs::remove(folder / "col_smoother.h5");
+    ASSERT_EQ(run(Words{"compare", "col.toml", "-o", "one.h5", "--threads", "1", "--simd", "scalar"}).status, 0);
+    EXPECT_TRUE(read_bytes(folder / "one.h5") == whole);
+    fs::remove(folder / "col.h5");
+    fs::remove(folder / "col_smoother.h5");
+
+    int interruptions = 0;
+    Ended ended;
+    for (int part = 0; part < 6; ++part) {
+        ProgramRun program{.arguments = {"compare", "col.toml", "-o", "parts.h5", "--threads", part % 2 ? "2" : "1"}};
+        program.terminal = true;
+        program.signal = part % 2 == 0 ? SIGINT : SIGKILL;
+        program.when = part < 2 ? when_done(100) : when_there(folder / "col_smoother.h5");
+        if (part == 5)
+            program.signal = 0;
+        ended = run(program);
+        if (ended.status == 0)
+            break;
+        interruptions += ended.status == 130;
+        if (ended.status == 130) {
+            EXPECT_NE(ended.out.find("The same command continues"), std::string::npos) << ended.out;
+            EXPECT_FALSE(fs::exists(folder / "parts.h5"));
+        }
+    }
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    EXPECT_GT(interruptions, 0);
+    EXPECT_TRUE(read_bytes(folder / "parts.h5") == whole);
+    EXPECT_TRUE(read_bytes(folder / "col.h5") == base);
+    // again: nothing is run, and the comparison is the same
+    const Ended again = run(Words{"compare", "col.toml", "-o", "parts.h5"});
+    EXPECT_EQ(again.status, 0);
+    EXPECT_EQ(again.err, "");
+    EXPECT_TRUE(read_bytes(folder / "parts.h5") == whole);
+}
+
+TEST_F(Compare, AFragilityStudyIsComparedByMotions)
+{
+    write_bytes(folder / "frag.toml", R"([study]
+kind = "fragility"
+realizations = 2
+[structure]
+blocks = 3
+drum_width_m = 0.048
+drum_height_m = 0.06
+depth_m = 0.048
+drum_mass_kg = 0.3
+[contact]
+normal_stiffness_n_m2 = 4e6
+tangential_stiffness_n_m = 2e5
+friction = 0.6
+[excitation]
+kind = "pulse"
+frequency_hz = 2
+[fragility]
+motions = 12
+intensity = { from = 4, to = 12, count = 3 }
+[perturbation]
+friction = { distribution = "normal", cov = 0.10, per = "joint" }
+pulse_frequency = { distribution = "log_uniform", from = 1, to = 4 }
+[variants]
+dowel = { mechanisms = { dowel = { stiffness_n_m = 1e6, yield_n = 20 } } }
+neutral = {}
+)");
+    const Ended ended = run(Words{"compare", "frag.toml", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    EXPECT_EQ(json["adjustment"].text, "holm");
+    EXPECT_EQ(json["motions"].number, 12);
+    const JsonValue limits = variant(json, "dowel")["limit_states"];
+    EXPECT_EQ(limits.members.front().name, "collapse");
+    EXPECT_TRUE(limits.has("peak_0.35"));
+    EXPECT_EQ(limits["collapse"]["cells"].items.size(), 3U);
+    EXPECT_EQ(limits["collapse"]["overall"]["pairs"].number, 72);
+    for (const JsonMember& limit : variant(json, "neutral")["limit_states"].members)
+        EXPECT_EQ(limit.value["overall"]["base_only"].number + limit.value["overall"]["variant_only"].number, 0);
+}
+
+TEST_F(Compare, RunOfAStudyWithVariantsRunsTheBase)
+{
+    const Ended ended = run(Words{"run", "col.toml"});
+    ASSERT_EQ(ended.status, 0);
+    EXPECT_NE(ended.err.find("has [variants] (neutral, smoother), which run leaves out"), std::string::npos)
+        << ended.err;
+    EXPECT_EQ(names(), (Words{"col.h5", "col.toml"}));
+}
+
+TEST_F(Compare, RefusesWithOneMessage)
+{
+    const auto refused = [&](const std::string& variants, const Words& parts) {
+        write_study(24, variants);
+        expect_refused(Words{"compare", "col.toml"}, parts);
+    };
+    refused("", {"has no [variants]", "compare BASE.toml VARIANT.toml"});
+    refused("[variants]\na = { \"study.seed\" = 2 }\n", {"variant a", "study.seed = 2", "study.seed = 1"});
+    refused("[variants]\na = { \"study.realizations\" = 2 }\n", {"study.realizations = 2", "study.realizations = 24"});
+    refused("[variants]\na = { \"excitation.cycles\" = 5 }\n", {"excitation.cycles = 5", "excitation.cycles = 4"});
+    refused("[variants]\na = { \"surface.pga_m_s2.count\" = 5 }\n", {"surface.pga_m_s2.count = 5"});
+    refused("[variants]\na = { \"contact.frction\" = 0.5 }\n", {"col.toml:", "frction", "Did you mean"});
+    refused("[variants]\na = { \"contact friction\" = 0.5 }\n", {"variants.a", "is not the dotted name of a key"});
+    refused("[variants]\na = 3\n", {"variants.a = 3", "is not a table"});
+    refused("[variants]\n\"a/b\" = {}\n", {"has a name that no results file can have"});
+    refused("[variants]\ncomparison = {}\n", {"has a name that no results file can have"});
+    refused("[variants]\na = { \"variants.b\" = 1 }\n", {"is no key of a variant"});
+    refused("[variants]\na = { \"contact.friction\" = -1 }\n", {"contact.friction = -1", "is outside"});
+    refused("[output]\nrealizations = \"none\"\n[variants]\na = {}\n", {"keeps no row of each realization"});
+    write_study(24, "[variants]\na = {}\n");
+    expect_refused(Words{"compare", "col.toml", "--set", "surface.adaptive.budget=2000"},
+                   {"surface.adaptive chooses the realizations"});
+    expect_refused(Words{"compare", "col.toml", "col.toml"}, {"two of the studies are called 'col'"});
+    expect_refused(Words{"compare", "col.toml", "-o", "col.h5"}, {"is the results file of one of the studies"});
+}
+
+TEST_F(Compare, RefusesResultsThatAreNone)
+{
+    ASSERT_EQ(run(Words{"compare", "col.toml"}).status, 0);
+    expect_refused(Words{"compare", "col.h5"}, {"is one result", "compare BASE.h5 VARIANT.h5"});
+    expect_refused(Words{"compare", "col.h5", "col.toml"}, {"Give study files, or results of them all"});
+    expect_refused(Words{"compare", "col_comparison.h5"}, {"is a comparison of studies"});
+    expect_refused(Words{"compare", "col.h5", "col_neutral.h5", "--set", "study.seed=2"}, {"are fixed"});
+    ASSERT_EQ(run(Words{"run", "col.toml", "--set", "study.seed=2", "-o", "seed.h5"}).status, 0);
+    expect_refused(Words{"compare", "col.h5", "seed.h5", "-o", "new.h5"},
+                   {"seed.h5: study.seed = 2, and col.h5 has study.seed = 1"});
+    // a comparison of other studies stays, unless it is to go
+    expect_refused(Words{"compare", "col.h5", "col_neutral.h5"}, {"is the comparison of other studies", "--force"});
+    EXPECT_EQ(run(Words{"compare", "col.h5", "col_neutral.h5", "--force"}).status, 0);
+    // results of another study under the name of a variant
+    fs::copy_file(folder / "seed.h5", folder / "col_neutral.h5", fs::copy_options::overwrite_existing);
+    expect_refused(Words{"compare", "col.toml", "-o", "third.h5"}, {"col_neutral.h5"});
+}
+
+} // namespace
+} // namespace stylobate

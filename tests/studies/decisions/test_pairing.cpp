@@ -1,0 +1,216 @@
+/// Pairs of realizations, from rows made by hand.
+
+#include "ensemble/model/input_error.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/decisions/compare/common_draws.hpp"
+#include "studies/decisions/compare/comparable.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/compare/pairing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace stylobate {
+namespace {
+
+const std::string structure = "[structure]\nblocks = 3\ndrum_width_m = 1\ndrum_height_m = 1\ndepth_m = 1\n"
+                              "density_kg_m3 = 2700\n[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.7\n";
+const std::string surface = "[study]\nkind = \"surface\"\nrealizations = 4\n" + structure +
+                            "[excitation]\nkind = \"harmonic\"\n[surface]\nfrequency_hz = { from = 1, to = 2, count = "
+                            "2 }\npga_m_s2 = { from = 1, to = 3, count = 3 }\n";
+const std::string fragility =
+    "[study]\nkind = \"fragility\"\nrealizations = 4\n" + structure +
+    "[excitation]\nkind = \"pulse\"\nfrequency_hz = 1\n[fragility]\nmotions = 9\nintensity = { from = 1, to = 2, "
+    "count = 2 }\n";
+
+ResultRow row(std::uint64_t index, State state, std::vector<double> inputs = {})
+{
+    ResultRow made;
+    made.index = index;
+    made.inputs = std::move(inputs);
+    made.outcome.state = state;
+    return made;
+}
+
+struct Sides {
+    explicit Sides(const std::string& text)
+        : study(parse_study(text, "study.toml")), base(limit_definitions(study, header), study.originals()),
+          variant(limit_definitions(study, header), study.originals())
+    {
+    }
+    VariantComparison compared() const { return compare_sides(base, names, variant, names, pair_layout(study, 0.95)); }
+
+    Study study;
+    ResultHeader header;
+    StudySide base, variant;
+    std::vector<std::string> names;
+};
+
+TEST(Pairing, CountsPairsInTheirCells)
+{
+    Sides s(surface); // 6 cells of 4
+    for (std::uint64_t index = 24; index-- > 0;) {
+        s.base.add(row(index, index / 4 == 1 && index % 4 < 3 ? State::collapsed : State::stood));
+        s.variant.add(row(index, index / 4 == 1 && index % 4 == 3 ? State::collapsed : State::slid));
+    }
+    const VariantComparison found = s.compared();
+    ASSERT_EQ(found.pairs, 24U);
+    const LimitComparison& collapse = found.limits.front();
+    EXPECT_EQ(collapse.name, "collapse");
+    ASSERT_EQ(collapse.cells.size(), 6U);
+    EXPECT_EQ(collapse.cells[1].counts, (PairedCounts{0, 3, 1, 0}));
+    EXPECT_EQ(collapse.cells[0].counts, (PairedCounts{0, 0, 0, 4}));
+    EXPECT_EQ(collapse.cells[1].difference, -0.5);
+    EXPECT_NEAR(collapse.overall.difference, -0.5 / 6, 1e-15);
+    EXPECT_NEAR(collapse.cells[1].p, 2 * 5 / 16.0, 1e-14); // P(at most 1 of 4)
+    EXPECT_EQ(collapse.cells[1].p_adjusted, 1);
+    EXPECT_EQ(found.limits.back().name, "slid");
+    EXPECT_FALSE(found.limits.back().damage);
+    EXPECT_EQ(found.limits.back().cells[0].counts, (PairedCounts{0, 0, 4, 0}));
+    EXPECT_EQ(found.limits.back().verdict(found.limits.back().overall), ChangeVerdict::more);
+}
+
+TEST(Pairing, DropsWhatIsInvalidInEither)
+{
+    Sides s(surface);
+    for (std::uint64_t index = 0; index < 24; ++index) {
+        s.base.add(row(index, index == 0 ? State::invalid : State::collapsed));
+        if (index != 23) // has not been run
+            s.variant.add(row(index, index < 2 ? State::invalid : State::collapsed));
+    }
+    const VariantComparison found = s.compared();
+    EXPECT_EQ(found.invalid_base, 1U);
+    EXPECT_EQ(found.invalid_variant, 2U);
+    EXPECT_EQ(found.dropped, 2U);
+    EXPECT_EQ(found.pairs, 21U);
+    EXPECT_EQ(found.limits.front().cells[0].counts, (PairedCounts{2, 0, 0, 0}));
+    EXPECT_EQ(found.limits.front().overall.counts.pairs(), 21U);
+}
+
+TEST(Pairing, AFragilityStudyIsGroupedByItsMotions)
+{
+    Sides s(fragility); // 9 motions x 2 stripes x 4 structures
+    for (std::uint64_t index = 0; index < 72; ++index) {
+        const bool strong = index / 4 % 2 == 1, first = index / 8 < 3;
+        s.base.add(row(index, strong && first ? State::collapsed : State::stood));
+        s.variant.add(row(index, State::stood));
+    }
+    const VariantComparison found = s.compared();
+    const LimitComparison& collapse = found.limits.front();
+    EXPECT_EQ(collapse.name, "collapse");
+    ASSERT_EQ(collapse.cells.size(), 2U);
+    EXPECT_EQ(collapse.cells[1].counts, (PairedCounts{0, 12, 0, 24}));
+    // three of nine motions, however many structures: the exact test has 2^3 patterns
+    EXPECT_NEAR(collapse.cells[1].p, 0.25, 1e-14);
+    EXPECT_GT(collapse.cells[1].upper - collapse.cells[1].lower, 0.4);
+    EXPECT_EQ(collapse.overall.counts, (PairedCounts{0, 12, 0, 60}));
+}
+
+TEST(Pairing, FindsWhichDrawsAreCommon)
+{
+    std::vector<StudySide::Draws> base, variant;
+    for (std::uint64_t i = 0; i < 50; ++i) {
+        const double u = std::fmod(0.618 * static_cast<double>(i), 1);
+        base.push_back({i, {u, u, u, 1}});
+        variant.push_back({i, {u, std::exp(u), std::fmod(7.3 * u, 1), 2}});
+    }
+    const auto found = common_inputs(base, {"friction[0]", "friction[1]", "density[0]", "tilt"}, variant,
+                                     {"friction[0]", "friction[1]", "density[0]", "phase"});
+    ASSERT_EQ(found.size(), 5U);
+    EXPECT_EQ(found[0].draws, CommonDraws::same);
+    EXPECT_EQ(found[1].name, "friction");
+    EXPECT_EQ(found[1].draws, CommonDraws::quantiles);
+    EXPECT_EQ(found[2].draws, CommonDraws::other);
+    EXPECT_EQ(found[3].draws, CommonDraws::base_only);
+    EXPECT_EQ(found[4].name, "phase");
+    EXPECT_EQ(found[4].draws, CommonDraws::variant_only);
+}
+
+Comparison sample()
+{
+    Sides s(surface);
+    s.names = {"friction[0]"};
+    for (std::uint64_t index = 0; index < 24; ++index) {
+        s.base.add(row(index, index % 3 == 0 ? State::collapsed : State::stood, {0.5}));
+        s.variant.add(row(index, index % 4 == 0 ? State::collapsed : State::rocked, {0.5}));
+    }
+    Comparison c;
+    c.kind = "surface";
+    c.base_name = "base";
+    c.base_results = "base.h5";
+    c.base_toml = surface;
+    c.adjustment = "benjamini-hochberg";
+    c.frequency_hz = {1, 2};
+    c.pga_m_s2 = {1, 2, 3};
+    c.variants.push_back(s.compared());
+    c.variants.back().name = "dowels";
+    c.variants.back().notes = {"A note."};
+    return c;
+}
+
+TEST(ComparisonFile, ComesBackAsItWasWritten)
+{
+    const auto file = std::filesystem::temp_directory_path() / ("comparison-" + std::to_string(::getpid()) + ".h5");
+    const Comparison written = sample();
+    write_comparison(written, file);
+    const Comparison read = read_comparison(file);
+    EXPECT_EQ(comparison_json(read).text(), comparison_json(written).text());
+    EXPECT_EQ(comparison_text(read), comparison_text(written));
+    // a byte that has changed is found
+    {
+        std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+        bytes.seekp(5000);
+        bytes.put('\x7f');
+    }
+    EXPECT_THROW(read_comparison(file), InputError);
+    std::filesystem::remove(file);
+}
+
+TEST(Comparable, NamesTheKeyAndBothValues)
+{
+    const auto header = [](const std::string& text) {
+        ResultHeader made;
+        made.kind = "surface";
+        made.study_toml = parse_study(text, "study.toml").text;
+        return made;
+    };
+    const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const auto refusal = [&](const std::string& text) -> std::string {
+        try {
+            check_comparable(header(surface), "base.toml", header(text), "other.toml");
+            return {};
+        } catch (const InputError& error) {
+            return error.what();
+        }
+    };
+    EXPECT_EQ(refusal(surface), "");
+    EXPECT_EQ(refusal(changed(surface, "friction = 0.7", "friction = 0.4")), "");
+    EXPECT_EQ(refusal(changed(surface, "blocks = 3", "blocks = 4")), "");
+    EXPECT_EQ(refusal(surface + "[mechanisms]\ndowel = { stiffness_n_m = 1e6, yield_n = 10 }\n"), "");
+    for (const auto& [from, to, words] : std::vector<std::array<std::string, 3>>{
+             {"realizations = 4", "realizations = 8",
+              "other.toml: study.realizations = 8, and base.toml has "
+              "study.realizations = 4."},
+             {"realizations = 4", "realizations = 4\nseed = 2", "study.seed = 2, and base.toml has study.seed = 1."},
+             {"count = 3", "count = 4", "surface.pga_m_s2.count = 4"},
+             {"\"harmonic\"", "\"harmonic\"\ncycles = 5",
+              "excitation.cycles = 5, and base.toml has excitation.cycles "
+              "= 10."},
+             {"blocks = 3", "gravity_m_s2 = 1.6\nblocks = 3", "structure.gravity_m_s2 = 1.6"},
+             {"[contact]", "[outcome]\ncollapse = { height_fraction = 0.5 }\n[contact]", "outcome.collapse"},
+             {"[contact]", "[perturbation]\nphase = { distribution = \"uniform\" }\n[contact]",
+              "perturbation.phase.distribution = \"uniform\", and base.toml has perturbation.phase.distribution is "
+              "absent"}})
+        EXPECT_NE(refusal(changed(surface, from, to)).find(words), std::string::npos)
+            << refusal(changed(surface, from, to));
+}
+
+} // namespace
+} // namespace stylobate
