@@ -14,6 +14,7 @@ enum class FileKind {
     results,     ///< of a study, or one realization that was run again
     diagnosis,   ///< by `diagnose`
     calibration, ///< by `calibrate`
+    risk,        ///< by `risk`
     campaign,    ///< measured histories: HDF5, a folder with campaign.toml, or that file
     outcomes,    ///< measured outcomes: CSV
     record,      ///< a ground motion

@@ -1,4 +1,4 @@
-/// `stylobate report`: a result, a diagnosis or a calibration as one page.
+/// `stylobate report`: a result, a diagnosis, a calibration or a risk estimate as one page.
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
@@ -7,6 +7,8 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/calibration/calibration_page.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk_page.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/json.hpp"
@@ -82,6 +84,9 @@ int report_command(const CommonOptions& options, const std::string& file, const 
     } else if (kind == FileKind::calibration) {
         check_no_realizations(options, wanted, file, "calibration");
         page = calibration_page(read_calibration(file), file, wanted.title).text();
+    } else if (kind == FileKind::risk) {
+        check_no_realizations(options, wanted, file, "risk estimate");
+        page = risk_page(read_risk(file), file, wanted.title).text();
     } else {
         const Results results(file, options.set);
         check_complete(results.reader(), file);

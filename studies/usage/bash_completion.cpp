@@ -22,7 +22,7 @@ constexpr FileWord file_words[] = {
     {"", "MEASURED", "h5 csv"},     {"report", "FILE", "h5"},     {"", "FILE", "*"},
     {"report", "--output", "html"}, {"new", "--output", "toml"},  {"export", "--output", "*"},
     {"run", "--output", "h5"},      {"replay", "--output", "h5"}, {"calibrate", "--output", "h5"},
-    {"diagnose", "--output", "h5"},
+    {"diagnose", "--output", "h5"}, {"risk", "--output", "h5"},   {"risk", "--hazard", "csv xml"},
 };
 
 std::string endings_of(const std::string& command, const std::string& word)

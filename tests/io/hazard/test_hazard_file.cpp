@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 namespace stylobate {
 namespace {
@@ -261,6 +262,56 @@ TEST_F(HazardFile, NrmlRefusals)
     expect_begins(said(nrml(plain, curve("1 2", "0.3 0.2 0.1") + curve("3 4", "0.3 0.2 0.1"))),
                   "h.xml: has hazard curves of 2 sites");
     EXPECT_EQ(said(nrml(plain, "")), "h.xml: contains no hazard curve of a site.");
+}
+
+/// Whatever a file holds: it is refused with one message, or it is a hazard that can be used.
+TEST_F(HazardFile, MutatedFilesAreRefusedOrUsable)
+{
+    const std::vector<std::string> seeds = {
+        openquake("quantile-0.16", "9.0E-01,3.0E-01,2.0E-03", "22.5,37.5,0,8.0E-01,1.0E-01,1.0E-03\n"),
+        openquake("mean", "9.0E-01,3.0E-01,2.0E-03"),
+        "pga_g,annual_frequency,low,high\n0.05,2e-2,1e-2,4e-2\n0.1,5e-3,2e-3,1e-2\n0.4,1e-4,2e-5,4e-4\n",
+        nrml("statistics=\"mean\" IMT=\"PGA\" investigationTime=\"50\"", curve("1 2", "0.3 0.2 0.1"))};
+    std::mt19937_64 random(3);
+    int used = 0, refused = 0;
+    for (int i = 0; i < 4000; ++i) {
+        std::string text = seeds[random() % seeds.size()];
+        for (std::uint64_t edits = 1 + random() % 4; edits > 0; --edits) {
+            const std::size_t at = random() % text.size();
+            switch (random() % 4) {
+            case 0:
+                text[at] = "0123456789.-e,\n<>='\"#x"[random() % 22];
+                break;
+            case 1:
+                text.erase(at, 1 + random() % 9);
+                break;
+            case 2:
+                text.insert(at, text.substr(random() % text.size(), random() % 20));
+                break;
+            default:
+                text[at] = static_cast<char>(random());
+            }
+            if (text.empty())
+                text = "\n";
+        }
+        try {
+            const HazardModel hazard = read_hazard({file(text)}, "pga_m_s2");
+            ++used;
+            ASSERT_GE(hazard.intensity.size(), 2U);
+            ASSERT_LT(hazard.frequency.back(), hazard.frequency[hazard.frequency.size() - 2]) << text;
+            for (std::size_t k = 0; k < hazard.intensity.size(); ++k) {
+                ASSERT_TRUE(hazard.frequency[k] > 0 && std::isfinite(hazard.frequency[k])) << text;
+                ASSERT_TRUE(k == 0 || hazard.intensity[k] > hazard.intensity[k - 1]) << text;
+                ASSERT_TRUE(k == 0 || hazard.frequency[k] <= hazard.frequency[k - 1]) << text;
+                for (const HazardFractile& f : hazard.fractiles)
+                    ASSERT_GT(f.frequency.at(k), 0) << text;
+            }
+        } catch (const InputError& error) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(used, 300);
+    EXPECT_GT(refused, 300);
 }
 
 } // namespace
