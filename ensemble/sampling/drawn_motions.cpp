@@ -47,6 +47,29 @@ std::vector<std::size_t> shakings_of(const Study& study, std::size_t first)
 
 } // namespace
 
+Succession in_succession(std::span<const ScaledMotion> shakings, double pause_s)
+{
+    double dt = shakings.front().motion->dt_s;
+    for (const ScaledMotion& shaking : shakings)
+        dt = std::min(dt, shaking.motion->dt_s);
+    std::vector<double> acceleration, ends;
+    for (const auto& [motion, scale] : shakings) {
+        if (!acceleration.empty())
+            acceleration.resize(acceleration.size() + static_cast<std::size_t>(std::ceil(pause_s / dt)));
+        const auto samples = static_cast<std::size_t>(std::ceil(motion->duration_s() / dt)) + 1;
+        for (std::size_t k = 0; k < samples; ++k) {
+            const double at = static_cast<double>(k) * dt / motion->dt_s;
+            const auto before = std::min(static_cast<std::size_t>(at), motion->acceleration_m_s2.size() - 1);
+            const auto after = std::min(before + 1, motion->acceleration_m_s2.size() - 1);
+            const double part = std::min(at - static_cast<double>(before), 1.0);
+            acceleration.push_back(
+                scale * std::lerp(motion->acceleration_m_s2[before], motion->acceleration_m_s2[after], part));
+        }
+        ends.push_back(static_cast<double>(acceleration.size() - 1) * dt);
+    }
+    return {motion_of(std::move(acceleration), dt), std::move(ends)};
+}
+
 MotionSet in_sequence(const Study& study, const MotionSet& set)
 {
     const FragilitySpec& f = *study.fragility;
@@ -54,39 +77,25 @@ MotionSet in_sequence(const Study& study, const MotionSet& set)
     MotionSet sequences;
     for (std::size_t i = 0; i < motions; ++i) {
         const std::vector<std::size_t> order = shakings_of(study, i);
-        double dt = set.motions[i]->dt_s;
-        for (const std::size_t shaking : order)
-            dt = std::min(dt, set.motions[shaking]->dt_s);
-        std::vector<double> acceleration, ends;
+        std::vector<ScaledMotion> shakings;
         std::string name;
         for (const std::size_t shaking : order) {
-            const Motion& motion = *set.motions[shaking];
             double scale = 1;
             if (f.method == FragilityMethod::stripes) {
                 const MotionMeasure& measure = set.measure(measure_name(f.measure, f.period_s));
                 scale = std::pow(measure.value[i] / measure.value[shaking], 1 / measure.exponent);
             }
-            if (!acceleration.empty())
-                acceleration.resize(acceleration.size() + static_cast<std::size_t>(std::ceil(f.pause_s / dt)));
-            const auto samples = static_cast<std::size_t>(std::ceil(motion.duration_s() / dt)) + 1;
-            for (std::size_t k = 0; k < samples; ++k) {
-                const double at = static_cast<double>(k) * dt / motion.dt_s;
-                const auto before = std::min(static_cast<std::size_t>(at), motion.acceleration_m_s2.size() - 1);
-                const auto after = std::min(before + 1, motion.acceleration_m_s2.size() - 1);
-                const double part = std::min(at - static_cast<double>(before), 1.0);
-                acceleration.push_back(
-                    scale * std::lerp(motion.acceleration_m_s2[before], motion.acceleration_m_s2[after], part));
-            }
-            ends.push_back(static_cast<double>(acceleration.size() - 1) * dt);
+            shakings.push_back({set.motions[shaking].get(), scale});
             name += (name.empty() ? "" : " + ") + set.names[shaking];
         }
-        Motion sequence = motion_of(std::move(acceleration), dt);
+        Succession succession = in_succession(shakings, f.pause_s);
+        Motion& sequence = succession.motion;
         sequence.predominant_frequency_hz = set.motions[i]->predominant_frequency_hz;
         sequence.pga_m_s2 = set.motions[i]->pga_m_s2; // by which it is scaled: that of its first shaking
         sequence.source = name;
         sequences.motions.push_back(std::make_shared<const Motion>(std::move(sequence)));
         sequences.names.push_back(name);
-        sequences.ends_s.push_back(std::move(ends));
+        sequences.ends_s.push_back(std::move(succession.ends_s));
     }
     for (const MotionMeasure& measure : set.measures)
         sequences.measures.push_back(

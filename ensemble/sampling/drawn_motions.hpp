@@ -3,6 +3,9 @@
 
 #include "ensemble/model/motion_set.hpp"
 
+#include <span>
+#include <vector>
+
 namespace stylobate {
 
 /// Shakings in succession with pauses between them, each as strong as the first in the study's measure (for a cloud:
@@ -14,6 +17,20 @@ namespace stylobate {
 /// The samples have the shortest spacing in a sequence; the acceleration is linear between a record's own samples.
 /// @pre the set is measured; `fragility.shakings` > 1
 MotionSet in_sequence(const Study& study, const MotionSet& set);
+
+/// A motion so many times as strong.
+struct ScaledMotion {
+    const Motion* motion = nullptr;
+    double scale = 1;
+};
+
+/// One after the other, with pauses of rest between them; sampled with the shortest of their spacings, the acceleration
+/// linear between a motion's own samples. PGA and predominant frequency are left to the caller.
+struct Succession {
+    Motion motion;
+    std::vector<double> ends_s; ///< (shakings) when each is over
+};
+Succession in_succession(std::span<const ScaledMotion> shakings, double pause_s);
 
 /// Motions of which the sequences of a study are made.
 int motions_needed(const FragilitySpec& fragility);

@@ -95,6 +95,20 @@ struct DiagnoseOptions {
     long long seed = 1;    ///< of what is drawn in them
 };
 
+/// What `risk` is asked for.
+struct RiskCommandOptions {
+    std::vector<std::string> hazard; ///< files, or a power law
+    std::string site;                ///< of several in the hazard
+    std::string output;              ///< the estimate; empty: beside the results, with _risk.h5
+    std::string state;               ///< one limit state; empty: all
+    std::vector<double> years;       ///< empty: 50 and 100
+    double level = 0.9;
+    double most_outside = 0.25;      ///< largest share of a frequency from outside of the ranges of runs and hazard
+    std::uint64_t sequences = 0;     ///< simulated histories with the damage carried along
+    std::optional<double> threshold; ///< of their earthquakes [SI unit of the measure]; none: by the results
+    std::uint64_t seed = 1;          ///< of the histories
+};
+
 /// What `new` is asked for, in the words of a study file; empty: the usual one.
 struct NewStudyOptions {
     std::string kind, structure, excitation;
@@ -129,6 +143,8 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
 int info_command(const CommonOptions& options, const std::string& file, const std::string& mpi);
 /// @param output the study file; empty: KIND.toml
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
+/// @param results of a fragility study
+int risk_command(const CommonOptions& options, const std::string& results, const RiskCommandOptions& wanted);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page
 int schema_command(bool markdown);
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);

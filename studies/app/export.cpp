@@ -9,6 +9,8 @@
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk_page.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/motion_film.hpp"
@@ -263,6 +265,36 @@ int report_written(const CommonOptions& options, const std::string& written)
     return exit_done;
 }
 
+/// The picture of a risk estimate, or its tables.
+fs::path export_risk(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
+                     const std::string& format)
+{
+    const bool picture = is_picture_format(format);
+    if (!picture && format != "csv")
+        throw InputError(fmt::format(
+            "--to {}: {} is a risk estimate; it has a picture (png, svg, pdf) and tables (csv)", format, file));
+    if (!wanted.picture.empty() || wanted.cell >= 0 || wanted.realization >= 0 || !wanted.frequencies.empty() ||
+        (!picture && (!wanted.limit.empty() || !wanted.title.empty())))
+        throw InputError(fmt::format("{} is a risk estimate: of the options of pictures only --limit and --title apply "
+                                     "to its picture, none to its tables",
+                                     file));
+    if (!options.set.empty())
+        throw InputError(fmt::format("--set {}: {} is a risk estimate and contains no study whose keys could be set",
+                                     options.set.front(), file));
+    const Risk risk = read_risk(file);
+    if (!picture) {
+        const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
+        check_output_folder(file, folder, options.force);
+        write_files(risk_csv(risk), folder);
+        return folder;
+    }
+    const std::string name = wanted.limit.empty() ? "." : "_" + wanted.limit + ".";
+    const fs::path to = wanted.output.empty() ? beside(file, name + format) : fs::path(wanted.output);
+    check_output(file, to, options.force);
+    plot_risk(risk, wanted.limit, wanted.title.empty() ? "Risk: " + risk.title : wanted.title, to);
+    return to;
+}
+
 } // namespace
 
 std::vector<std::string> picture_names()
@@ -286,11 +318,13 @@ int export_command(const CommonOptions& options, const std::string& results, con
                                                                          : format_of(wanted)));
     const std::string motion = motion_format_of(wanted);
     const std::string format = motion.empty() ? format_of(wanted) : motion;
-    const std::optional<fs::path> written = !motion.empty() ? export_motion(options, results, wanted, motion)
-                                            : is_picture_format(format)
-                                                ? export_picture(options, results, wanted, format)
-                                            : format == "vtk" ? export_vtk(options, results, wanted)
-                                                              : export_tables(options, results, wanted, format);
+    const bool risk = recognise(results).kind == FileKind::risk;
+    const std::optional<fs::path> written =
+        risk                        ? export_risk(options, results, wanted, motion.empty() ? format : motion)
+        : !motion.empty()           ? export_motion(options, results, wanted, motion)
+        : is_picture_format(format) ? export_picture(options, results, wanted, format)
+        : format == "vtk"           ? export_vtk(options, results, wanted)
+                                    : export_tables(options, results, wanted, format);
     return written ? report_written(options, written->string()) : static_cast<int>(exit_interrupted);
 }
 

@@ -33,6 +33,7 @@ constexpr KindWords kind_words[] = {
     {FileKind::diagnosis, "a diagnosis", "a diagnosis"},
     {FileKind::calibration, "a calibration", "a calibration"},
     {FileKind::comparison, "a comparison of studies", "a comparison"},
+    {FileKind::risk, "a risk estimate", "a risk estimate"},
     {FileKind::campaign, "a measured campaign", "a measured campaign (HDF5, or a folder of CSV files)"},
     {FileKind::outcomes, "a table of measured outcomes", "a table of measured outcomes (CSV with a column 'fell')"},
     {FileKind::record, "a record of ground motion", "records of ground motion"},
@@ -70,6 +71,10 @@ constexpr Use uses[] = {
      "compares it with the results of variants of its study"},
     {FileKind::comparison, "export", "stylobate export {} --to png", "draws it; --to csv: its numbers"},
     {FileKind::comparison, "report", "stylobate report {}", "writes a page of it"},
+    {FileKind::results, "risk", "stylobate risk {} --hazard HAZARD",
+     "how often its limit states are reached at a site, and how likely that is over years"},
+    {FileKind::risk, "report", "stylobate report {}", "writes a page of it"},
+    {FileKind::risk, "export", "stylobate export {} --to png", "draws it; --to csv: its tables"},
     {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds the errors of the simulation and their causes"},
@@ -105,6 +110,7 @@ RecognisedFile of_hdf5(const fs::path& file)
 {
     const std::string format = hdf5_label(file).format;
     return {format == "stylobate-calibration" ? FileKind::calibration
+            : format == "stylobate-risk"      ? FileKind::risk
             : format == "stylobate-measured"  ? FileKind::campaign
                                               : FileKind::unknown,
             ""};
@@ -223,7 +229,8 @@ std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name
 {
     std::vector<FileUse> found;
     for (const Use& use : uses)
-        if (use.kind == file.kind && !(file.detail == "rare" && std::string_view(use.verb) == "replay"))
+        if (use.kind == file.kind && !(file.detail == "rare" && std::string_view(use.verb) == "replay") &&
+            !(file.detail != "fragility" && std::string_view(use.verb) == "risk"))
             found.push_back({use.verb, fmt::format(fmt::runtime(use.command), name), use.purpose});
     return found;
 }

@@ -15,6 +15,7 @@ enum class FileKind {
     diagnosis,   ///< by `diagnose`
     calibration, ///< by `calibrate`
     comparison,  ///< by `compare`
+    risk,        ///< by `risk`
     campaign,    ///< measured histories: HDF5, a folder with campaign.toml, or that file
     outcomes,    ///< measured outcomes: CSV
     record,      ///< a ground motion

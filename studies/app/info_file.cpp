@@ -14,6 +14,8 @@
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk_text.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/experiment/loaded_study.hpp"
@@ -200,6 +202,15 @@ void tell_calibration(const std::string& file, Told& told)
         .member("parameters", parameters);
 }
 
+void tell_risk(const std::string& file, Told& told)
+{
+    const Risk risk = read_risk(file);
+    told.json.member("holds", "risk estimate")
+        .member("code_version", risk.code_version)
+        .member("risk", risk_json(risk));
+    told.text = fmt::format("a risk estimate, by stylobate {}\n{}", risk.code_version, risk_text(risk));
+}
+
 void tell_study(const CommonOptions& options, const std::string& file, Told& told)
 {
     const Study study = read_study(file, options.set);
@@ -278,6 +289,9 @@ void print_file(const CommonOptions& options, const std::string& file)
     case FileKind::calibration:
         tell_calibration(file, told);
         break;
+    case FileKind::risk:
+        tell_risk(file, told);
+        break;
     case FileKind::outcomes:
         tell_outcomes(file, told);
         break;
@@ -298,8 +312,9 @@ void print_file(const CommonOptions& options, const std::string& file)
         if (!std::filesystem::exists(file))
             throw InputError(file, 0, "there is no such file");
         throw InputError(file, 0,
-                         "is not a file that stylobate reads: a study (TOML), results, a diagnosis or a "
-                         "calibration (HDF5), a measured campaign (HDF5 or a folder with campaign.toml), measured "
+                         "is not a file that stylobate reads: a study (TOML), results, a diagnosis, a "
+                         "calibration or a risk estimate (HDF5), a measured campaign (HDF5 or a folder with "
+                         "campaign.toml), measured "
                          "outcomes (CSV with a column 'fell'), or a record of ground motion.\n  io/FORMAT.md has the "
                          "layouts.");
     }

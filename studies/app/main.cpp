@@ -132,6 +132,7 @@ public:
         add_record();
         add_calibrate();
         add_diagnose();
+        add_risk();
         add_export();
         add_report();
         add_new();
@@ -413,11 +414,42 @@ private:
             [this] { on_ranks([this] { return diagnose_command(options_, file_, study_, output_, diagnosis_); }); });
     }
 
+    void add_risk()
+    {
+        auto* risk = app_.add_subcommand(
+            "risk", "how often limit states are reached, and how likely over years: a fragility study over a hazard");
+        risk->add_option("RESULTS", file_, "results of a fragility study (HDF5)")->required();
+        risk->add_option("--hazard", risk_.hazard,
+                         "hazard curve: a table (CSV), OpenQuake's CSV or NRML (several: mean and fractiles), or a "
+                         "power law such as k0=1e-4,k=2.5,measure=pga_g,sigma_ln=0.5")
+            ->required()
+            ->take_all()
+            ->allow_extra_args(false);
+        risk->add_option("--site", risk_.site, "site of several in the hazard: LON,LAT or its number from 0");
+        risk->add_option("--years", risk_.years, "years for the probabilities (default: 50,100)")->delimiter(',');
+        risk->add_option("--level", risk_.level, "level of the intervals")->capture_default_str();
+        risk->add_option("--state", risk_.state, "one limit state of the study (default: all)");
+        risk->add_option("--most-outside", risk_.most_outside,
+                         "largest share of a frequency from outside of the intensities of study or hazard")
+            ->capture_default_str();
+        risk->add_option("--sequences", risk_.sequences,
+                         "also simulate so many histories of the last of --years, with the damage carried along")
+            ->check(CLI::Range(0LL, 10000000LL));
+        risk->add_option("--threshold", risk_.threshold,
+                         "their weakest earthquake, in the SI unit of the measure (default: by the results)");
+        risk->add_option("--seed", risk_.seed, "seed of the histories")->check(CLI::Range(0LL, 999999999999LL));
+        risk->add_option("-o,--output", risk_.output, "the estimate (HDF5; default: the results' name with _risk.h5)");
+        add_force(*risk, options_);
+        add_set(*risk, options_);
+        add_common(*risk, options_);
+        risk->callback([this] { status_ = risk_command(options_, file_, risk_); });
+    }
+
     void add_export()
     {
         const std::vector<std::string> pictures = picture_names();
         auto* exporting = app_.add_subcommand("export", "write a result in other formats");
-        exporting->add_option("RESULTS", file_, "results file (HDF5)")->required();
+        exporting->add_option("RESULTS", file_, "results file or risk estimate (HDF5)")->required();
         exporting
             ->add_option("--to", export_.format,
                          "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; vtk: a "
@@ -457,9 +489,9 @@ private:
 
     void add_report()
     {
-        auto* report =
-            app_.add_subcommand("report", "one self-contained page of a result, a diagnosis or a calibration");
-        report->add_option("FILE", file_, "results file, diagnosis or calibration (HDF5)")->required();
+        auto* report = app_.add_subcommand(
+            "report", "one self-contained page of a result, a diagnosis, a calibration or a risk estimate");
+        report->add_option("FILE", file_, "results file, diagnosis, calibration or risk estimate (HDF5)")->required();
         report->add_option("-o,--output", report_.output,
                            "the page, .html (default: the file's name with that extension)");
         report->add_option("--title", report_.title, "title of the page (default: study.title, or the file's name)");
@@ -526,10 +558,11 @@ private:
     {
         auto* info =
             app_.add_subcommand("info", "print version, instruction sets and threads, or the content of a file");
-        info->add_option("FILE", file_,
-                         "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, "
-                         "measured data (HDF5, "
-                         "folder), measured outcomes (CSV), a record");
+        info->add_option(
+            "FILE", file_,
+            "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, a risk estimate, "
+            "measured data (HDF5, "
+            "folder), measured outcomes (CSV), a record");
         add_set(*info, options_);
         add_common(*info, options_);
         info->callback([this] { status_ = info_command(options_, file_, mpi_library()); });
@@ -551,6 +584,7 @@ private:
     CalibrateOptions calibration_;
     bool keep_all_ = false;
     DiagnoseOptions diagnosis_;
+    RiskCommandOptions risk_;
     ExportOptions export_;
     NewStudyOptions new_;
     bool markdown_ = false;

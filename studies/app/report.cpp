@@ -1,4 +1,4 @@
-/// `stylobate report`: a result, a diagnosis or a calibration as one page.
+/// `stylobate report`: a result, a diagnosis, a calibration or a risk estimate as one page.
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
@@ -9,6 +9,8 @@
 #include "studies/calibration/calibration_page.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_page.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk_page.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/json.hpp"
@@ -87,6 +89,9 @@ int report_command(const CommonOptions& options, const std::string& file, const 
     } else if (kind == FileKind::calibration) {
         check_no_realizations(options, wanted, file, "calibration");
         page = calibration_page(read_calibration(file), file, wanted.title).text();
+    } else if (kind == FileKind::risk) {
+        check_no_realizations(options, wanted, file, "risk estimate");
+        page = risk_page(read_risk(file), file, wanted.title).text();
     } else {
         const Results results(file, options.set);
         check_complete(results.reader(), file);

@@ -33,6 +33,8 @@ constexpr FileWord file_words[] = {
     {"calibrate", "--output", "h5"},
     {"diagnose", "--output", "h5"},
     {"compare", "--output", "h5"},
+    {"risk", "--output", "h5"},
+    {"risk", "--hazard", "csv xml"},
 };
 
 std::string endings_of(const std::string& command, const std::string& word)

@@ -43,6 +43,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/estimators/resampling", {"ensemble/numerics"}},
     {"ensemble/estimators/fragility", {"ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/rare", {"ensemble/estimators/resampling", "ensemble/numerics"}},
+    {"ensemble/estimators/risk", {"ensemble/estimators/fragility", "ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/sensitivity", {"ensemble/estimators/resampling"}},
     {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/paired", {"ensemble/numerics"}},
@@ -50,6 +51,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
 
     {"io/files", {}},
     {"io/tables", {"io/files"}},
+    {"io/hazard", {"io/files", "io/tables"}},
     {"io/records", {}},
     {"io/motion", {"io/records"}},
     {"io/measured", {"io/files", "io/motion", "io/records"}},
@@ -99,9 +101,13 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"studies/diagnosis/decision",
      {"studies", "studies/diagnosis/ensemble_fit", "studies/diagnosis/findings", "studies/diagnosis/laws",
       "studies/diagnosis/statistics", "studies/diagnosis/tests", "studies/windows"}},
+    {"studies/decisions/risk",
+     {"studies/experiment", "studies/kinds", "studies/kinds/fragility", "studies/report", "studies/results"}},
+    {"studies/app/decisions",
+     {"studies", "studies/app", "studies/decisions/risk", "studies/kinds/fragility", "studies/results"}},
     {"studies/app",
      {"studies", "studies/calibration", "studies/check", "studies/cluster", "studies/diagnosis/decision",
-      "studies/decisions/compare", "studies/diagnosis/findings", "studies/diagnosis/laws", "studies/experiment",
+      "studies/decisions/compare", "studies/decisions/risk", "studies/diagnosis/findings", "studies/diagnosis/laws", "studies/experiment",
       "studies/kinds", "studies/reference", "studies/report", "studies/results", "studies/usage", "studies/verify"}},
     {"studies/app/decisions", {"studies/app", "studies/decisions/compare", "studies/decisions/search"}},
     {"library", {}},
@@ -136,7 +142,7 @@ const std::regex public_include(R"re([a-z_]+|stylobate/[a-z_]+\.hpp)re");
 
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
-const std::set<std::string> headers_for_io = {"ensemble/sampling/plausible.hpp"};
+const std::set<std::string> headers_for_io = {"ensemble/estimators/risk/hazard.hpp", "ensemble/sampling/plausible.hpp"};
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
 const std::map<std::string, std::set<std::string>> library_folders = {

@@ -261,6 +261,7 @@ private:
         }
         if (s.curve.reached > 0 && s.curve.reached < s.curve.trials)
             s.shares = shares(reached);
+        s.data = one;
     }
 
     void count_resurrected(const std::vector<std::uint8_t>& reached, StateFragility& s) const

@@ -25,6 +25,7 @@ struct StateFragility {
     LackOfFit fit;
     std::optional<StripeShares> stripes; ///< of a study by stripes
     std::optional<DispersionShares> shares;
+    FragilityData data; ///< that all of these are of, in the study's measure
     /// Structures under a motion that reached the state at some intensity, and not at a stronger one, of all that ever
     /// did.
     std::uint64_t resurrected = 0, reached_ever = 0;

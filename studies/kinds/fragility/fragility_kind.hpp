@@ -27,6 +27,9 @@ public:
                                                            const std::string& name) const override;
     void sections(PageWriter& writer) const override;
 
+    /// What was found, once it is complete.
+    const Fragility& fragility() const { return fragility_; }
+
 protected:
     void take(const ResultRow& row) override { rows_.push_back({row.index, row.cell, row.pga_m_s2, row.outcome}); }
 

@@ -1,0 +1,72 @@
+#pragma once
+/// How often a limit state is reached: the fragility over the hazard,
+///
+///   lambda = integral of P(limit state | im) |d lambda_IM(im)|
+///
+/// (Cornell & Krawinkler, "Progress and challenges in seismic performance assessment", PEER Center News 3 (2000) 1), of
+/// structures that meet every event as new. Its interval by the fragility is that of the records; `risk_number.hpp`
+/// joins that of the hazard.
+
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
+#include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/estimators/risk/risk_number.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// What the probability is between the intensities of the runs, and beyond them.
+enum class FragilityForm {
+    lognormal, ///< the fitted curve, at all intensities
+    shares     ///< those of the stripes, linear in ln im between them (`HazardCurve::node_weights`)
+};
+const char* to_string(FragilityForm form);
+
+/// A part of the frequency, of events in a range of intensities.
+struct FrequencyPart {
+    double from = 0, to = 0; ///< the first part begins at 0, the last one has no end
+    RiskNumber frequency;    ///< [1/year]
+};
+
+struct FrequencyOptions {
+    double level = 0.9;
+    std::size_t parts = 12; ///< within the range of the runs, equally wide in ln im
+};
+
+struct FrequencyEstimate {
+    FragilityForm form = FragilityForm::lognormal;
+    RiskNumber frequency; ///< [1/year]
+    /// Below the range of the runs, `parts` within it, above it.
+    std::vector<FrequencyPart> parts;
+    double below = 0, above = 0; ///< shares of the frequency that come from outside of the range of the runs
+    double beyond_hazard = 0;    ///< share from outside of the hazard's points
+    /// What any non-decreasing curve would give: lognormal, that agrees with the fitted one within the range of the
+    /// runs (0 or the fitted curve below it, the last value or 1 above it); shares, that passes through those of the
+    /// stripes (their monotone ones): steps, and 1 above the last one. Of the best estimate of the hazard. The upper
+    /// one is infinite where a share at the first stripe is not 0 and the hazard has no least intensity.
+    Limits bounds;
+    /// Of shares: the upper limit (of a central interval) of what comes from intensities up to the last stripe of those
+    /// at the lower end at which no run reached the state, by the bounded mean [1/year]. It is not part of the interval
+    /// of the frequency: a structure that cannot be damaged there would have it too. 0: there is no such stripe.
+    double unseen = 0;
+};
+
+/// The interval by the records: the jackknife of ln lambda over records (the frequencies without each record in turn),
+/// with the degrees of freedom of its gradient (`record_spread`), as of the curve itself (`jackknife_limits`). From 0
+/// to infinity where it cannot be given: fewer than `least_records`, or a curve that depends on one record.
+/// @pre the data have one measure and a fitted curve that rises with the intensity (`FragilityCurve::maximum`)
+FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardModel& hazard,
+                                      const FrequencyOptions& options = {});
+
+/// The frequency is linear in the shares, so it is the mean over records of each one's own frequency y_g. A record
+/// without runs at a stripe takes the share of the others there. The interval is Student's of ln lambda by the scatter
+/// of the y_g, with (sum y_g)^2 / sum y_g^2 - 1 degrees of freedom (own choice, of the form of `RecordSpread`: records
+/// that the state is not reached under do not tell the scatter). Where fewer than `least_records` records count so,
+/// there is no scatter to rely on: it is then that of a bounded mean (`record_share.hpp`), y_g between 0 and the
+/// frequency at P = 1, which holds with no damage at all, and is wide.
+/// @param shares of the data   @pre two stripes at least
+FrequencyEstimate share_frequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
+                                  const FrequencyOptions& options = {});
+
+} // namespace stylobate

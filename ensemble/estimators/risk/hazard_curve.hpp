@@ -1,0 +1,57 @@
+#pragma once
+/// A hazard curve as a chain of power laws, and integrals over it.
+///
+/// Between two points, and beyond the first and the last one, lambda = exp(c - k x) with x = ln im: the usual log-log
+/// interpolation. Hazard curves are concave on these scales, so both continuations are upper bounds of a concave one.
+/// Events of the intensities dx have the frequency -d lambda = k exp(c - k x) dx.
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+/// An end of a range of ln im that is none; -no_end at intensity 0.
+inline constexpr double no_end = std::numeric_limits<double>::infinity();
+
+class HazardCurve {
+public:
+    /// @param intensity (n >= 2) ascending, > 0   @param frequency (n) not increasing, > 0
+    /// @pre the last two frequencies differ
+    HazardCurve(std::span<const double> intensity, std::span<const double> frequency);
+
+    /// Of exceedance, at x = ln im; infinite at -infinity unless the first two points are equal.
+    double frequency(double x) const;
+
+    /// ln im that is exceeded so often: the inverse of `frequency`.
+    /// @pre frequency > 0, and below that at -infinity
+    double log_intensity(double frequency) const;
+
+    /// The integral of Phi(intercept + slope x) -d lambda over [from, to] (either end may be infinite), in closed form.
+    /// With eta = intercept + slope x, by parts on each piece of the chain,
+    ///
+    ///   I = [-Phi(eta) exp(c - k x)] + exp(c + k intercept / slope + k^2 / (2 slope^2)) [Phi(eta + k / slope)],
+    ///
+    /// of which one piece without ends is k0 m^-k exp(k^2 beta^2 / 2) with the median m and the dispersion beta =
+    /// 1 / slope (Cornell, "Calculating building seismic performance reliability: a basis for multi-level design
+    /// norms", Proceedings of the 11th World Conference on Earthquake Engineering (1996), paper 2122; Cornell, Jalayer,
+    /// Hamburger & Foutch, "Probabilistic basis for 2000 SAC FEMA steel moment frame guidelines", Journal of Structural
+    /// Engineering 128 (2002) 526).
+    /// @pre slope > 0
+    double lognormal_integral(double intercept, double slope, double from, double to) const;
+
+    /// Weights w with sum_j w_j p_j = the integral of P -d lambda over [from, to], of P that is linear in x between the
+    /// values p_j at the nodes, constant above the last node, and falls linearly to 0 over one more spacing (that of
+    /// the first two nodes) below the first one.
+    /// @param nodes (>= 2) ascending, ln im
+    std::vector<double> node_weights(std::span<const double> nodes, double from, double to) const;
+
+private:
+    /// lambda = exp(c - k x) on [from, to].
+    struct Piece {
+        double from, to, c, k;
+    };
+    std::vector<Piece> pieces_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,50 @@
+#pragma once
+/// What the readers of hazard curves share.
+
+#include "ensemble/estimators/risk/hazard.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stylobate {
+
+/// A hazard as it was read, not yet checked. Frequencies may be 0 or infinite.
+struct RawHazard {
+    HazardModel hazard;             ///< `frequency` is empty where the file has none but fractiles
+    std::vector<long> lines;        ///< (n) of the file; 0: there are none
+    std::vector<std::string> names; ///< (n) of the points for messages; empty: by their intensity
+};
+
+/// Where a hazard curve lies.
+struct HazardSite {
+    double lon = 0, lat = 0;
+    std::string name() const;
+};
+
+/// @param given "LON,LAT" within 0.001 degrees, or a number from 0; empty: of one site alone
+/// @throws InputError if it is none of the sites, or if there are several and none is given
+std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& sites, const std::string& given);
+
+/// -ln(1 - poe) / years, infinite of 1. @throws InputError with what was read if it is no probability
+double annual_frequency(const std::string& file, long line, const std::string& what, double poe, double years);
+
+/// A number, whole. Nothing if it is none, or not finite.
+std::optional<double> hazard_number(std::string_view text);
+
+/// @name The formats. @throws InputError
+/// @{
+RawHazard power_law_hazard(const std::string& given);
+RawHazard csv_hazard(const std::string& file, std::string_view text);
+RawHazard openquake_hazard(const std::string& file, std::string_view text, const std::string& site);
+RawHazard nrml_hazard(const std::string& file, const std::string& text, const std::string& site);
+/// Whether a CSV is OpenQuake's, by its first line.
+bool is_openquake_hazard(std::string_view text);
+/// @}
+
+/// Without points that have no frequency above 0 that is finite, at the ends.
+/// @throws InputError for whatever is wrong with its numbers
+HazardModel checked_hazard(RawHazard raw);
+
+} // namespace stylobate

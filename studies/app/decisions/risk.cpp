@@ -1,0 +1,118 @@
+/// `stylobate risk`: how often a monument reaches its limit states, and how likely that is over years.
+
+#include "studies/decisions/risk/risk.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/hazard/hazard_file.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
+#include "studies/app/file_kind.hpp"
+#include "studies/app/output_path.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk_text.hpp"
+#include "studies/decisions/risk/sequences.hpp"
+#include "studies/kinds/fragility/fragility_kind.hpp"
+#include "studies/results/results.hpp"
+#include "studies/version.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace stylobate {
+
+namespace {
+
+const FragilityKind& fragility_kind(const Results& results)
+{
+    const auto* kind = dynamic_cast<const FragilityKind*>(&results.kind());
+    if (!kind)
+        throw InputError(results.file(), 0,
+                         fmt::format("is the result of a study of kind '{}'; a risk is of a fragility study.\n  "
+                                     "stylobate new fragility: writes one to begin with",
+                                     results.header().kind));
+    check_complete(results.reader(), results.file());
+    return *kind;
+}
+
+/// The measure of the hazard that is needed, before all rows are read.
+std::string measure_of(const Study& study)
+{
+    const FragilitySpec& f = *study.fragility;
+    return f.method == FragilityMethod::stripes ? measure_name(f.measure, f.period_s) : "pga_m_s2";
+}
+
+RiskOptions checked(const RiskCommandOptions& wanted)
+{
+    RiskOptions options;
+    if (!wanted.years.empty())
+        options.years = wanted.years;
+    for (const double years : options.years)
+        if (!(years > 0 && years <= 1e6))
+            throw InputError(fmt::format("--years {}: is outside (0, 1e6].\n  Give years such as 50,100.", years));
+    if (!(wanted.level > 0.5 && wanted.level < 1))
+        throw InputError(fmt::format("--level {}: is outside (0.5, 1).\n  Give a level such as 0.9.", wanted.level));
+    if (!(wanted.most_outside >= 0 && wanted.most_outside <= 1))
+        throw InputError(fmt::format("--most-outside {}: is no share in [0, 1].", wanted.most_outside));
+    options.level = wanted.level;
+    options.most_outside = wanted.most_outside;
+    options.state = wanted.state;
+    return options;
+}
+
+} // namespace
+
+int risk_command(const CommonOptions& options, const std::string& file, const RiskCommandOptions& wanted)
+{
+    check_kind(file, "risk");
+    const std::string output = wanted.output.empty() ? beside(file, "_risk.h5").string() : wanted.output;
+    check_output(file, output, options.force);
+    const RiskOptions asked = checked(wanted);
+    const RunOptions run = options.run_options();
+    const Results results(file, options.set);
+    fragility_kind(results);
+    const HazardModel hazard = read_hazard(wanted.hazard, measure_of(results.study()), wanted.site);
+    if (wanted.sequences > 0)
+        check_sequences(results);
+    AtomicFile::check(output);
+    const auto& kind = dynamic_cast<const FragilityKind&>(results.concluded());
+    Risk risk;
+    try {
+        risk = risk_of(kind.fragility(), hazard, asked);
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        throw InputError(what.starts_with("--") ? what : file + ": " + what);
+    }
+    risk.fragility_file = std::filesystem::path(file).filename().string();
+    risk.title = results.title();
+    risk.study_text = results.study().text;
+    risk.code_version = code_version();
+    if (wanted.sequences > 0) {
+        SequenceOptions sequences;
+        sequences.histories = wanted.sequences;
+        sequences.years = asked.years.back();
+        sequences.level = asked.level;
+        sequences.threshold = wanted.threshold;
+        sequences.seed = wanted.seed;
+        Console console(options.quiet);
+        const std::optional<SequenceRisk> found = simulate_sequences(results, risk, sequences, run, console);
+        if (!found) {
+            console.warn(fmt::format("interrupted: '{}' was not written", output));
+            return exit_interrupted;
+        }
+        risk.sequences = found;
+    }
+    AtomicFile target(output);
+    write_risk(risk, target.temporary());
+    target.commit();
+    if (options.json)
+        fmt::print("{}\n", risk_json(risk).member("written", output).text());
+    else if (options.quiet)
+        fmt::print("{}", risk_text(risk));
+    else
+        fmt::print("{}{}\n", risk_text(risk), output);
+    return exit_done;
+}
+
+} // namespace stylobate

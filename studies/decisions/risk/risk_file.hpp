@@ -1,0 +1,22 @@
+#pragma once
+/// A risk estimate as an HDF5 file; `io/FORMAT.md` describes its content.
+
+#include "studies/decisions/risk/risk.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// Writes over a file. @throws InputError if it cannot be written
+void write_risk(const Risk& risk, const std::filesystem::path& file);
+
+/// @throws InputError if the file is none, of another format version, or damaged
+Risk read_risk(const std::filesystem::path& file);
+
+/// The tables as comma-separated values: names of files and their texts.
+std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk);
+
+} // namespace stylobate

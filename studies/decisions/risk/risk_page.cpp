@@ -1,0 +1,202 @@
+#include "studies/decisions/risk/risk_page.hpp"
+
+#include "studies/decisions/risk/risk_text.hpp"
+#include "studies/report/html_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// Intensities of a curve that is drawn over the range of a limit state's parts.
+std::vector<double> grid_over(const StateRisk& s)
+{
+    constexpr int points = 80;
+    const double low = s.estimate.parts.front().to, high = s.estimate.parts.back().from;
+    std::vector<double> grid;
+    for (int i = 0; i <= points; ++i)
+        grid.push_back(low * std::pow(high / low, static_cast<double>(i) / points));
+    return grid;
+}
+
+Figure hazard_figure(const Risk& risk, const StateRisk& s)
+{
+    Figure figure;
+    figure.title = "Hazard";
+    figure.y_label = "exceeded [1/year]";
+    figure.x_log = figure.y_log = true;
+    const HazardCurve best = best_curve(risk.hazard);
+    FigureSeries line{"hazard", SeriesKind::line, grid_over(s), {}, {}, {}};
+    for (const double im : line.x)
+        line.y.push_back(best.frequency(std::log(im)));
+    if (!risk.hazard.fractiles.empty()) {
+        const HazardCurve low = quantile_curve(risk.hazard, (1 - risk.level) / 2),
+                          high = quantile_curve(risk.hazard, (1 + risk.level) / 2);
+        for (const double im : line.x) {
+            line.low.push_back(low.frequency(std::log(im)));
+            line.high.push_back(high.frequency(std::log(im)));
+        }
+    }
+    figure.series.push_back(std::move(line));
+    return figure;
+}
+
+Figure state_figure(const StateRisk& s)
+{
+    Figure figure;
+    figure.title = "Fragility";
+    figure.y_label = "probability";
+    figure.x_log = true;
+    FigureSeries line{s.meaning, SeriesKind::line, {}, {}, {}, {}};
+    FigureSeries points{"", SeriesKind::points, {}, {}, {}, {}};
+    FigureSeries& limits = s.form == FragilityForm::shares ? points : line;
+    for (const FragilityPoint& p : s.fragility) {
+        line.x.push_back(p.intensity);
+        line.y.push_back(p.probability);
+        limits.low.push_back(p.lower);
+        limits.high.push_back(p.upper);
+    }
+    if (s.form == FragilityForm::shares) {
+        points.x = line.x;
+        points.y = line.y;
+    }
+    figure.series = {line, points};
+    return figure;
+}
+
+Figure parts_figure(const Risk& risk, const StateRisk& s)
+{
+    Figure figure;
+    figure.title = "Disaggregation";
+    figure.x_label = describe_measure(risk.hazard.measure);
+    figure.y_label = "frequency of each part [1/year]";
+    figure.x_log = true;
+    FigureSeries bars{fmt::format("{}, {:g} %", s.state, 100 * risk.level), SeriesKind::points, {}, {}, {}, {}};
+    for (const FrequencyPart& part : s.estimate.parts) {
+        if (part.from == 0 || std::isinf(part.to))
+            continue;
+        bars.x.push_back(std::sqrt(part.from * part.to));
+        bars.y.push_back(part.frequency.value);
+        bars.low.push_back(part.frequency.total.lower);
+        bars.high.push_back(part.frequency.total.upper);
+    }
+    figure.series.push_back(std::move(bars));
+    return figure;
+}
+
+void add_result(const Risk& risk, HtmlPage& page)
+{
+    page.section("Result");
+    HtmlTable table{"lll", {"limit state", "fragility", "a year"}, {}, ""};
+    for (const double years : risk.years) {
+        table.align += "l";
+        table.head.emplace_back(fmt::format("in {:g} years", years));
+    }
+    table.align += "r";
+    table.head.emplace_back("of the width, fragility");
+    for (const StateRisk* s : risk.chosen()) {
+        std::vector<Html> row{s->meaning, to_string(s->form)};
+        if (s->determined) {
+            row.emplace_back(frequency_text(s->estimate.frequency));
+            for (const double years : risk.years) {
+                const RiskNumber p = probability_over(s->estimate.frequency, years);
+                row.emplace_back(percent_text(p.value, p.total));
+            }
+            const double part = s->estimate.frequency.fragility_part;
+            row.emplace_back(std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part));
+        } else {
+            row.emplace_back(fmt::format("not determined; {:.2g} to {:.2g} for any curve that rises",
+                                         s->estimate.bounds.lower, s->estimate.bounds.upper));
+            row.resize(table.head.size());
+        }
+        table.rows.push_back(std::move(row));
+    }
+    page.table(table);
+    page.note(fmt::format("In brackets: {:g} % intervals, of the fragility (its motions) and of the hazard (its "
+                          "fractiles) together. Each earthquake meets the structure as new. Probabilities over years "
+                          "are those of a Poisson process. The last column is the part of the squared width of the "
+                          "interval, on a logarithmic scale, that is of the fragility.",
+                          100 * risk.level));
+}
+
+void add_parts(const Risk& risk, HtmlPage& page)
+{
+    page.section("Contributing intensities");
+    const StateRisk& s = risk.principal();
+    if (!s.determined || !(s.estimate.frequency.value > 0)) {
+        page.paragraph("The frequency of this limit state is not determined or 0: " + s.note);
+        return;
+    }
+    for (const Figure& figure : risk_figures(risk, s))
+        page.figure(figure_svg(figure, 200), figure.title);
+    HtmlTable table{"lrl", {describe_measure(risk.hazard.measure), "share", "a year"}, {}, ""};
+    for (const FrequencyPart& part : s.estimate.parts)
+        table.rows.push_back({range_text(part),
+                              fmt::format("{:.1f} %", 100 * part.frequency.value / s.estimate.frequency.value),
+                              frequency_text(part.frequency)});
+    page.table(table);
+    page.note(fmt::format("From outside of the range of the runs: {:.2g} % below, {:.2g} % above. From outside of the "
+                          "hazard's points: {:.2g} %. Any curve that rises would give {:.2g} to {:.2g} a year.",
+                          100 * s.estimate.below, 100 * s.estimate.above, 100 * s.estimate.beyond_hazard,
+                          s.estimate.bounds.lower, s.estimate.bounds.upper));
+    if (s.estimate.unseen > 0)
+        page.note(
+            fmt::format("At the weakest intensities no run reached the state. With so many motions, {:.2g} a year "
+                        "from there is not excluded; it is not part of the intervals.",
+                        s.estimate.unseen));
+}
+
+void add_sequences(const SequenceRisk& s, HtmlPage& page)
+{
+    page.section("Damage carried from earthquake to earthquake");
+    const auto percent = [](const SequenceNumber& n) { return percent_text(n.value, n.limits); };
+    page.facts(
+        {{"Histories", fmt::format("{} of {:g} years", s.histories, s.years)},
+         {"Earthquakes", fmt::format("{:.3g} a year above {:.3g}", s.events_a_year, s.threshold)},
+         {"Fallen, damage carried along", percent(s.carried_share)},
+         {"Fallen, new in every earthquake", percent(s.fresh_share)},
+         {"Difference, paired", percent(s.difference)},
+         {"Ratio, paired", std::isfinite(s.ratio.limits.upper) ? fmt::format("{:.3g} ({:.3g} to {:.3g})", s.ratio.value,
+                                                                             s.ratio.limits.lower, s.ratio.limits.upper)
+                                                               : std::string("not determined")},
+         {"By the fragility", percent_text(s.closed_form, s.closed_form_limits)},
+         {"Threshold", s.threshold_says}});
+}
+
+} // namespace
+
+std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
+{
+    return {hazard_figure(risk, state), state_figure(state), parts_figure(risk, state)};
+}
+
+HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string& title)
+{
+    HtmlPage page(title.empty() ? "Risk: " + risk.title : title,
+                  fmt::format("Fragility of {}, hazard {}{}. Made by stylobate {}.", risk.fragility_file,
+                              risk.hazard.source, risk.hazard.site.empty() ? "" : " at " + risk.hazard.site,
+                              risk.code_version));
+    add_result(risk, page);
+    add_parts(risk, page);
+    if (risk.sequences)
+        add_sequences(*risk.sequences, page);
+    page.section("Notes");
+    std::vector<Html> notes;
+    for (const StateRisk* s : risk.chosen())
+        notes.emplace_back(s->state + ": " + s->note);
+    notes.insert(notes.end(), risk.says.begin(), risk.says.end());
+    page.list(notes);
+    page.section("Reproduction");
+    page.facts({{"This estimate", std::filesystem::path(file).filename().string()},
+                {"Fragility", risk.fragility_file},
+                {"Hazard", risk.hazard.source}});
+    page.heading("The study");
+    page.block(risk.study_text);
+    return page;
+}
+
+} // namespace stylobate

@@ -1,0 +1,220 @@
+#include "studies/decisions/risk/risk_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+std::string part_text(double part)
+{
+    return std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part);
+}
+
+std::string table_text(const Risk& risk)
+{
+    std::string text = fmt::format("  {:<16} {:<10} {:<34}", "limit state", "fragility", "a year");
+    for (const double years : risk.years)
+        text += fmt::format(" {:<26}", fmt::format("in {:g} years", years));
+    text += " of the width, fragility\n";
+    for (const StateRisk* s : risk.chosen()) {
+        text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form));
+        if (!s->determined) {
+            text += fmt::format("not determined; between {:.2g} and {:.2g} a year for any curve that rises\n",
+                                s->estimate.bounds.lower, s->estimate.bounds.upper);
+            continue;
+        }
+        text += fmt::format("{:<34}", frequency_text(s->estimate.frequency));
+        for (const double years : risk.years) {
+            const RiskNumber p = probability_over(s->estimate.frequency, years);
+            text += fmt::format(" {:<26}", percent_text(p.value, p.total));
+        }
+        text += fmt::format(" {}\n", part_text(s->estimate.frequency.fragility_part));
+    }
+    return text;
+}
+
+/// Where the frequency of the principal limit state comes from.
+std::string parts_text(const Risk& risk)
+{
+    const StateRisk& s = risk.principal();
+    const FrequencyEstimate& e = s.estimate;
+    if (!s.determined || !(e.frequency.value > 0))
+        return {};
+    std::string text = fmt::format("Intensities that contribute to '{}', {}:\n", s.state, risk.hazard.measure);
+    for (const FrequencyPart& part : e.parts)
+        if (const double share = part.frequency.value / e.frequency.value; share >= 0.005)
+            text += fmt::format("  {:<22} {:>4.0f} %   {} a year\n", range_text(part), 100 * share,
+                                frequency_text(part.frequency));
+    text += fmt::format("  from outside of the range of the runs: {:.2g} % below, {:.2g} % above; from outside of the "
+                        "hazard's points: {:.2g} %\n",
+                        100 * e.below, 100 * e.above, 100 * e.beyond_hazard);
+    text += fmt::format("  any curve that rises, {}: {:.2g} to {:.2g} a year\n",
+                        s.form == FragilityForm::lognormal ? "and agrees with the fitted one within that range"
+                                                           : "through the shares of the stripes",
+                        e.bounds.lower, e.bounds.upper);
+    if (e.unseen > 0)
+        text += fmt::format("  from intensities at which no run reached it: none seen, {:.2g} a year not excluded; not "
+                            "in the intervals\n",
+                            e.unseen);
+    return text;
+}
+
+std::string sequence_text(const SequenceRisk& s)
+{
+    const auto percent = [](const SequenceNumber& n) { return percent_text(n.value, n.limits); };
+    std::string text = fmt::format("{} histories of {:g} years; {:.3g} earthquakes a year above {:.3g}, {} in all, at "
+                                   "most {} in one history; {} runs\n",
+                                   s.histories, s.years, s.events_a_year, s.threshold, s.events, s.most_events, s.runs);
+    text += fmt::format("  fallen, damage carried along:      {}\n", percent(s.carried_share));
+    text += fmt::format("  fallen, new in every earthquake:   {}\n", percent(s.fresh_share));
+    text += fmt::format("  difference, paired:                {}\n", percent(s.difference));
+    text += std::isfinite(s.ratio.limits.upper)
+                ? fmt::format("  ratio, paired:                     {:.3g} ({:.3g} to {:.3g})\n", s.ratio.value,
+                              s.ratio.limits.lower, s.ratio.limits.upper)
+                : std::string("  ratio, paired:                     not determined: too few histories with a fall\n");
+    text += fmt::format("  by the fragility, new in each:     {}\n", percent_text(s.closed_form, s.closed_form_limits));
+    text += fmt::format("  threshold: {}", s.threshold_says);
+    if (s.checked > 0)
+        text += fmt::format(
+            " With earthquakes down to {:.3g}, {} of {} histories end otherwise ({}).", s.checked_threshold, s.changed,
+            s.checked, percent_text(static_cast<double>(s.changed) / static_cast<double>(s.checked), s.changed_limits));
+    text += "\n";
+    if (s.invalid > 0)
+        text += fmt::format("  {} histories are left out: a realization was invalid\n", s.invalid);
+    return text;
+}
+
+Json json_of(const RiskNumber& n)
+{
+    return Json::object()
+        .member("value", n.value)
+        .member("lower", n.total.lower)
+        .member("upper", n.total.upper)
+        .member("fragility_lower", n.fragility.lower)
+        .member("fragility_upper", n.fragility.upper)
+        .member("hazard_lower", n.hazard.lower)
+        .member("hazard_upper", n.hazard.upper)
+        .member("fragility_part", n.fragility_part);
+}
+
+Json json_of(const SequenceNumber& n)
+{
+    return Json::object().member("value", n.value).member("lower", n.limits.lower).member("upper", n.limits.upper);
+}
+
+Json json_of(const SequenceRisk& s)
+{
+    return Json::object()
+        .member("years", s.years)
+        .member("level", s.level)
+        .member("histories", s.histories)
+        .member("threshold", s.threshold)
+        .member("events_1_year", s.events_a_year)
+        .member("events", s.events)
+        .member("histories_with_two_events", s.with_two)
+        .member("fallen_carried", s.carried)
+        .member("fallen_fresh", s.fresh)
+        .member("fallen_both", s.both)
+        .member("invalid", s.invalid)
+        .member("runs", s.runs)
+        .member("steps", s.steps)
+        .member("carried", json_of(s.carried_share))
+        .member("fresh", json_of(s.fresh_share))
+        .member("difference", json_of(s.difference))
+        .member("ratio", json_of(s.ratio))
+        .member("closed_form", json_of(SequenceNumber{s.closed_form, s.closed_form_limits}))
+        .member("checked", s.checked)
+        .member("checked_threshold", s.checked_threshold)
+        .member("changed", s.changed);
+}
+
+Json json_of(const StateRisk& s, const Risk& risk)
+{
+    const FrequencyEstimate& e = s.estimate;
+    Json json = Json::object();
+    json.member("state", s.state)
+        .member("form", to_string(s.form))
+        .member("chosen", s.chosen)
+        .member("determined", s.determined)
+        .member("note", s.note)
+        .member("below", e.below)
+        .member("above", e.above)
+        .member("beyond_hazard", e.beyond_hazard)
+        .member("lowest_1_year", e.bounds.lower)
+        .member("highest_1_year", e.bounds.upper)
+        .member("unseen_1_year", e.unseen);
+    if (!s.determined)
+        return json;
+    json.member("frequency_1_year", json_of(e.frequency));
+    Json over = Json::list(), parts = Json::list();
+    for (const double years : risk.years) {
+        Json one = Json::object();
+        one.member("years", years).member("probability", json_of(probability_over(e.frequency, years)));
+        over.item(one);
+    }
+    for (const FrequencyPart& part : e.parts) {
+        Json one = Json::object();
+        one.member("from", part.from).member("to", part.to).member("frequency_1_year", json_of(part.frequency));
+        parts.item(one);
+    }
+    return json.member("over_years", over).member("disaggregation", parts);
+}
+
+} // namespace
+
+std::string percent_text(double value, const Limits& limits)
+{
+    return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * value, 100 * limits.lower, 100 * limits.upper);
+}
+
+std::string frequency_text(const RiskNumber& number)
+{
+    return fmt::format("{:.3g} ({:.3g} to {:.3g})", number.value, number.total.lower, number.total.upper);
+}
+
+std::string range_text(const FrequencyPart& part)
+{
+    return part.from == 0        ? fmt::format("below {:.3g}", part.to)
+           : std::isinf(part.to) ? fmt::format("above {:.3g}", part.from)
+                                 : fmt::format("from {:.3g} to {:.3g}", part.from, part.to);
+}
+
+std::string risk_text(const Risk& risk)
+{
+    std::string text =
+        fmt::format("{}: limit states of {} by the hazard {}{}, {:g} % intervals\n", risk.title, risk.fragility_file,
+                    risk.hazard.source, risk.hazard.site.empty() ? "" : " at " + risk.hazard.site, 100 * risk.level);
+    text += "Each earthquake meets the structure as new; years are of a Poisson process.\n";
+    text += table_text(risk) + parts_text(risk);
+    for (const StateRisk* s : risk.chosen())
+        text += fmt::format("{}: {}\n", s->state, s->note);
+    if (risk.sequences)
+        text += sequence_text(*risk.sequences);
+    for (const std::string& remark : risk.says)
+        text += "note: " + remark + "\n";
+    return text;
+}
+
+Json risk_json(const Risk& risk)
+{
+    Json states = Json::list();
+    for (const StateRisk& s : risk.states)
+        states.item(json_of(s, risk));
+    Json json = Json::object();
+    json.member("fragility", risk.fragility_file)
+        .member("hazard", risk.hazard.source)
+        .member("site", risk.hazard.site)
+        .member("measure", risk.hazard.measure)
+        .member("level", risk.level)
+        .member("states", states)
+        .member("notes", Json::list(risk.says));
+    if (risk.sequences)
+        json.member("sequences", json_of(*risk.sequences));
+    return json;
+}
+
+} // namespace stylobate

@@ -1,0 +1,27 @@
+#pragma once
+/// A risk estimate in words and as JSON.
+
+#include "studies/decisions/risk/risk.hpp"
+#include "studies/report/json.hpp"
+
+#include <string>
+
+namespace stylobate {
+
+/// Lines for a terminal: each limit state with its frequency and probabilities, where the principal one's frequency
+/// comes from, and what a reader must know.
+std::string risk_text(const Risk& risk);
+
+/// All of it but the fragility's points.
+Json risk_json(const Risk& risk);
+
+/// "0.31 % (0.22 to 0.45)" of a probability or a share.
+std::string percent_text(double value, const Limits& limits);
+
+/// "3.1e-05 (2.1e-05 to 4.4e-05)".
+std::string frequency_text(const RiskNumber& number);
+
+/// "from 0.5 to 0.6", "below 0.5", "above 3".
+std::string range_text(const FrequencyPart& part);
+
+} // namespace stylobate

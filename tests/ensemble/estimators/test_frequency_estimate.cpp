@@ -1,0 +1,259 @@
+/// Frequencies of a limit state: closed form, simulated years, coverage of the intervals, what lies outside.
+
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
+#include "ensemble/estimators/risk/frequency_estimate.hpp"
+#include "ensemble/estimators/risk/paired_shares.hpp"
+#include "tests/ensemble/estimators/fragility_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace stylobate {
+namespace {
+
+HazardModel power_law(double k0, double k, double sigma_ln = 0)
+{
+    HazardModel hazard;
+    hazard.measure = "pga_m_s2";
+    hazard.intensity = {1, 10};
+    hazard.frequency = {k0, k0 * std::pow(10, -k)};
+    hazard.unbounded = true;
+    if (sigma_ln > 0)
+        for (const double p : {0.05, 0.95}) {
+            const double factor = std::exp(sigma_ln * link_quantile(Link::probit, p));
+            hazard.fractiles.push_back({p, {k0 * factor, k0 * factor * std::pow(10, -k)}});
+        }
+    return hazard;
+}
+
+FragilityData data_of(const FragilityTruth& truth, std::uint64_t seed = 1, std::uint64_t repeat = 0)
+{
+    return grouped(truth.draw(seed, repeat));
+}
+
+/// The shares alone, without the test of monotonicity, which takes its time.
+StripeShares shares_of(const FragilityData& data)
+{
+    StripeShares shares;
+    shares.stripes.resize(data.points());
+    for (const FragilityRow& row : data.rows) {
+        shares.stripes[row.point].trials += row.trials;
+        shares.stripes[row.point].reached += row.reached;
+    }
+    for (StripeShare& stripe : shares.stripes)
+        stripe.monotone = stripe.share = stripe.reached / stripe.trials;
+    return shares;
+}
+
+double cornell(double k0, double k, double median, double beta)
+{
+    return k0 * std::pow(median, -k) * std::exp(k * k * beta * beta / 2);
+}
+
+TEST(FrequencyEstimate, LognormalIsCornellsClosedFormOfTheFittedCurve)
+{
+    const FragilityData data = data_of({});
+    const FragilityCurve curve = fragility_curve(data, {});
+    for (const double k : {1.0, 2.5, 5.0}) {
+        const FrequencyEstimate found = lognormal_frequency(data, power_law(1e-3, k));
+        EXPECT_NEAR(found.frequency.value / cornell(1e-3, k, curve.median.value, curve.dispersion.value), 1, 1e-6);
+        double parts = 0;
+        for (const FrequencyPart& part : found.parts)
+            parts += part.frequency.value;
+        EXPECT_NEAR(parts / found.frequency.value, 1, 1e-12);
+        EXPECT_LT(found.frequency.total.lower, found.frequency.value);
+        EXPECT_GT(found.frequency.total.upper, found.frequency.value);
+    }
+}
+
+TEST(FrequencyEstimate, SharesAreTheSumOverTheStripesAndNearTheCurve)
+{
+    FragilityTruth truth;
+    truth.records = 400;
+    truth.runs = 20;
+    truth.stripes.clear();
+    for (int i = 0; i < 60; ++i)
+        truth.stripes.push_back(0.2 * std::pow(40.0, i / 59.0));
+    const FragilityData data = data_of(truth);
+    const StripeShares shares = stripe_shares(data);
+    const FrequencyEstimate found = share_frequency(data, shares, power_law(1e-3, 2.5));
+    const double want = cornell(1e-3, 2.5, truth.median, truth.dispersion());
+    EXPECT_NEAR(found.frequency.value / want, 1, 0.06); // 400 records
+    EXPECT_LE(found.frequency.total.lower, want);
+    EXPECT_GE(found.frequency.total.upper, want);
+    EXPECT_LT(found.bounds.lower, found.frequency.value);
+    EXPECT_GT(found.bounds.upper, found.frequency.value);
+    EXPECT_LT(found.bounds.upper / found.bounds.lower, 1.3);
+}
+
+/// Years of events: their number by Poisson, their intensities by the hazard, and at each a structure as new whose
+/// capacity is drawn.
+TEST(FrequencyEstimate, SimulatedYearsOfEvents)
+{
+    const double k0 = 2e-3, k = 2.5, median = 1.0, beta = 0.45, years = 50, least = 0.05;
+    HazardModel hazard = power_law(k0, k);
+    const double lambda =
+        best_curve(hazard).lognormal_integral(-std::log(median) / beta, 1 / beta, -INFINITY, INFINITY);
+    std::mt19937_64 random(7);
+    std::poisson_distribution<int> events(k0 * std::pow(least, -k) * years);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::normal_distribution<double> normal;
+    const int histories = 20000;
+    int failed = 0;
+    for (int h = 0; h < histories; ++h) {
+        bool fails = false;
+        for (int n = events(random); n > 0; --n)
+            fails |= least * std::pow(uniform(random), -1 / k) > median * std::exp(beta * normal(random));
+        failed += fails;
+    }
+    const double want = 1 - std::exp(-lambda * years), p = static_cast<double>(failed) / histories;
+    EXPECT_NEAR(p, want, 4 * std::sqrt(want * (1 - want) / histories)); // 1 in 16,000 by chance
+    EXPECT_GT(want, 0.1);
+    EXPECT_LT(want, 0.5);
+}
+
+TEST(FrequencyEstimate, OutsideIsCountedAndBounded)
+{
+    FragilityTruth truth;
+    truth.stripes = {0.5, 0.65, 0.8, 1.0};
+    const FragilityData data = data_of(truth);
+    const FragilityCurve curve = fragility_curve(data, {});
+    const double b1 = 1 / curve.dispersion.value, b0 = -std::log(curve.median.value) * b1;
+    HazardModel hazard = power_law(1e-3, 2);
+    const HazardCurve best = best_curve(hazard);
+    const FrequencyEstimate found = lognormal_frequency(data, hazard);
+    EXPECT_NEAR(found.above * found.frequency.value, best.lognormal_integral(b0, b1, 0, INFINITY), 1e-12);
+    EXPECT_NEAR(found.below * found.frequency.value, best.lognormal_integral(b0, b1, -INFINITY, std::log(0.5)), 1e-12);
+    EXPECT_EQ(found.beyond_hazard, 0);
+    EXPECT_LT(found.bounds.lower, found.frequency.value);
+    EXPECT_GT(found.bounds.upper, found.frequency.value);
+    // events above the range are 1e-3 a year: P = 1 for all of them is the upper bound, that at its end the lower one
+    const double within = best.lognormal_integral(b0, b1, std::log(0.5), 0);
+    EXPECT_NEAR(found.bounds.lower, within + 1e-3 * link_at(Link::probit, b0).below, 1e-12);
+    EXPECT_NEAR(found.bounds.upper - found.bounds.lower,
+                1e-3 * link_at(Link::probit, b0).above + found.below * found.frequency.value, 1e-12);
+
+    // the same hazard given from 0.7 on only: what lies below is beyond it
+    hazard.unbounded = false;
+    hazard.intensity = {0.7, 30};
+    hazard.frequency = {1e-3 * std::pow(0.7, -2), 1e-3 * std::pow(30, -2)};
+    const FrequencyEstimate cut = lognormal_frequency(data, hazard);
+    EXPECT_NEAR(cut.frequency.value / found.frequency.value, 1, 1e-12);
+    EXPECT_NEAR(cut.beyond_hazard * cut.frequency.value,
+                best.lognormal_integral(b0, b1, -INFINITY, std::log(0.7)) +
+                    best.lognormal_integral(b0, b1, std::log(30), INFINITY),
+                1e-12);
+
+    // shares: nothing is known of what is weaker than the first stripe, where some are damaged already
+    const StripeShares shares = stripe_shares(data);
+    ASSERT_GT(shares.stripes[0].share, 0);
+    EXPECT_TRUE(std::isinf(share_frequency(data, shares, power_law(1e-3, 2)).bounds.upper));
+    EXPECT_TRUE(std::isfinite(share_frequency(data, shares, hazard).bounds.upper));
+}
+
+TEST(FrequencyEstimate, NoDamageHasAnUpperLimit)
+{
+    std::vector<FragilityRun> runs;
+    for (std::uint32_t g = 0; g < 30; ++g)
+        for (const double im : {0.5, 1.0, 2.0})
+            runs.push_back({g, {im}, 0, 4});
+    const FragilityData data = grouped(runs);
+    const FrequencyEstimate found = share_frequency(data, stripe_shares(data), power_law(1e-3, 2, 0.5));
+    EXPECT_EQ(found.frequency.value, 0);
+    EXPECT_EQ(found.frequency.total.lower, 0);
+    // the exact limit of none in thirty records, of all events that the weights count
+    double events = 0;
+    for (const double w :
+         best_curve(power_law(1e-3, 2)).node_weights({{std::log(0.5), 0, std::log(2.0)}}, -INFINITY, INFINITY))
+        events += w;
+    const double exact = (1 - std::pow(0.05, 1.0 / 30)) * events;
+    EXPECT_NEAR(found.frequency.fragility.upper / exact, 1, 1e-4);
+    EXPECT_NEAR(found.frequency.total.upper / exact, std::exp(0.5 * 1.6448536), 1e-3);
+    // of what is weaker than the last stripe, all of which shows nothing
+    EXPECT_GT(found.unseen, 0);
+    EXPECT_LT(found.unseen, found.frequency.fragility.upper);
+}
+
+/// How often the intervals contain the truth, with both sources of error drawn anew.
+struct Covered {
+    double total = 0, fragility = 0, shares = 0;
+};
+Covered coverage(const FragilityTruth& truth, double sigma_ln, double k, int repeats, double level)
+{
+    const double k0 = 1e-3, want = cornell(k0, k, truth.median, truth.dispersion());
+    Covered covered;
+    FrequencyOptions options;
+    options.level = level;
+    options.parts = 1;
+    for (int i = 0; i < repeats; ++i) {
+        const auto repeat = static_cast<std::uint64_t>(i);
+        const FragilityData data = data_of(truth, 11, repeat);
+        // the hazard's estimate is off by a draw from its own distribution
+        const double z = link_quantile(Link::probit, uniform01(12, repeat, Stream::virtual_placement, 0));
+        const auto holds = [want](const Limits& l) { return l.lower <= want && want <= l.upper; };
+        if (fragility_curve(data, {}).maximum == Maximum::inside) {
+            const auto certain = lognormal_frequency(data, power_law(k0, k), options);
+            const auto both = lognormal_frequency(data, power_law(k0 * std::exp(sigma_ln * z), k, sigma_ln), options);
+            covered.fragility += holds(certain.frequency.total) ? 1.0 / repeats : 0;
+            covered.total += holds(both.frequency.total) ? 1.0 / repeats : 0;
+        }
+        const auto shares =
+            share_frequency(data, shares_of(data), power_law(k0 * std::exp(sigma_ln * z), k, sigma_ln), options);
+        covered.shares += holds(shares.frequency.total) ? 1.0 / repeats : 0;
+    }
+    return covered;
+}
+
+/// 400 repeats: the standard error of a coverage of 0.9 is 0.015, and four of them are allowed.
+TEST(FrequencyEstimateStatistics, IntervalsContainTheTruth)
+{
+    FragilityTruth truth;
+    truth.stripes.clear();
+    for (int i = 0; i < 14; ++i)
+        truth.stripes.push_back(0.25 * std::pow(16.0, i / 13.0));
+    for (const std::size_t records : {20U, 60U})
+        for (const double k : {2.5, 4.0}) {
+            truth.records = records;
+            const Covered covered = coverage(truth, 0.4, k, 400, 0.9);
+            RecordProperty(fmt::format("records_{}_k_{:g}", records, k),
+                           fmt::format("fragility {:.3f}, both {:.3f}, shares {:.3f}", covered.fragility, covered.total,
+                                       covered.shares));
+            EXPECT_NEAR(covered.fragility, 0.9, 0.06);
+            EXPECT_NEAR(covered.total, 0.9, 0.06);
+            EXPECT_GT(covered.shares, 0.84);
+        }
+}
+
+/// By enumeration of the counts of 60 trials whose two outcomes are dependent.
+TEST(PairedShares, IntervalsContainTheTruth)
+{
+    const double p11 = 0.15, p10 = 0.12, p01 = 0.05, p00 = 1 - p11 - p10 - p01;
+    const int n = 60;
+    double difference = 0, ratio = 0, all = 0;
+    const auto log_factorial = [](int i) { return std::lgamma(i + 1.0); };
+    for (int a = 0; a <= n; ++a)
+        for (int b = 0; a + b <= n; ++b)
+            for (int c = 0; a + b + c <= n; ++c) {
+                const int d = n - a - b - c;
+                const double p = std::exp(log_factorial(n) - log_factorial(a) - log_factorial(b) - log_factorial(c) -
+                                          log_factorial(d) + a * std::log(p11) + b * std::log(p10) + c * std::log(p01) +
+                                          d * std::log(p00));
+                const auto u = [](int i) { return static_cast<std::uint64_t>(i); };
+                const PairedCounts counts{u(a), u(b), u(c), u(d)};
+                const PairedEstimate found = paired_difference(counts, 0.9), by = paired_ratio(counts, 0.9);
+                all += p;
+                difference += found.limits.lower <= p10 - p01 && p10 - p01 <= found.limits.upper ? p : 0;
+                const double want = (p11 + p10) / (p11 + p01);
+                ratio += by.limits.lower <= want && want <= by.limits.upper ? p : 0;
+            }
+    EXPECT_NEAR(all, 1, 1e-9);
+    EXPECT_NEAR(difference, 0.9, 0.03);
+    EXPECT_NEAR(ratio, 0.9, 0.05);
+    EXPECT_EQ(paired_difference({5, 3, 1, 91}, 0.9).value, 0.02);
+    EXPECT_EQ(paired_ratio({5, 3, 1, 91}, 0.9).value, 8.0 / 6);
+}
+
+} // namespace
+} // namespace stylobate

@@ -1,0 +1,171 @@
+/// `stylobate risk` as its user runs it: the closed form, the same bytes for every number of threads, histories of
+/// earthquakes with known answers, what reads the file, and refusals that leave nothing.
+
+#include "tests/program/program.hpp"
+
+#include <cmath>
+
+namespace stylobate {
+namespace {
+
+const std::string risk_study = STYLOBATE_SOURCE_DIR "/studies/inputs/fragility_column.toml";
+const std::vector<std::string> risk_settings = {
+    "study.realizations=6", "fragility.contacts=1", "fragility.twins=1", "fragility.motions=20",
+    "fragility.intensity={measure=\"pgv\",from=0.3,to=2.5,count=6,spacing=\"log\"}"};
+
+class RiskProgram : public Program {
+protected:
+    void SetUp() override
+    {
+        Program::SetUp();
+        ran_ = run(ProgramRun{.arguments = run_words(risk_study, risk_settings, {"-o", "f.h5", "--json"})});
+        ASSERT_EQ(ran_.status, 0) << testing::PrintToString(ran_);
+    }
+    Ended risk(Words more) const
+    {
+        Words words = {"risk", "f.h5"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    }
+    Ended ran_;
+};
+
+/// The form of a limit state in the JSON.
+const JsonValue& state_of(const JsonValue& json, const std::string& name, const std::string& form)
+{
+    for (const JsonValue& s : json["states"].items)
+        if (s["state"].text == name && s["form"].text == form)
+            return s;
+    throw std::runtime_error("no " + name + " " + form);
+}
+
+TEST_F(RiskProgram, LognormalIsTheClosedFormAndTheFileIsRead)
+{
+    const Ended ended = risk({"--hazard", "k0=1e-3,k=3,measure=pgv,sigma_ln=0.4", "--years", "50,100", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended), fragility = json_of(ran_);
+    int compared = 0;
+    for (const JsonValue& s : fragility["fragility"]["states"].items) {
+        if (!s["curve"].boolean)
+            continue;
+        const double median = s["median"]["value"].number, beta = s["dispersion"]["value"].number;
+        const JsonValue& found = state_of(json, s["name"].text, "lognormal");
+        if (!found["determined"].boolean)
+            continue;
+        const double want = 1e-3 * std::pow(median, -3) * std::exp(9 * beta * beta / 2);
+        const JsonValue& frequency = found["frequency_1_year"];
+        EXPECT_NEAR(frequency["value"].number / want, 1, 1e-6) << s["name"].text;
+        EXPECT_LT(frequency["lower"].number, frequency["fragility_lower"].number);
+        EXPECT_GT(frequency["upper"].number, frequency["hazard_upper"].number);
+        EXPECT_NEAR(frequency["hazard_upper"].number / want, std::exp(0.4 * 1.6448536), 1e-5);
+        EXPECT_GT(frequency["fragility_part"].number, 0);
+        EXPECT_LT(frequency["fragility_part"].number, 1);
+        const JsonValue& hundred = found["over_years"].items[1];
+        EXPECT_EQ(hundred["years"].number, 100);
+        EXPECT_NEAR(hundred["probability"]["value"].number, 1 - std::exp(-100 * want), 1e-6);
+        ++compared;
+    }
+    EXPECT_GE(compared, 3);
+
+    // what reads the file
+    const Ended info = run(Words{"info", "f_risk.h5"});
+    EXPECT_EQ(info.status, 0) << info.err;
+    EXPECT_NE(info.out.find("a risk estimate"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("stylobate export f_risk.h5 --to png"), std::string::npos) << info.out;
+    const Ended page = run(Words{"report", "f_risk.h5"});
+    EXPECT_EQ(page.status, 0) << page.err;
+    EXPECT_NE(read_bytes(folder / "f_risk.html").find("Contributing intensities"), std::string::npos);
+    EXPECT_EQ(run(Words{"export", "f_risk.h5", "--to", "csv"}).status, 0);
+    const std::string states = read_bytes(folder / "f_risk_csv/states.csv");
+    EXPECT_EQ(count_of(states, "\n"), json["states"].items.size() + 1) << states;
+    EXPECT_EQ(run(Words{"export", "f_risk.h5", "--to", "svg", "--limit", "peak_0.35"}).status, 0);
+    EXPECT_TRUE(fs::exists(folder / "f_risk_peak_0.35.svg"));
+    expect_refused(Words{"export", "f_risk.h5", "--to", "nrml"}, {"f_risk.h5 is a risk estimate"});
+    expect_refused(Words{"replay", "f_risk.h5", "--realization", "0"}, {"is a risk estimate"});
+}
+
+/// By a table of the same power law: the same numbers, and what lies beyond the table is counted.
+TEST_F(RiskProgram, TableAndThreadsChangeNothing)
+{
+    std::string table = "pgv_cm_s,annual_frequency\n";
+    for (const double cm : {1.0, 5.0, 30.0, 100.0, 300.0, 1000.0})
+        table += fmt::format("{},{}\n", cm, 1e-3 * std::pow(cm / 100, -3));
+    write_bytes(folder / "hazard.csv", table);
+    const Ended by_table = risk({"--hazard", "hazard.csv", "--json", "-o", "t.h5"}),
+                by_law = risk({"--hazard", "k0=1e-3,k=3,measure=pgv", "--json", "-o", "l.h5"});
+    ASSERT_EQ(by_table.status, 0) << by_table.err;
+    ASSERT_EQ(by_law.status, 0) << by_law.err;
+    for (const char* form : {"lognormal", "shares"}) {
+        const JsonValue a = json_of(by_table), b = json_of(by_law);
+        EXPECT_NEAR(state_of(a, "collapse", form)["frequency_1_year"]["value"].number /
+                        state_of(b, "collapse", form)["frequency_1_year"]["value"].number,
+                    1, 1e-9);
+    }
+    const Words sequences = {"--hazard", "k0=1e-3,k=3,measure=pgv", "--sequences", "40", "--years", "30", "-o"};
+    const auto bytes = [&](const char* name, const char* threads) {
+        Words words = sequences;
+        words.insert(words.end(), {name, "--threads", threads});
+        const Ended ended = risk(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return read_bytes(folder / name);
+    };
+    const std::string one = bytes("one.h5", "1");
+    EXPECT_EQ(one, bytes("two.h5", "2"));
+    EXPECT_GT(one.size(), 1000U);
+}
+
+TEST_F(RiskProgram, HistoriesWhereEveryEarthquakeTopples)
+{
+    // each of 0.01 a year is at 30 m/s or more, which nothing survives
+    const Ended ended = risk({"--hazard", "k0=270,k=3,measure=pgv", "--sequences", "400", "--threshold", "30",
+                              "--most-outside", "1", "--state", "collapse", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    const JsonValue& s = json["sequences"];
+    EXPECT_NEAR(s["events_1_year"].number, 0.01, 1e-12);
+    EXPECT_EQ(s["fallen_carried"].number, s["fallen_fresh"].number);
+    EXPECT_EQ(s["difference"]["value"].number, 0);
+    const double want = 1 - std::exp(-1.0), error = std::sqrt(want * (1 - want) / 400);
+    EXPECT_NEAR(s["fresh"]["value"].number, want, 4 * error); // 1 in 16,000 by chance
+    EXPECT_NEAR(s["events"].number, 400, 4 * std::sqrt(400));
+}
+
+TEST_F(RiskProgram, HistoriesWhereNothingMoves)
+{
+    // 5 earthquakes in a hundred years, nearly all below 0.03 m/s
+    const Ended ended = risk({"--hazard", "k0=5e-53,k=30,measure=pgv", "--sequences", "100", "--threshold", "0.02",
+                              "--most-outside", "1", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    const JsonValue& s = json["sequences"];
+    EXPECT_GT(s["events"].number, 300);
+    EXPECT_EQ(s["fallen_carried"].number, 0);
+    EXPECT_EQ(s["fallen_fresh"].number, 0);
+    EXPECT_EQ(s["difference"]["value"].number, 0);
+    EXPECT_LT(s["difference"]["lower"].number, 0);
+    EXPECT_GT(s["difference"]["upper"].number, 0);
+}
+
+TEST_F(RiskProgram, Refusals)
+{
+    const std::string law = "k0=1e-3,k=3,measure=pgv";
+    expect_refused(Words{"risk", "f.h5", "--hazard", "k0=1e-3,k=3,measure=pga_g"},
+                   {"the hazard is of pga_m_s2, the fragility of pgv_m_s"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", "nothing.csv"}, {"nothing.csv"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", law, "--state", "colapse"},
+                   {"--state colapse", "Did you mean collapse"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", law, "--years", "0"}, {"--years 0: is outside (0, 1e6]"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", law, "--level", "0.3"}, {"--level 0.3: is outside (0.5, 1)"});
+    expect_refused(
+        Words{"risk", "f.h5", "--hazard", "k0=1e-3,k=0.2,measure=pgv", "--state", "collapse"},
+        {"f.h5: collapse: ", "% of the frequency would come from intensities outside of the range of the runs",
+         "Or accept it: --most-outside"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", law, "--sequences", "10", "--threshold", "0.001"},
+                   {"--threshold 0.001: a history of 100 years would have"});
+    expect_refused(Words{"risk", risk_study, "--hazard", law}, {"is a study file"});
+    ASSERT_EQ(risk({"--hazard", law}).status, 0);
+    expect_refused(Words{"risk", "f.h5", "--hazard", law}, {"f_risk.h5", "--force"});
+}
+
+} // namespace
+} // namespace stylobate
