@@ -36,6 +36,8 @@ enum class Stream : std::uint64_t {
     twin = 71,     ///< displacement of perturbed replicas of a fragility study; element = block
     subset = 72,   ///< of subset simulation; index = repeat x 2^32 + evaluation, element = number of the point
     sequence = 73, ///< which records follow a record; index = record, element = place in the sequence
+    past = 74,     ///< likelihoods that a count allows; index = cell, element = place of a draw in their order
+    monument = 75, ///< simulated monuments; index = monument, element = number of the draw
     /// Parameter p of mechanism m (`ensemble/model/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element =
     /// joint or block, 0 of the base and of what is drawn once.
     mechanisms = 128

@@ -63,6 +63,7 @@ constexpr Use uses[] = {
      "runs one realization again, with its trajectory"},
     {FileKind::results, "verify-file", "stylobate verify-file {}", "verifies it, and runs some realizations again"},
     {FileKind::results, "merge", "stylobate merge {} OTHERS -o ALL.h5", "joins it with the other shards of its study"},
+    {FileKind::results, "past", "stylobate past {} OTHERS", "the past that it has in common with other structures"},
     {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds the errors of the simulation and their causes"},
@@ -214,7 +215,8 @@ std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name
 {
     std::vector<FileUse> found;
     for (const Use& use : uses)
-        if (use.kind == file.kind && !(file.detail == "rare" && std::string_view(use.verb) == "replay"))
+        if (use.kind == file.kind && !(file.detail == "rare" && std::string_view(use.verb) == "replay") &&
+            (file.detail == "survival" || std::string_view(use.verb) != "past"))
             found.push_back({use.verb, fmt::format(fmt::runtime(use.command), name), use.purpose});
     return found;
 }
