@@ -286,6 +286,28 @@ std::uint64_t read_realizations(const KeyReader& keys, const Study& study)
     return keys.read_or(key, study.realizations);
 }
 
+/// What a study has beside its axes: the state of a structure, or perturbed replicas.
+void read_beside_surface(const KeyReader& top, Study& study, const std::filesystem::path& folder)
+{
+    const KeyReader keys = top.table(study_keys::table);
+    if (study.kind == StudyKind::survival) {
+        study.survival = read_survival(top, study, folder);
+        if (study.total() > most_realizations)
+            keys.refuse("realizations",
+                        fmt::format("with up to {} events are {} in all, more than {}", study.events(), study.total(),
+                                    most_realizations),
+                        "Give fewer realizations, cells or events.");
+    }
+    if (top.has("twins")) {
+        study.twins = read_twins(top.table(twins_keys::table), study);
+        if (study.total() > most_realizations)
+            keys.refuse("realizations",
+                        fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),
+                                    study.total(), most_realizations),
+                        "Give fewer realizations, cells or replicas.");
+    }
+}
+
 /// @param folder beside which the study's files are looked for
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
@@ -359,22 +381,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     choose_steps(top.table(run_keys::table), study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
-    if (study.kind == StudyKind::survival) {
-        study.survival = read_survival(top, study, folder);
-        if (study.total() > most_realizations)
-            keys.refuse("realizations",
-                        fmt::format("with up to {} events are {} in all, more than {}", study.events(), study.total(),
-                                    most_realizations),
-                        "Give fewer realizations, cells or events.");
-    }
-    if (top.has("twins")) {
-        study.twins = read_twins(top.table(twins_keys::table), study);
-        if (study.total() > most_realizations)
-            keys.refuse("realizations",
-                        fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),
-                                    study.total(), most_realizations),
-                        "Give fewer realizations, cells or replicas.");
-    }
+    read_beside_surface(top, study, folder);
     return study;
 }
 

@@ -39,6 +39,14 @@ Exclusion exclusion(const PastLikelihood& likelihood, std::size_t events, const 
         return likelihood_ratio_limit(axes.intensity, curve(cells), result.threshold);
     };
     result.by_likelihood = past_estimate(likelihood, limit);
+    std::vector<double> inverse; // from strong to weak, ascending
+    for (auto a = axes.intensity.rbegin(); a != axes.intensity.rend(); ++a)
+        inverse.push_back(1 / *a);
+    result.weaker = past_estimate(likelihood, [&](auto cells) {
+        std::vector<double> reversed = curve(cells);
+        std::reverse(reversed.begin(), reversed.end());
+        return 1 / likelihood_ratio_limit(inverse, reversed, result.threshold);
+    });
     for (const std::vector<double>& draw : likelihood.drawn)
         result.drawn_with_limit += std::isfinite(limit(draw));
     result.drawn = likelihood.drawn.size();

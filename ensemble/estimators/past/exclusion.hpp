@@ -9,6 +9,8 @@
 /// likelihood has not fallen by the end of the axis it is a property of the prior and of the axis: nothing is then
 /// excluded.
 ///
+/// A state that shaking has left excludes weaker shaking too, by the likelihood in the same way.
+///
 /// The likelihood over the intensity is that of one frequency, or the mean over all with a density that is flat in the
 /// logarithm of the frequency.
 
@@ -21,10 +23,12 @@
 namespace stylobate {
 
 struct Exclusion {
-    std::vector<PastEstimate> likelihood;        ///< (ni) over the intensity
-    double threshold = 0;                        ///< of the ratio of likelihoods
-    PastEstimate top_ratio;                      ///< of the likelihood at the end of the axis to the largest one
-    PastEstimate by_likelihood;                  ///< infinite: not by the end of the axis
+    std::vector<PastEstimate> likelihood; ///< (ni) over the intensity
+    double threshold = 0;                 ///< of the ratio of likelihoods
+    PastEstimate top_ratio;               ///< of the likelihood at the end of the axis to the largest one
+    PastEstimate by_likelihood;           ///< infinite: not by the end of the axis
+    PastEstimate
+        weaker; ///< below this one it is less too: shaking that cannot have left the state; 0: none on the axis
     PastEstimate by_posterior;                   ///< meaningful where something is excluded
     double by_prior = 0;                         ///< what the prior alone puts there
     std::size_t drawn = 0, drawn_with_limit = 0; ///< draws, and those in which the likelihood has fallen

@@ -74,18 +74,24 @@ void PastLikelihood::each(const std::function<void(std::span<const double>)>& f)
         f(draw);
 }
 
+double prior_count(const PastAxes& axes, PastUse use)
+{
+    return use == PastUse::cells ? 0.5 : 0.5 / static_cast<double>(axes.frequency_hz.size());
+}
+
 PastLikelihood past_likelihood(const PastAxes& axes, std::span<const CellCount> counts, std::uint64_t seed, PastUse use,
                                std::uint64_t index)
 {
     assert(counts.size() == axes.cells() && "a count for each cell");
     PastLikelihood likelihood{axes, {}, {past_draws, std::vector<double>(counts.size())}};
     std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<double>> known;
-    const double c = use == PastUse::cells ? 0.5 : 0.5 / static_cast<double>(axes.frequency_hz.size());
+    const double c = prior_count(axes, use);
     std::vector<std::size_t> order(past_draws);
     for (std::size_t cell = 0; cell < counts.size(); ++cell) {
         const CellCount& count = counts[cell];
-        likelihood.value.push_back(
-            count.trials == 0 ? 0.5 : static_cast<double>(count.successes) / static_cast<double>(count.trials));
+        const double shown = use == PastUse::rates && count.trials > 0 ? 0 : c;
+        likelihood.value.push_back((static_cast<double>(count.successes) + shown) /
+                                   (static_cast<double>(count.trials) + 2 * shown));
         auto [at, is_new] = known.try_emplace({count.trials, count.successes});
         if (is_new)
             at->second = quantiles_of(count, c);

@@ -16,6 +16,9 @@
 /// cell c = 1/2, Jeffreys' prior. For a mean over m cells c = 1 / (2 m): the mean of m equal cells then has Jeffreys'
 /// posterior of their counts together, as sums of gamma variates add their shapes. With 1/2 in each of them the cells
 /// without a success would together shift the mean by more than its own standard error.
+///
+/// The likelihood of a cell is the mean of its posterior, (k + c) / (n + 2 c), and not k / n: a posterior over pasts
+/// that takes a cell without a success as impossible is too narrow (tests/ensemble/estimators/test_past.cpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +45,7 @@ struct CellCount {
 
 struct PastLikelihood {
     PastAxes axes;
-    std::vector<double> value;              ///< (cells) successes / trials; 1/2 without a trial
+    std::vector<double> value;              ///< (cells)
     std::vector<std::vector<double>> drawn; ///< (draws) of the cells
 
     /// Calls f(cells) for the value and then for each draw.
@@ -54,8 +57,12 @@ inline constexpr std::size_t past_draws = 1000;
 /// What the draws are for.
 enum class PastUse {
     cells, ///< cells one by one
-    means  ///< means over the frequencies
+    means, ///< means over the frequencies
+    rates  ///< the same, weighted by the steep rates of a hazard curve: the value of a cell is k / n
 };
+
+/// c of the posterior.
+double prior_count(const PastAxes& axes, PastUse use);
 
 /// @param index of the first cell among the random numbers of `Stream::past`: other counts of a study have others
 PastLikelihood past_likelihood(const PastAxes& axes, std::span<const CellCount> counts, std::uint64_t seed, PastUse use,

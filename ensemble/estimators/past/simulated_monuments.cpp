@@ -45,6 +45,7 @@ MonumentTest test_monuments(const PastAxes& axes, const std::vector<std::uint64_
     const std::size_t width = measured.value.size(), ni = axes.intensity.size(), of_one = axes.cells_of_one();
     if (standing.cell.empty())
         return test;
+    const double count = prior_count(axes, PastUse::means);
     // a realization that stands has the prior of its cell over the trials of its cell
     std::vector<double> sums;
     for (const std::size_t cell : standing.cell)
@@ -57,13 +58,16 @@ MonumentTest test_monuments(const PastAxes& axes, const std::vector<std::uint64_
         for (std::size_t k = 0; k < width; ++k)
             seen.value[k] = standing.value[itself * width + k] + measured.tolerance[k] * (2 * draw(4 + k) - 1);
         std::vector<double> posterior(axes.cells(), 0);
+        bool judged = false;
         for (std::size_t r = 0; r < standing.cell.size(); ++r)
-            if (r != itself && distance(seen, std::span(standing.value).subspan(r * width, width)).agrees())
+            if (r != itself && distance(seen, std::span(standing.value).subspan(r * width, width)).agrees()) {
                 posterior[standing.cell[r]] += 1;
+                judged = true;
+            }
         for (std::size_t c = 0; c < posterior.size(); ++c)
-            if (posterior[c] > 0)
-                posterior[c] *= prior[c] / static_cast<double>(trials[c] - (c == truth ? 1 : 0));
-        if (std::all_of(posterior.begin(), posterior.end(), [](double p) { return p == 0; })) {
+            posterior[c] =
+                prior[c] * (posterior[c] + count) / (static_cast<double>(trials[c] - (c == truth ? 1 : 0)) + 2 * count);
+        if (!judged) {
             ++test.not_judged;
             continue;
         }

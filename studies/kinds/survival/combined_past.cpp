@@ -64,7 +64,11 @@ CombinedPast combined_past(const std::vector<StructurePast>& structures)
         combined.alone.push_back(exclusion(likelihoods.back(), 1, prior, spec.level));
     }
     const PastLikelihood all = product(likelihoods);
-    if (std::all_of(all.value.begin(), all.value.end(), [](double value) { return value == 0; }))
+    bool some = false;
+    for (std::size_t cell = 0; cell < all.value.size(); ++cell)
+        some = some || std::all_of(structures.begin(), structures.end(),
+                                   [&](const StructurePast& one) { return one.agreeing[cell].successes > 0; });
+    if (!some)
         throw InputError("no past of these axes agrees with all of the structures: in no cell has each of them a "
                          "realization that agrees.\n  Run more realizations, wider axes or more events; or the "
                          "structures have not been through the same shaking.");

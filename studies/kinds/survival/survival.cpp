@@ -162,7 +162,7 @@ Survival survival_of(const Study& study, const SurvivalCounts& counts)
     if (spec.stands_for_years) {
         s.years = *spec.stands_for_years;
         s.sigma_ln = spec.hazard->sigma_ln;
-        const PastLikelihood collapse = past_likelihood(s.axes, counts.collapse(), study.seed, PastUse::means,
+        const PastLikelihood collapse = past_likelihood(s.axes, counts.collapse(), study.seed, PastUse::rates,
                                                         std::uint64_t{1} << 48); // other random numbers
         s.rates = hazard_update(collapse, rate_curve(*spec.hazard), s.years, s.sigma_ln, spec.level);
     }

@@ -34,13 +34,14 @@ std::vector<std::uint64_t> of(const std::vector<CellCount>& counts, std::uint64_
 
 void add_exclusions(Table& table, const std::string& name, const std::vector<Exclusion>& exclusions)
 {
-    std::vector<PastEstimate> by_likelihood, by_posterior, top;
+    std::vector<PastEstimate> by_likelihood, by_posterior, top, weaker;
     IntervalArray likelihood;
     std::size_t ni = 0;
     for (const Exclusion& e : exclusions) {
         by_likelihood.push_back(e.by_likelihood);
         by_posterior.push_back(e.by_posterior);
         top.push_back(e.top_ratio);
+        weaker.push_back(e.weaker);
         ni = e.likelihood.size();
         for (const PastEstimate& at : e.likelihood)
             likelihood.add(at.value, at.lower, at.upper);
@@ -50,6 +51,7 @@ void add_exclusions(Table& table, const std::string& name, const std::vector<Exc
     table.add(name + "_top_ratio", intervals(top), shape);
     table.add(name + "_excluded_by_likelihood_m_s2", intervals(by_likelihood), shape);
     table.add(name + "_excluded_by_posterior_m_s2", intervals(by_posterior), shape);
+    table.add(name + "_excluded_below_m_s2", intervals(weaker), shape);
 }
 
 } // namespace

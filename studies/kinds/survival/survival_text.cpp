@@ -83,7 +83,8 @@ Json exclusion_json(const Exclusion& e)
         .member("ratio_at_end_of_axis", estimate_json(e.top_ratio))
         .member("by_likelihood_m_s2", estimate_json(e.by_likelihood))
         .member("by_posterior_m_s2", estimate_json(e.by_posterior))
-        .member("by_prior_m_s2", e.by_prior);
+        .member("by_prior_m_s2", e.by_prior)
+        .member("weaker_m_s2", estimate_json(e.weaker));
 }
 
 Json posterior_json(const PastPosterior& p, const PastAxes& axes)

@@ -50,14 +50,22 @@ std::string not_judged_words(const Survival& s)
 
 std::string exclusion_words(const Exclusion& e, const std::string& prior, double level, double axis_end)
 {
+    const std::string weaker =
+        e.weaker.value > 0 ? fmt::format("; PGA below {} m/s2 is excluded by the likelihood ratio: it is too weak for "
+                                         "the state",
+                                         estimate_words(e.weaker))
+                           : std::string();
     if (!e.excludes())
-        return fmt::format("nothing can be excluded up to {:.3g} m/s2: there the likelihood still is {} of its largest "
-                           "value, and less than {:.3g} is needed",
-                           axis_end, estimate_words(e.top_ratio), e.threshold);
+        return fmt::format(
+                   "no PGA up to {:.3g} m/s2 can be excluded as too strong: there the likelihood still is {} of "
+                   "its largest value, and less than {:.3g} is needed",
+                   axis_end, estimate_words(e.top_ratio), e.threshold) +
+               weaker;
     std::string text = fmt::format(
         "excluded at {:g} %: PGA above {} m/s2 by the likelihood ratio; above {} with the prior {}, whose own quantile "
         "is {:.3g}",
         100 * level, estimate_words(e.by_likelihood), estimate_words(e.by_posterior), prior, e.by_prior);
+    text += weaker;
     if (!e.surely())
         text += fmt::format("; in {} of {} draws of the counts nothing is excluded: run more realizations",
                             e.drawn - e.drawn_with_limit, e.drawn);

@@ -83,6 +83,7 @@ TEST(Past, ALogisticStructureExcludesWhatTheClosedFormsSay)
     EXPECT_NEAR(e.threshold, 0.1465, 5e-5);
     const double limit = t * (1 - truth.collapse(0.5));
     EXPECT_NEAR(e.by_likelihood.value, truth.median * std::pow(1 / limit - 1, truth.s), 1e-3);
+    EXPECT_EQ(e.weaker.value, 0) << "weak shaking leaves it standing";
     // with a flat prior: the integral of 1 - collapse over x = ln(a / m) is x - s ln(1 + e^(x / s))
     const auto mass = [&](double a) {
         const double x = std::log(a / truth.median);
@@ -130,9 +131,9 @@ TEST(Past, NothingIsExcludedWhereTheLikelihoodHasNotFallen)
     EXPECT_EQ(none.drawn_with_limit, 0U);
     EXPECT_NEAR(none.top_ratio.value, 1, 1e-12);
     EXPECT_GT(none.top_ratio.lower, none.threshold);
-    // a state that one in sixteen reaches: what a count of 0 excludes is not sure
-    std::vector<CellCount> few(16, {16, 0});
-    few[1] = few[9] = {16, 1};
+    // a state that three in sixty-four reach: what a count of 0 excludes is not sure
+    std::vector<CellCount> few(16, {64, 0});
+    few[1] = few[9] = {64, 3};
     const Exclusion weak = exclusion(past_likelihood(axes, few, 1, PastUse::means), 1, flat(), 0.95);
     EXPECT_TRUE(weak.excludes());
     EXPECT_FALSE(weak.surely());
@@ -184,7 +185,7 @@ TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
     const Logistic truth;
     const PastAxes axes{{1.0}, log_axis(0.5, 60, 600), 1};
     const PastLikelihood collapse = past_likelihood(
-        axes, exact_counts(axes, [&](auto, auto, double a) { return truth.collapse(a); }), 1, PastUse::means);
+        axes, exact_counts(axes, [&](auto, auto, double a) { return truth.collapse(a); }), 1, PastUse::rates);
     const double k0 = 0.05, k = 2.5, years = 2400, sigma = 1.0;
     const HazardUpdate update = hazard_update(collapse, RateCurve(k0, k), years, sigma, 0.95);
     // over a itself, not its logarithm
@@ -219,6 +220,11 @@ TEST(Past, ThePosteriorFindsThePastThatMadeTheState)
     const PastLikelihood likelihood = past_likelihood(axes, exact_counts(axes, bump), 1, PastUse::means);
     const PastPosterior p = past_posterior(likelihood, flat(), 0.95);
     EXPECT_EQ(p.best, axes.cells_of_one() + axes.intensity.size() + 4);
+    // a state that is left by shaking about 4 m/s2 excludes what is weaker as what is stronger
+    const Exclusion e = exclusion(likelihood, 2, flat(), 0.95);
+    EXPECT_NEAR(e.weaker.value * e.by_likelihood.value, 16, 1e-3);
+    EXPECT_GT(e.weaker.value, 1);
+    EXPECT_LT(e.weaker.value, 4);
     double sum = 0;
     for (const double each : p.cells)
         sum += each;
