@@ -10,9 +10,9 @@
 namespace stylobate {
 namespace {
 
-constexpr int realizations = 12;
-constexpr std::uint64_t originals = 16 * realizations;
-const std::vector<std::string> plain_surface = short_surface(realizations);
+constexpr int past_realizations = 12;
+constexpr std::uint64_t past_originals = 16 * past_realizations;
+const std::vector<std::string> plain_surface = short_surface(past_realizations);
 const std::vector<std::string> survival =
     with(plain_surface, {"study.kind=survival", "survival.events=2", "survival.pause_s=0.5", "survival.monuments=20",
                          "survival.observed={tolerance_m=0.001}", "survival.stands_for_years=100",
@@ -45,14 +45,14 @@ TEST_F(SurvivalProgram, OneEventIsTheSurfaceAndTheCountsAreThoseOfTheRows)
     EXPECT_TRUE(plain.header().bed_names.empty());
     ASSERT_EQ(past.header().bed_names.size(), 3U);
     EXPECT_EQ(past.header().bed_names.front(), "drum 1 of column 0 on drum 0 of column 0");
-    ASSERT_EQ(past.rows().size(), 2 * originals);
+    ASSERT_EQ(past.rows().size(), 2 * past_originals);
     EXPECT_EQ(past.surface().trials, plain.surface().trials) << "a second event is no trial of the surface";
 
     std::uint64_t agree = 0, stand = 0, valid = 0;
     for (const ResultRow& row : past.rows()) {
         const Outcome& o = row.outcome;
         ASSERT_EQ(o.bed_offset_m.size(), 3U);
-        EXPECT_EQ(row.cell, row.index % originals / realizations);
+        EXPECT_EQ(row.cell, row.index % past_originals / past_realizations);
         if (o.state == State::invalid)
             continue;
         ++valid;
@@ -86,14 +86,14 @@ TEST_F(SurvivalProgram, ItIsVerifiedReplayedAndMerged)
     ASSERT_EQ(run(words(survival, "past.h5", "2")).status, 0);
     const Ended verified = run({"verify-file", "past.h5", "--replay", "6"});
     EXPECT_EQ(verified.status, 0) << testing::PrintToString(verified);
-    for (const std::uint64_t index : {std::uint64_t{7}, originals + 41}) {
+    for (const std::uint64_t index : {std::uint64_t{7}, past_originals + 41}) {
         const Ended ended = run({"replay", "past.h5", "--realization", std::to_string(index), "--json"});
         ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
         EXPECT_TRUE(json_of(ended)["same_bits"].boolean) << index;
     }
     for (const char* shard : {"1/2", "2/2"}) {
         Words part = run_words(column_study, survival, {"-o", std::string("s") + shard[0] + ".h5", "--shard", shard});
-        ASSERT_EQ(run({.arguments = part}).status, 0) << shard;
+        ASSERT_EQ(run(part).status, 0) << shard;
     }
     ASSERT_EQ(run({"merge", "s1.h5", "s2.h5", "-o", "merged.h5"}).status, 0);
     EXPECT_EQ(bytes("merged.h5"), bytes("past.h5"));
@@ -148,7 +148,8 @@ TEST_F(SurvivalProgram, AStateThatNoneReachesIsNotJudged)
     EXPECT_GT(said["nearest"]["distance_in_tolerances"].number, 1);
     EXPECT_NE(said["why_not_judged"].text.find("cannot be judged"), std::string::npos);
     EXPECT_NE(said["why_not_judged"].text.find("more realizations"), std::string::npos);
-    EXPECT_EQ(said["posterior"].items.size() + said["exclusion_by_events"].items.size(), 0U) << "no number";
+    for (const char* number : {"\"posterior\"", "\"exclusion_by_events\""})
+        EXPECT_EQ(ended.out.find(number), std::string::npos) << number;
     expect_refused(Words{"export", "odd.h5", "--to", "png", "--picture", "exclusion"}, {"cannot be judged"});
     ASSERT_EQ(run({"report", "odd.h5", "-o", "odd.html"}).status, 0);
     EXPECT_NE(bytes("odd.html").find("Not judged"), std::string::npos);
@@ -170,7 +171,7 @@ TEST_F(SurvivalProgram, BadInputIsRefusedWithItsRange)
     refused({"survival.observed={mirrored=true}"}, {"survival.observed.tolerance_m is missing"});
     refused({"survival.observed={rotation_rad=[0,0],rotation_tolerance_rad=0.1}"}, {"rotation_rad", "3 free blocks"});
     refused({"survival.observed={rotation_rad=[0,0,0]}"}, {"rotation_tolerance_rad is missing"});
-    refused({"survival.observed={offset=1}"}, {"survival.observed.offset", "not a known key"});
+    refused({"survival.observed={offset=1}"}, {"unknown key survival.observed.offset", "joint_offset_m"});
     refused({"survival.level=1"}, {"survival.level = 1 is outside [0.5, 0.999]"});
     refused({"survival.events=0"}, {"survival.events = 0 is outside [1, 20]"});
     refused({"survival.prior=lognormal"}, {"survival.prior", "Allowed", "log_uniform"});

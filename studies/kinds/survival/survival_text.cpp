@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stylobate {
@@ -29,6 +30,21 @@ std::string agreeing_words(const Survival& s)
 std::string events_word(std::size_t events)
 {
     return events == 1 ? "1 event" : fmt::format("{} equal events", events);
+}
+
+/// What one event of a frequency excludes.
+std::string frequency_words(const Survival& s, std::size_t f)
+{
+    const std::size_t ni = s.axes.intensity.size();
+    const Exclusion& e = s.by_frequency[f];
+    if (std::all_of(s.agreeing.begin() + static_cast<std::ptrdiff_t>(f * ni),
+                    s.agreeing.begin() + static_cast<std::ptrdiff_t>((f + 1) * ni),
+                    [](const CellCount& cell) { return cell.successes == 0; }))
+        return "no realization agrees, whatever the PGA";
+    if (!e.excludes())
+        return "no PGA is excluded as too strong";
+    return fmt::format("PGA above {} is excluded by the likelihood ratio, above {} with the prior",
+                       estimate_words(e.by_likelihood), estimate_words(e.by_posterior));
 }
 
 Json nearest_json(const Survival& s)
@@ -57,12 +73,7 @@ std::string survival_text(const Survival& s)
             text += fmt::format("  {}, mean over the frequencies: {}\n", events_word(e + 1),
                                 exclusion_words(s.by_events[e], s.prior, s.level, end));
         for (std::size_t f = 0; f < s.by_frequency.size(); ++f)
-            text += fmt::format("    at {:.3g} Hz: {}\n", s.axes.frequency_hz[f],
-                                s.by_frequency[f].excludes()
-                                    ? fmt::format("above {} by the likelihood ratio, {} with the prior",
-                                                  estimate_words(s.by_frequency[f].by_likelihood),
-                                                  estimate_words(s.by_frequency[f].by_posterior))
-                                    : "nothing");
+            text += fmt::format("    1 event at {:.3g} Hz: {}\n", s.axes.frequency_hz[f], frequency_words(s, f));
         text += posterior_words(*s.posterior, s.axes, s.level);
     }
     if (s.monuments)
@@ -186,16 +197,13 @@ void survival_section(const Survival& s, PageWriter& writer)
         page.figure(figure_svg(exclusion_figure(s)),
                     "The likelihood over the PGA, as a part of its largest value; bands: 95 % intervals of the counts. "
                     "Horizontal line: the ratio below which a PGA is excluded.");
-        HtmlTable table{"rrrr",
-                        {"frequency [Hz]", "by the likelihood ratio", "with the prior", "probability [%]"},
+        HtmlTable table{"rlr",
+                        {"frequency [Hz]", "PGA [m/s²]", "probability [%]"},
                         {},
-                        "PGA above which one event is excluded [m/s²], and posterior probability of each frequency"};
+                        "What one event of each frequency excludes, and posterior probability of the frequency"};
         for (std::size_t f = 0; f < s.by_frequency.size(); ++f) {
-            const Exclusion& e = s.by_frequency[f];
             const PastEstimate& p = s.posterior->frequency[f];
-            table.rows.push_back({fmt::format("{:.3g}", s.axes.frequency_hz[f]),
-                                  e.excludes() ? estimate_words(e.by_likelihood) : "nothing",
-                                  e.excludes() ? estimate_words(e.by_posterior) : "nothing",
+            table.rows.push_back({fmt::format("{:.3g}", s.axes.frequency_hz[f]), frequency_words(s, f),
                                   estimate_words({100 * p.value, 100 * p.lower, 100 * p.upper})});
         }
         if (!table.rows.empty())

@@ -81,6 +81,13 @@ std::string posterior_words(const PastPosterior& p, const PastAxes& axes, double
         p.best / axes.cells_of_one() + 1, p.best < axes.cells_of_one() ? "" : "s", axes.frequency_hz[cell / ni],
         axes.intensity[cell % ni], percent_words(p.best_probability), estimate_words(p.intensity_median), 100 * level,
         estimate_words(p.intensity_lower), estimate_words(p.intensity_upper));
+    if (p.frequency.size() > 1) {
+        text += "  probability of the frequencies:";
+        for (std::size_t f = 0; f < p.frequency.size(); ++f)
+            text +=
+                fmt::format("{} {:.3g} Hz {}", f == 0 ? "" : ",", axes.frequency_hz[f], percent_words(p.frequency[f]));
+        text += "\n";
+    }
     for (std::size_t e = 0; e < p.events.size() && p.events.size() > 1; ++e)
         text += fmt::format("  probability of {} event{}: {}\n", e + 1, e == 0 ? "" : "s", percent_words(p.events[e]));
     return text;
