@@ -498,6 +498,14 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     }
     // of one that was set aside nothing is said
     (state == State::invalid ? LimitStates(r, study_.outcome, 0, 0) : place.limits).write(r, o);
+    if (study_.survival) {
+        o.bed_offset_m.assign(offsets.size(), 0);
+        o.rotation_rad.assign(static_cast<std::size_t>(r.drums), 0);
+        for (std::size_t j = 0; state != State::invalid && j < offsets.size(); ++j)
+            o.bed_offset_m[j] = offsets[j] - place.start_offset_m[j];
+        for (std::size_t i = 0; state != State::invalid && i < o.rotation_rad.size(); ++i)
+            o.rotation_rad[i] = place.moved[i].theta_rad;
+    }
     if (state == State::stood) {
         // the dominant of the two ways of moving, by the displacement that each stands for at the edge of a drum
         const bool rocks = o.max_relative_rotation_rad > study_.outcome.rocking_threshold_rad;

@@ -47,6 +47,10 @@ struct Outcome {
     std::uint64_t steps = 0;
     std::vector<double> fall_time_s; ///< (blocks but the ground) when each met the collapse criterion, exact to a step;
                                      ///< -1 = never. Equal times: together
+    // Of a survival study, else empty; of one that was set aside 0.
+    std::vector<double> bed_offset_m; ///< (beds) how far the faces lie from where they lay, > 0: the upper block to the
+                                      ///< right
+    std::vector<double> rotation_rad; ///< (blocks but the ground) from upright, at the end
 };
 
 } // namespace stylobate

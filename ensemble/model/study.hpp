@@ -23,8 +23,15 @@ enum class StudyKind {
     surface,
     fragility,   ///< many motions, each as strong as is asked: probabilities of damage and their curves
     sensitivity, ///< which of the perturbed quantities the outcomes depend on
-    rare         ///< a probability of collapse too small to be counted
+    rare,        ///< a probability of collapse too small to be counted
+    survival     ///< what a structure's state tells of the shaking that it has been through
 };
+
+/// Whether frequency and PGA are those of the cells of [surface].
+constexpr bool has_axes(StudyKind kind)
+{
+    return kind == StudyKind::surface || kind == StudyKind::survival;
+}
 
 /// What the uniform numbers of a cell's realizations are (point_set.hpp).
 enum class Sampling {
@@ -247,6 +254,46 @@ struct RareSpec {
     std::uint64_t most() const { return repeats * samples * (most_levels + 1); }
 };
 
+/// The density of the prior over the intensity of the past shaking.
+enum class PastPrior {
+    log_uniform, ///< equal probability for equal ratios
+    uniform,     ///< equal probability for equal differences
+    hazard       ///< in proportion to the rate at which the hazard of the study has such shakings
+};
+
+/// The state in which a structure is found, as far as it was measured. A state agrees with it where every measured
+/// value is met within its tolerance.
+struct ObservedState {
+    std::vector<int> joints;          ///< that were measured, counted as the beds of `lay_out`, ascending
+    std::vector<double> offset_m;     ///< (joints) how far the faces lie from where they lay when it was built
+    double tolerance_m = 0;           ///< the true offset is within so much of the measured one
+    std::vector<double> rotation_rad; ///< (free blocks) from upright; empty: not measured
+    double tolerance_rad = 0;
+    bool mirrored = false; ///< the sense of the shaking is unknown: the mirrored state agrees too
+};
+
+/// Rates of exceedance of the intensity, and how sure they are.
+struct HazardSpec {
+    double k0_per_year = 0; ///< H(a) = k0 a^-k, a in m/s2; 0: the points
+    double k = 0;
+    std::vector<double> intensity_m_s2; ///< ascending; between them H is a power law
+    std::vector<double> rate_per_year;  ///< descending
+    double sigma_ln = 0;                ///< of the factor on all rates, lognormal about 1
+};
+
+/// What a structure tells by still standing. Of each cell of [surface] the study has `Study::realizations` with one
+/// event, then as many with two in succession, up to `events`.
+struct SurvivalSpec {
+    std::optional<ObservedState> observed = {}; ///< none: that it stands is all that is known
+    PastPrior prior = PastPrior::log_uniform;
+    double level = 0.95;           ///< of exclusions and credible intervals
+    int events = 1;                ///< at most so many, equally strong
+    double pause_s = 5;            ///< between two of them, in which the structure comes to rest
+    std::uint64_t monuments = 200; ///< simulated ones by which the credible intervals are tested
+    std::optional<double> stands_for_years = {};
+    std::optional<HazardSpec> hazard = {};
+};
+
 /// What the twin of a realization differs in.
 enum class TwinBy {
     move,      ///< the place of one drum
@@ -416,6 +463,7 @@ struct Study {
     std::optional<FragilitySpec> fragility;
     std::optional<SensitivitySpec> sensitivity;
     std::optional<RareSpec> rare;
+    std::optional<SurvivalSpec> survival;    ///< beside `surface`, which has its axes
     std::optional<TwinsSpec> twins;          ///< of a surface
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
@@ -451,20 +499,27 @@ struct Study {
             return static_cast<std::uint64_t>(fragility->motions) * static_cast<std::uint64_t>(fragility->stripes());
         return 1;
     }
-    /// Realizations that are nobody's twins.
-    std::uint64_t originals() const { return twins ? realizations * cells() : total(); }
+    /// Most events that a realization is shaken by, one after the other.
+    int events() const { return survival ? survival->events : 1; }
+    /// How many shake this one.
+    int events(std::uint64_t index) const
+    {
+        return survival ? 1 + static_cast<int>(index / (realizations * cells())) : 1;
+    }
+    /// Realizations that are nobody's twins, and that one event shakes.
+    std::uint64_t originals() const { return twins || events() > 1 ? realizations * cells() : total(); }
     /// Realizations of the whole study. Of a surface with twins: the originals, then all twins of the first kind in the
-    /// same order, and so on.
+    /// same order, and so on; of a survival study those of one event, then those of two, and so on.
     std::uint64_t total() const
     {
         if (sensitivity)
             return sensitivity->total();
         if (rare)
             return rare->repeats * RareSpec::indices_of_repeat;
-        return realizations * cells() * (1 + (twins ? twins->kinds.size() : 0));
+        return realizations * cells() * (static_cast<std::uint64_t>(events()) + (twins ? twins->kinds.size() : 0));
     }
-    /// The realization whose twin this one is; an original's own index.
-    std::uint64_t original(std::uint64_t index) const { return twins ? index % originals() : index; }
+    /// The realization whose twin this one is, or that one event shakes in its place; an original's own index.
+    std::uint64_t original(std::uint64_t index) const { return twins || events() > 1 ? index % originals() : index; }
     /// What makes it one; null of an original.
     const Twin* twin(std::uint64_t index) const
     {

@@ -85,7 +85,7 @@ BaseMotion BaseMotion::along(std::shared_ptr<const Motion> motion, double step_s
 bool BaseMotion::on_host(const Study& study)
 {
     const ExcitationKind kind = study.excitation.kind;
-    return study.fragility || kind == ExcitationKind::record || kind == ExcitationKind::table ||
+    return study.fragility || study.events() > 1 || kind == ExcitationKind::record || kind == ExcitationKind::table ||
            kind == ExcitationKind::noise || SyntheticMotion::covers(kind) || study.names(Mechanism::time_offset) ||
            study.names(Mechanism::harmonic_distortion);
 }
@@ -94,7 +94,8 @@ bool BaseMotion::along_shared_samples(const Study& study)
 {
     const ExcitationKind kind = study.excitation.kind;
     const bool shared = study.fragility || kind == ExcitationKind::record || kind == ExcitationKind::table;
-    return shared && !study.names(Mechanism::time_offset) && !study.names(Mechanism::harmonic_distortion);
+    return shared && study.events() == 1 && !study.names(Mechanism::time_offset) &&
+           !study.names(Mechanism::harmonic_distortion);
 }
 
 void BaseMotion::follow(const Motion& motion, double stretch, double scale)
@@ -244,6 +245,18 @@ double BaseMotion::wave(double c) const
 {
     return sine_of(c) + change_.second * sine_of(2 * c) + change_.second_quadrature * cosine_of(2 * c) +
            change_.third * sine_of(3 * c) + change_.third_quadrature * cosine_of(3 * c);
+}
+
+Motion sampled(const BaseMotion& motion, double fastest_hz)
+{
+    constexpr double samples_per_cycle = 64;
+    const auto pieces =
+        static_cast<std::size_t>(std::ceil(std::max(motion.duration_s() * fastest_hz, 1.0) * samples_per_cycle));
+    const double dt = motion.duration_s() / static_cast<double>(pieces);
+    std::vector<double> u(pieces + 1);
+    for (std::size_t i = 0; i <= pieces; ++i)
+        u[i] = motion.displacement_m(static_cast<double>(i) * dt);
+    return motion_of(acceleration_through(u, dt), dt);
 }
 
 double tail_after_shaking(const Realization& realization)

@@ -87,6 +87,10 @@ private:
     double scale_ = 0;     ///< of its acceleration
 };
 
+/// A motion by one of the kernels' formulas along samples, as dense as those of `sampled(SyntheticMotion)`.
+/// @pre it starts at rest
+Motion sampled(const BaseMotion& motion, double fastest_hz);
+
 /// Default of the simulated time after the shaking: 12 / p with p = sqrt(3 g / (4 R)) (Housner, "The behavior of
 /// inverted pendulum structures during earthquakes", Bulletin of the Seismological Society of America 53 (1963) 403)
 /// and R half the diagonal of the whole structure. This is about three times the time in which it overturns from near

@@ -1,10 +1,13 @@
 #include "ensemble/motion/shaking.hpp"
 
+#include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/repeated_motion.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -75,6 +78,8 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
             }
         }
     }
+    if (is_sampled(excitation.kind) && study.events() > 1)
+        record_ = *record;
     if (study.vertical) {
         if (vertical == nullptr || vertical->empty())
             throw std::invalid_argument("a study with a vertical record was given none");
@@ -118,6 +123,37 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
         distort(excitation, realization);
     if (vertical_)
         move_vertically(realization);
+    if (const int events = study.events(realization.index); events > 1)
+        repeat(study, events, row, realization);
+}
+
+void Shaking::repeat(const Study& study, int events, std::size_t row, Realization& realization) const
+{
+    const ExcitationSpec& excitation = study.excitation;
+    std::vector<Motion> motions;
+    double pause_s = study.survival->pause_s;
+    if (excitation.kind == ExcitationKind::noise) {
+        const SyntheticNoise noise(excitation, realization.frequency_hz);
+        for (int k = 0; k < events; ++k) { // the first one is the realization's own
+            const std::uint64_t index =
+                study.rest_index(realization.index) + static_cast<std::uint64_t>(k) * study.total();
+            motions.push_back(excitation.pga_of == PgaOf::mean
+                                  ? noise.motion(study.seed, index, realization.pga_m_s2 / mean_peak_[row])
+                                  : noise.motion_of_peak(study.seed, index, realization.pga_m_s2));
+        }
+    } else {
+        Motion one;
+        if (is_sampled(excitation.kind)) {
+            one = record_;
+            pause_s *= realization.frequency_hz / predominant_hz_; // its time is stretched
+        } else if (SyntheticMotion::covers(excitation.kind)) {
+            one = sampled(SyntheticMotion(excitation, realization));
+        } else {
+            one = sampled(BaseMotion(excitation, realization, nullptr), realization.frequency_hz);
+        }
+        motions.assign(static_cast<std::size_t>(events), one);
+    }
+    realization.motion = std::make_shared<const Motion>(repeated_motion(motions, pause_s));
 }
 
 void Shaking::apply_motion(const Study& study, Realization& realization) const

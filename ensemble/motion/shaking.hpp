@@ -40,8 +40,10 @@ private:
     void apply_motion(const Study& study, Realization& realization) const;
     void distort(const ExcitationSpec& excitation, Realization& realization) const;
     void move_vertically(Realization& realization) const;
+    /// Several events instead of one. @param row of the surface
+    void repeat(const Study& study, int events, std::size_t row, Realization& realization) const;
 
-    Motion record_;                           ///< where it is distorted
+    Motion record_;                           ///< where it is distorted, or repeated
     Distortion distortion_;                   ///< of it
     std::shared_ptr<const Motion> distorted_; ///< the record as every realization has it; null where each has its own
     std::shared_ptr<const Motion> vertical_;

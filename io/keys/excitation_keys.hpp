@@ -18,8 +18,8 @@ inline const Condition sampled = for_motions({Motion::record, Motion::table});
 inline const Condition moving =
     for_motions({Motion::harmonic, Motion::half_sine, Motion::full_sine, Motion::ricker, Motion::pulse, Motion::tapered,
                  Motion::sweep, Motion::noise, Motion::record, Motion::table});
-inline const Condition no_axes = not_in_studies({StudyKind::surface});
-inline const Condition one_motion = not_in_studies({StudyKind::surface, StudyKind::fragility});
+inline const Condition no_axes = not_in_studies({StudyKind::surface, StudyKind::survival});
+inline const Condition one_motion = not_in_studies({StudyKind::surface, StudyKind::fragility, StudyKind::survival});
 inline const Condition no_list = not_in_studies({StudyKind::fragility});
 
 inline const WordKey<ExcitationKind> kind{

@@ -1,5 +1,6 @@
 #pragma once
-/// The keys of the tables that belong to kinds of studies: [surface], [twins], [fragility], [sensitivity], [rare].
+/// The keys of the tables that belong to kinds of studies: [surface], [twins], [fragility], [sensitivity], [rare]; of
+/// [survival] see survival_keys.hpp.
 
 #include "ensemble/model/study.hpp"
 #include "io/keys/axis_key.hpp"
@@ -40,11 +41,11 @@ inline const TableKey adaptive{
     "adaptive",
     "realizations where they are needed, instead of as many in each cell",
     {&adaptive_keys::budget, &adaptive_keys::minimum, &adaptive_keys::half_width, &adaptive_keys::pooled},
-    {.absent = "as many in each cell"}};
+    {.absent = "as many in each cell", .used = {in_studies({StudyKind::surface})}}};
 inline const TableKey table{"surface",
                             "the axes of a surface: every frequency with every PGA",
                             {&frequency, &pga, &adaptive},
-                            {.used = {in_studies({StudyKind::surface})}}};
+                            {.used = {in_studies({StudyKind::surface, StudyKind::survival})}}};
 
 } // namespace surface_keys
 

@@ -21,13 +21,14 @@ inline const WholeKey seed{"seed",
                            Study{}.seed,
                            "seed of all random numbers",
                            {.example = "1"}};
-inline const WholeKey realizations{"realizations",
-                                   {1, most_realizations},
-                                   "number of realizations: of a surface in each cell, of a fragility study under each "
-                                   "motion in each stripe, of a single study in all",
-                                   {.absent = "1 for a single study; needed for a surface and a fragility study",
-                                    .used = {in_studies({StudyKind::single, StudyKind::surface, StudyKind::fragility})},
-                                    .example = "32"}};
+inline const WholeKey realizations{
+    "realizations",
+    {1, most_realizations},
+    "number of realizations: of a surface or a survival study in each cell, of a fragility study under each "
+    "motion in each stripe, of a single study in all",
+    {.absent = "1 for a single study; needed for a surface, a fragility and a survival study",
+     .used = {in_studies({StudyKind::single, StudyKind::surface, StudyKind::fragility, StudyKind::survival})},
+     .example = "32"}};
 inline const WordKey<Sampling> sampling{"sampling",
                                         sampling_names,
                                         Study{}.sampling,

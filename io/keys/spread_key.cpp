@@ -76,7 +76,7 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
                     .example = "{ distribution = \"uniform\" }"});
     case Quantity::pulse_frequency:
         return key(frequency_range, true, {structure}, "frequency of a velocity pulse",
-                   {.used = {for_motions({Motion::pulse}), not_in_studies({StudyKind::surface})},
+                   {.used = {for_motions({Motion::pulse}), not_in_studies({StudyKind::surface, StudyKind::survival})},
                     .example = "{ distribution = \"lognormal\", sigma_ln = 0.4 }"});
     case Quantity::pulse_gamma:
         break;

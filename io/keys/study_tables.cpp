@@ -8,6 +8,7 @@
 #include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
+#include "io/keys/survival_keys.hpp"
 
 namespace stylobate {
 
@@ -31,9 +32,9 @@ const TableKey& study_file_keys()
                                {&study_keys::table, &structure_keys::table, &contact_keys::table,
                                 &excitation_keys::table, &surface_keys::table, &twins_keys::table,
                                 &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table,
-                                &perturbation_table(), &mechanisms_table(), &initial_keys::table, &output_keys::table,
-                                &outcome_keys::table, &run_keys::table, &variants_keys::table,
-                                &optimise_keys::table});
+                                 &survival_keys::table, &perturbation_table(), &mechanisms_table(), &initial_keys::table,
+                                 &output_keys::table, &outcome_keys::table, &run_keys::table, &variants_keys::table,
+                                 &optimise_keys::table});
     return file;
 }
 

@@ -9,9 +9,12 @@
 namespace stylobate {
 
 inline constexpr std::array study_kind_names = {
-    Name<StudyKind>{"single", StudyKind::single}, Name<StudyKind>{"surface", StudyKind::surface},
+    Name<StudyKind>{"single", StudyKind::single},       Name<StudyKind>{"surface", StudyKind::surface},
     Name<StudyKind>{"fragility", StudyKind::fragility}, Name<StudyKind>{"sensitivity", StudyKind::sensitivity},
-    Name<StudyKind>{"rare", StudyKind::rare}};
+    Name<StudyKind>{"rare", StudyKind::rare},           Name<StudyKind>{"survival", StudyKind::survival}};
+inline constexpr std::array past_prior_names = {Name<PastPrior>{"log_uniform", PastPrior::log_uniform},
+                                                Name<PastPrior>{"uniform", PastPrior::uniform},
+                                                Name<PastPrior>{"hazard", PastPrior::hazard}};
 inline constexpr std::array fragility_method_names = {Name<FragilityMethod>{"stripes", FragilityMethod::stripes},
                                                       Name<FragilityMethod>{"cloud", FragilityMethod::cloud}};
 inline constexpr std::array intensity_measure_names = {

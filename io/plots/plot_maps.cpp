@@ -75,6 +75,19 @@ std::string lines(const MapPicture& picture, const PlotAxis& f, const PlotAxis& 
     return data;
 }
 
+/// The commands of an axis whose labels stand at the panel to the left.
+std::string without_labels(const std::string& commands)
+{
+    std::string text;
+    bool quoted = false;
+    for (const char c : commands) {
+        if (!quoted || c == '\'')
+            text += c;
+        quoted = (c == '\'') != quoted;
+    }
+    return text;
+}
+
 /// The colour of an end stands for all that lies beyond it: then the end is marked.
 std::string ends(const MapPanel& panel)
 {
@@ -144,6 +157,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
         script += "set title " + gnuplot_text(panel.title) +
                   fmt::format(" font ',{}' offset 0,-0.7\n", columns > 3 ? 16 : 19);
         script += lowest ? "set xlabel 'frequency [Hz]' font ',17' offset 0,0.9\n" : "unset xlabel\n";
+        script += k % columns == 0 ? a.commands('y') : without_labels(a.commands('y'));
         script += k % columns == 0
                       ? "set ylabel 'peak ground acceleration [m/s²]' font ',17' offset 0.8,0\nset format y\n"
                       : "unset ylabel\nset format y ''\n";

@@ -81,6 +81,10 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
         visit_outcome(ResultRow{}, [&](std::string_view name, const auto&) { line << name; });
         for (std::size_t i = 0; i < header.block_names.size(); ++i)
             line << fmt::format("fall_time_s[{}]", i);
+        for (std::size_t i = 0; i < header.bed_names.size(); ++i)
+            line << fmt::format("bed_offset_m[{}]", i);
+        for (std::size_t i = 0; !header.bed_names.empty() && i < header.block_names.size(); ++i)
+            line << fmt::format("rotation_rad[{}]", i);
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const ResultRow& row = rows[i];
@@ -101,6 +105,10 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
         visit_outcome(row, [&](std::string_view, const auto& value) { line << word(value); });
         for (const double value : row.outcome.fall_time_s)
             line << without_none(result_names::fall_time, value);
+        if (!header.bed_names.empty())
+            for (const auto* list : {&row.outcome.bed_offset_m, &row.outcome.rotation_rad})
+                for (const double value : *list)
+                    line << value;
     }
     return text;
 }

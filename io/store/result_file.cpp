@@ -55,6 +55,8 @@ ResultHeader read_header(hid_t file)
         header.input_names.push_back(name);
     const hdf5::Handle outcome = hdf5::open_group(file, counted ? names::tally : names::outcome);
     header.block_names = split_names(hdf5::read_text(outcome.id(), names::blocks));
+    if (!counted && hdf5::has_attribute(outcome.id(), names::beds))
+        header.bed_names = split_names(hdf5::read_text(outcome.id(), names::beds));
     if (counted) {
         header.limit_states = split_names(hdf5::read_text(outcome.id(), names::limit_states));
         if (header.limit_states.empty())
@@ -222,6 +224,8 @@ std::string study_difference(const ResultHeader& found, bool complete, const Res
         return "its inputs have other names";
     if (found.block_names != asked.block_names)
         return "its blocks have other names";
+    if (found.bed_names != asked.bed_names)
+        return "its beds have other names";
     if (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2)
         return "its surface has other axes";
     if (found.motions != asked.motions)

@@ -117,6 +117,13 @@ ResultLayout::ResultLayout(const ResultHeader& header)
     columns_.push_back({result_names::fall_time, "s", std::string(meaning_of_none(result_names::fall_time)),
                         Stored::f64, true, header.block_names.size(), 0});
 
+    if (!header.bed_names.empty()) {
+        joined_names(header.bed_names);
+        beds_ = header.bed_names.size();
+        columns_.push_back({result_names::bed_offset, "m", "", Stored::f64, true, beds_, 0});
+        columns_.push_back({result_names::rotation, "rad", "", Stored::f64, true, header.block_names.size(), 0});
+    }
+
     std::map<std::string, std::size_t> column_of;
     std::set<std::pair<std::size_t, std::uint64_t>> taken;
     for (const std::string& name : header.input_names) {
@@ -143,6 +150,13 @@ ResultLayout::ResultLayout(const ResultHeader& header)
     }
 }
 
+bool ResultLayout::fits(const ResultRow& row) const
+{
+    const Outcome& o = row.outcome;
+    return row.inputs.size() == inputs() && o.fall_time_s.size() == blocks() &&
+           (beds_ == 0 || (o.bed_offset_m.size() == beds() && o.rotation_rad.size() == blocks()));
+}
+
 void ResultLayout::encode(std::uint64_t k, const ResultRow& row, std::span<std::byte> bytes) const
 {
     const std::uint64_t rows = bytes.size() / row_bytes_;
@@ -159,6 +173,10 @@ void ResultLayout::encode(std::uint64_t k, const ResultRow& row, std::span<std::
     for (double& time : fall_times)
         time = without_none(result_names::fall_time, time);
     put(fall_time_, 0, fall_times.data(), fall_times.size() * sizeof(double));
+    if (beds_ > 0) {
+        put(fall_time_ + 1, 0, row.outcome.bed_offset_m.data(), beds() * sizeof(double));
+        put(fall_time_ + 2, 0, row.outcome.rotation_rad.data(), blocks() * sizeof(double));
+    }
     for (std::size_t i = 0; i < inputs_.size(); ++i)
         put(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
 }
@@ -184,6 +202,12 @@ ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes
     take(fall_time_, 0, row.outcome.fall_time_s.data(), blocks() * sizeof(double));
     for (double& time : row.outcome.fall_time_s)
         none(result_names::fall_time, time);
+    if (beds_ > 0) {
+        row.outcome.bed_offset_m.resize(beds());
+        take(fall_time_ + 1, 0, row.outcome.bed_offset_m.data(), beds() * sizeof(double));
+        row.outcome.rotation_rad.resize(blocks());
+        take(fall_time_ + 2, 0, row.outcome.rotation_rad.data(), blocks() * sizeof(double));
+    }
     row.inputs.resize(inputs_.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i)
         take(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
@@ -203,10 +227,12 @@ bool same_bits(const ResultRow& a, const ResultRow& b)
             all.insert(all.end(), first, first + sizeof value);
         };
         visit_fields(row, [&](const char*, const char*, const auto& value) { append(value); });
-        append(row.outcome.fall_time_s.size());
-        for (const auto* list : {&row.outcome.fall_time_s, &row.inputs})
+        for (const auto* list :
+             {&row.outcome.fall_time_s, &row.outcome.bed_offset_m, &row.outcome.rotation_rad, &row.inputs}) {
+            append(list->size());
             for (const double value : *list)
                 append(value);
+        }
         return all;
     };
     return bytes(a) == bytes(b);

@@ -25,7 +25,10 @@ inline constexpr char realizations[] = "realizations";
 inline constexpr char input[] = "realizations/input";
 inline constexpr char input_order[] = "order"; ///< attribute of the group: `ResultHeader::input_names`, joined by ' '
 inline constexpr char outcome[] = "realizations/outcome";
-inline constexpr char fall_time[] = "outcome/fall_time_s"; ///< below /realizations
+inline constexpr char fall_time[] = "outcome/fall_time_s";   ///< below /realizations
+inline constexpr char bed_offset[] = "outcome/bed_offset_m"; ///< there, of a survival study
+inline constexpr char rotation[] = "outcome/rotation_rad";   ///< the same
+inline constexpr char beds[] = "beds";     ///< attribute of the outcomes of such a study: the names, one on each line
 inline constexpr char blocks[] = "blocks"; ///< attribute of groups with values by block: the names, one on each line
 inline constexpr char checksum[] = "realizations/chunk_checksum";
 inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
@@ -91,7 +94,7 @@ void visit_fields(Row& row, F&& f)
     f("outcome/step_s", "s", o.step_s);
     f("outcome/steps", "", o.steps);
 }
-static_assert(sizeof(Outcome) == 232, "a field that comes to Outcome or leaves it does so in visit_fields() too");
+static_assert(sizeof(Outcome) == 280, "a field that comes to Outcome or leaves it does so in visit_fields() too");
 
 /// What stands for "none" in a column; empty: nothing does. In memory it is -1; in files and tables a time that never
 /// came is NaN, and of blocks, which are whole numbers, -1 is none.
@@ -163,6 +166,10 @@ public:
     std::uint64_t row_bytes() const { return row_bytes_; }
     std::size_t inputs() const { return inputs_.size(); }
     std::size_t blocks() const { return columns_[fall_time_].width; }
+    /// 0 where rows do not hold the final state.
+    std::size_t beds() const { return beds_; }
+    /// Whether its lists are as long as the columns are wide.
+    bool fits(const ResultRow& row) const;
 
     std::uint64_t chunks() const { return (rows_ + ResultWriter::rows_per_chunk - 1) / ResultWriter::rows_per_chunk; }
     std::uint64_t first_row(std::uint64_t chunk) const { return chunk * ResultWriter::rows_per_chunk; }
@@ -181,7 +188,7 @@ public:
     }
 
     /// Puts row `k` of those that these bytes hold (a chunk, or a single one) into its place.
-    /// @pre row.inputs has inputs() values, row.outcome.fall_time_s has blocks() values
+    /// @pre fits(row)
     void encode(std::uint64_t k, const ResultRow& row, std::span<std::byte> bytes) const;
     /// Takes row `k` of those that these bytes hold.
     /// @throws std::invalid_argument if a value is impossible
@@ -198,8 +205,9 @@ private:
     std::uint64_t row_bytes_ = 0;
     std::vector<Column> columns_;
     std::vector<std::uint64_t> before_; ///< bytes for each row of the columns before this one
-    std::size_t fall_time_ = 0;         ///< column of `Outcome::fall_time_s`
-    std::vector<Input> inputs_;         ///< where `ResultRow::inputs` go
+    std::size_t fall_time_ = 0;         ///< column of `Outcome::fall_time_s`; the final state follows it, if any
+    std::size_t beds_ = 0;
+    std::vector<Input> inputs_; ///< where `ResultRow::inputs` go
 };
 
 } // namespace stylobate

@@ -45,6 +45,7 @@ struct ResultHeader {
                                            ///< column 3 of the two-dimensional dataset input/friction
     std::vector<std::string> block_names;  ///< of the blocks but the ground, in layout order; as many values has
                                            ///< `Outcome::fall_time_s` of every row
+    std::vector<std::string> bed_names;    ///< of a survival study, whose rows hold the final state too; else empty
     std::vector<double> frequency_hz;      ///< surface axis (nf), empty for other kinds
     std::vector<double> pga_m_s2;          ///< surface axis (np)
     MotionTable motions;                   ///< of a fragility study, else empty

@@ -22,6 +22,8 @@ void write_beginning(hid_t file, const ResultHeader& header)
     hdf5::write_text(input.id(), names::input_order, joined_inputs(header));
     const hdf5::Handle outcome = hdf5::create_group(file, names::outcome);
     hdf5::write_text(outcome.id(), names::blocks, joined_names(header.block_names));
+    if (!header.bed_names.empty())
+        hdf5::write_text(outcome.id(), names::beds, joined_names(header.bed_names));
 }
 
 /// The rows without their values.
@@ -199,7 +201,7 @@ void ResultWriter::add(const ResultRow& row)
     const bool here = file.header.selected
                           ? rows() < file.header.total
                           : row.index >= file.header.first && row.index - file.header.first < file.header.total;
-    if (!here || row.inputs.size() != layout.inputs() || row.outcome.fall_time_s.size() != layout.blocks())
+    if (!here || !layout.fits(row))
         throw std::invalid_argument("row " + std::to_string(row.index) + " does not fit into the results file");
     std::vector<std::byte> bytes(layout.row_bytes());
     layout.encode(0, row, bytes);

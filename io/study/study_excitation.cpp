@@ -82,9 +82,9 @@ void read_sampled(const KeyReader& keys, const char* what, StudyKind kind, Excit
             keys.missing("file", fmt::format("Name {} here, or on the command line: --set excitation.file=PATH", what));
         e.file = keys.read(excitation_keys::file);
     }
-    if (kind != StudyKind::surface && kind != StudyKind::fragility)
+    if (!has_axes(kind) && kind != StudyKind::fragility)
         e.pga_m_s2 = keys.read_or(excitation_keys::scale_to_pga, e.pga_m_s2);
-    if (kind != StudyKind::surface)
+    if (!has_axes(kind))
         e.time_scale = keys.read(excitation_keys::time_scale);
 }
 
@@ -146,15 +146,15 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
                     "Give another excitation, or study.kind = \"single\".");
     if (kind == StudyKind::fragility)
         check_fragility_source(keys, e);
-    if (kind == StudyKind::surface) {
-        refuse_of_other_studies(keys, StudyKind::surface,
+    if (has_axes(kind)) {
+        refuse_of_other_studies(keys, kind,
                                 "Remove it: frequency and PGA are given by the axes of [surface].");
     }
     if (e.kind == ExcitationKind::none) {
         e.duration_s = keys.read(excitation_keys::duration);
         return e;
     }
-    if (e.kind != ExcitationKind::record && e.kind != ExcitationKind::table && kind != StudyKind::surface) {
+    if (e.kind != ExcitationKind::record && e.kind != ExcitationKind::table && !has_axes(kind)) {
         if (e.kind != ExcitationKind::sweep)
             e.frequency_hz = keys.read_within(excitation_keys::frequency, e.kind == ExcitationKind::noise
                                                                               ? noise_frequency_range

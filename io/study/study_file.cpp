@@ -12,6 +12,7 @@
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
 #include "io/keys/study_tables.hpp"
+#include "io/keys/survival_keys.hpp"
 #include "io/study/study_accuracy.hpp"
 #include "io/study/study_axis.hpp"
 #include "io/study/study_excitation.hpp"
@@ -21,6 +22,7 @@
 #include "io/study/study_rigid.hpp"
 #include "io/study/study_sensitivity.hpp"
 #include "io/study/study_structure.hpp"
+#include "io/study/study_survival.hpp"
 #include "io/study/study_twins.hpp"
 
 #include <fmt/format.h>
@@ -252,8 +254,8 @@ void check_tables(const KeyReader& top, StudyKind of_study)
     variant_names(top);
     read_optimise(top);
     const char* word = word_for(study_kind_names, of_study);
-    for (const TableKey* table :
-         {&surface_keys::table, &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table})
+    for (const TableKey* table : {&surface_keys::table, &fragility_keys::table, &sensitivity_keys::table,
+                                  &rare_keys::table, &survival_keys::table})
         if (!table->used_where("study.kind", word) && top.has(*table))
             top.refuse(table->name, fmt::format("is not used by study.kind = \"{}\"", word),
                        fmt::format("Remove [{}], or give study.kind = \"{}\".", table->name, table->name));
@@ -270,6 +272,7 @@ std::uint64_t read_realizations(const KeyReader& keys, const Study& study)
     };
     switch (study.kind) {
     case StudyKind::surface:
+    case StudyKind::survival:
         return keys.whole(key.name, key.low, key.high, "The number in each cell.");
     case StudyKind::fragility:
         return keys.whole(key.name, key.low, key.high, "Structures under each motion in each stripe.");
@@ -283,6 +286,28 @@ std::uint64_t read_realizations(const KeyReader& keys, const Study& study)
         break;
     }
     return keys.read_or(key, study.realizations);
+}
+
+/// What a study has beside its axes: the state of a structure, or perturbed replicas.
+void read_beside_surface(const KeyReader& top, Study& study, const std::filesystem::path& folder)
+{
+    const KeyReader keys = top.table(study_keys::table);
+    if (study.kind == StudyKind::survival) {
+        study.survival = read_survival(top, study, folder);
+        if (study.total() > most_realizations)
+            keys.refuse("realizations",
+                        fmt::format("with up to {} events are {} in all, more than {}", study.events(), study.total(),
+                                    most_realizations),
+                        "Give fewer realizations, cells or events.");
+    }
+    if (top.has("twins")) {
+        study.twins = read_twins(top.table(twins_keys::table), study);
+        if (study.total() > most_realizations)
+            keys.refuse("realizations",
+                        fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),
+                                    study.total(), most_realizations),
+                        "Give fewer realizations, cells or replicas.");
+    }
 }
 
 /// @param folder beside which the study's files are looked for
@@ -300,7 +325,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
         keys.refuse("title", "is not a valid line of text",
                     fmt::format("At most {} bytes, on one line.", most_title_bytes));
-    const bool is_surface = study.kind == StudyKind::surface, is_fragility = study.kind == StudyKind::fragility;
+    const bool is_fragility = study.kind == StudyKind::fragility;
     study.seed = keys.read(study_keys::seed);
     const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;
     study.realizations = read_realizations(keys, study);
@@ -313,9 +338,11 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
     study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
     study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
-    if (is_surface) {
+    if (has_axes(study.kind)) {
         if (!top.has("surface"))
-            top.missing("surface", "study.kind = \"surface\" needs the axes frequency_hz and pga_m_s2 in [surface].");
+            top.missing("surface", fmt::format("study.kind = \"{}\" needs the axes frequency_hz and pga_m_s2 in "
+                                               "[surface].",
+                                               word_for(study_kind_names, study.kind)));
         study.surface = read_surface(top.table(surface_keys::table), study.realizations);
         check_axes(top.table(surface_keys::table), study.excitation, *study.surface);
     }
@@ -356,14 +383,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     choose_steps(top.table(run_keys::table), study);
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
-    if (top.has("twins")) {
-        study.twins = read_twins(top.table(twins_keys::table), study);
-        if (study.total() > most_realizations)
-            keys.refuse("realizations",
-                        fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),
-                                    study.total(), most_realizations),
-                        "Give fewer realizations, cells or replicas.");
-    }
+    read_beside_surface(top, study, folder);
     return study;
 }
 

@@ -9,6 +9,7 @@
 #include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
+#include "io/keys/survival_keys.hpp"
 #include "io/study/study_file.hpp"
 #include "io/study/study_mechanisms.hpp"
 
@@ -416,6 +417,58 @@ Entries entries_of(const RareSpec& rare)
     return out;
 }
 
+std::string text_of(const ObservedState& observed)
+{
+    using namespace survival_keys;
+    Entries entries;
+    if (!observed.joints.empty()) {
+        std::vector<std::string> numbers;
+        for (const int joint : observed.joints)
+            numbers.push_back(std::to_string(joint));
+        entries.add_text(joints, fmt::format("[{}]", fmt::join(numbers, ", ")));
+        entries.add(joint_offset, observed.offset_m);
+        entries.add(tolerance, observed.tolerance_m);
+    }
+    if (!observed.rotation_rad.empty()) {
+        entries.add(rotation, observed.rotation_rad);
+        entries.add(rotation_tolerance, observed.tolerance_rad);
+    }
+    entries.add(mirrored, observed.mirrored);
+    return entries.inline_table();
+}
+
+std::string text_of(const HazardSpec& hazard)
+{
+    using namespace survival_keys;
+    Entries entries;
+    if (hazard.k0_per_year > 0) {
+        entries.add(k0, hazard.k0_per_year);
+        entries.add(k, hazard.k);
+    } else { // the points of a file stand in its place
+        entries.add(intensities, hazard.intensity_m_s2);
+        entries.add(rates, hazard.rate_per_year);
+    }
+    entries.add(sigma_ln, hazard.sigma_ln);
+    return entries.inline_table();
+}
+
+Entries entries_of(const SurvivalSpec& survival)
+{
+    using namespace survival_keys;
+    Entries out;
+    if (survival.observed)
+        out.add_text(observed, text_of(*survival.observed));
+    out.add(prior, survival.prior);
+    out.add(level, survival.level);
+    out.add(events, survival.events);
+    out.add(pause, survival.pause_s);
+    out.add(monuments, survival.monuments);
+    out.add(stands_for, survival.stands_for_years);
+    if (survival.hazard)
+        out.add_text(hazard, text_of(*survival.hazard));
+    return out;
+}
+
 Entries entries_of(const InitialSpec& initial)
 {
     Entries out;
@@ -496,6 +549,8 @@ std::string study_text(const Study& study)
         table(sensitivity_keys::table.name, entries_of(*study.sensitivity));
     if (study.rare)
         table(rare_keys::table.name, entries_of(*study.rare));
+    if (study.survival)
+        table(survival_keys::table.name, entries_of(*study.survival));
     Entries perturbed;
     for (const auto& p : study.perturbations)
         perturbed.add_text(spread_key(p.quantity), spread(spread_key(p.quantity), p));

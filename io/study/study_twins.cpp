@@ -55,7 +55,7 @@ bool is_form_of_twins(const Study& study, ContactForm form)
 
 TwinsSpec read_twins(const KeyReader& keys, const Study& study)
 {
-    if (!study.surface)
+    if (study.kind != StudyKind::surface)
         keys.refuse_all(fmt::format("[twins] is not used by study.kind = \"{}\".\n  Remove it, or give study.kind = "
                                     "\"surface\".",
                                     word_for(study_kind_names, study.kind)));

@@ -141,12 +141,17 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
 /// @param file measured data, outcomes or results; empty: about the program
 /// @param mpi of this program; empty: none
 int info_command(const CommonOptions& options, const std::string& file, const std::string& mpi);
+/// Its part about a file: what it is, what it holds, and what can be done with it; as JSON where that is asked for.
+/// @throws InputError if there is no such file, if it is damaged, or if its content is wrong
+void print_file(const CommonOptions& options, const std::string& file);
 /// @param output the study file; empty: KIND.toml
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
 /// @param results of a fragility study
 int risk_command(const CommonOptions& options, const std::string& results, const RiskCommandOptions& wanted);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page
 int schema_command(bool markdown);
+/// @param picture of the likelihoods; empty: none
+int past_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& picture);
 int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);
 
 } // namespace stylobate

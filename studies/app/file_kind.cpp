@@ -75,6 +75,7 @@ constexpr Use uses[] = {
      "how often its limit states are reached at a site, and how likely that is over years"},
     {FileKind::risk, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::risk, "export", "stylobate export {} --to png", "draws it; --to csv: its tables"},
+    {FileKind::results, "past", "stylobate past {} OTHERS", "the past that it has in common with other structures"},
     {FileKind::diagnosis, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::calibration, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::campaign, "diagnose", "stylobate diagnose {}", "finds the errors of the simulation and their causes"},
@@ -230,7 +231,8 @@ std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name
     std::vector<FileUse> found;
     for (const Use& use : uses)
         if (use.kind == file.kind && !(file.detail == "rare" && std::string_view(use.verb) == "replay") &&
-            !(file.detail != "fragility" && std::string_view(use.verb) == "risk"))
+            !(file.detail != "fragility" && std::string_view(use.verb) == "risk") &&
+            (file.detail == "survival" || std::string_view(use.verb) != "past"))
             found.push_back({use.verb, fmt::format(fmt::runtime(use.command), name), use.purpose});
     return found;
 }

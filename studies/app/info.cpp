@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/info_file.hpp"
 #include "studies/report/json.hpp"
 #include "studies/version.hpp"
 

@@ -1,6 +1,6 @@
 /// `stylobate info FILE`, kind by kind.
 
-#include "studies/app/info_file.hpp"
+#include "studies/app/command.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"

@@ -125,6 +125,7 @@ public:
         app_.get_formatter()->column_width(help_column);
         add_run();
         add_merge();
+        add_past();
         add_check();
         add_compare();
         add_replay();
@@ -291,6 +292,17 @@ private:
         add_set(*compare, options_);
         add_common(*compare, options_, {"cpu", "cuda"});
         compare->callback([this] { status_ = compare_command(options_, compare_); });
+    }
+
+    void add_past()
+    {
+        auto* past = app_.add_subcommand(
+            "past", "what several structures of one site tell of the shaking that all of them have been through");
+        past->add_option("RESULTS", files_, "results of survival studies, of two structures or more")->required();
+        past->add_option("-o,--output", output_, "picture of their likelihoods: .png, .svg or .pdf (default: none)");
+        add_force(*past, options_);
+        add_common(*past, options_);
+        past->callback([this] { status_ = past_command(options_, files_, output_); });
     }
 
     void add_replay()

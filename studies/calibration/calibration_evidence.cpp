@@ -111,6 +111,7 @@ public:
                 Study study = candidate;
                 study.kind = StudyKind::single;
                 study.surface.reset();
+                study.survival.reset();
                 study.realizations = ensemble_;
                 study.perturbations = perturbations_;
                 study.excitation = shaking.excitation;

@@ -20,7 +20,7 @@ constexpr double most_trial_seconds = 3600;
 /// Why a part of the study cannot be run twice; empty: it can.
 std::string no_pilot(const Study& study)
 {
-    if (study.kind == StudyKind::single || study.kind == StudyKind::fragility ||
+    if (study.kind == StudyKind::single || study.kind == StudyKind::fragility || study.kind == StudyKind::survival ||
         (study.kind == StudyKind::surface && !study.surface->adaptive))
         return {}; // a realization is drawn by its index alone
     return fmt::format("the realizations of study.kind = \"{}\"{} are chosen by what others did. Check the same "

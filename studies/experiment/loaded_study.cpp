@@ -204,6 +204,8 @@ ResultHeader LoadedStudy::plain_header() const
         header.limit_states = limit_state_names();
     header.input_names = sampler().input_names();
     header.block_names = block_names(study());
+    if (study().survival)
+        header.bed_names = bed_names(study());
     if (study().surface) {
         const auto values = [](const Axis& axis) {
             std::vector<double> all;

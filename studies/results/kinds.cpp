@@ -7,6 +7,7 @@
 #include "studies/kinds/sensitivity/sensitivity_kind.hpp"
 #include "studies/kinds/single/single_kind.hpp"
 #include "studies/kinds/surface/surface_kind.hpp"
+#include "studies/kinds/survival/survival_kind.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -36,6 +37,8 @@ const Entry kinds[] = {
     {[](const Study& s, const ResultHeader&) { return s.sensitivity.has_value(); }, make<SensitivityKind>,
      SensitivityKind::own_pictures},
     {[](const Study& s, const ResultHeader&) { return s.rare.has_value(); }, make<RareKind>, RareKind::own_pictures},
+    {[](const Study& s, const ResultHeader&) { return s.surface && s.survival; }, make<SurvivalKind>,
+     SurvivalKind::own_pictures},
     {[](const Study& s, const ResultHeader&) { return s.surface && s.twins; }, make<ReplicasKind>,
      ReplicasKind::own_pictures},
     {[](const Study& s, const ResultHeader&) { return s.surface && s.surface->adaptive; }, make<AdaptiveKind>,

@@ -87,6 +87,23 @@ public:
                 "a block where there is a time of unseating, and -1 elsewhere");
     }
 
+    /// Of a survival study; the sum of the offsets is a column of its own.
+    void final_state()
+    {
+        const Outcome& o = row_.outcome;
+        double sliding = 0;
+        for (std::size_t i = 0; i < o.bed_offset_m.size(); ++i) {
+            require(fmt::format("outcome/bed_offset_m[{}]", i), o.bed_offset_m[i], std::isfinite(o.bed_offset_m[i]),
+                    "a finite number");
+            sliding += std::fabs(o.bed_offset_m[i]);
+        }
+        for (std::size_t i = 0; i < o.rotation_rad.size(); ++i)
+            require(fmt::format("outcome/rotation_rad[{}]", i), o.rotation_rad[i], std::isfinite(o.rotation_rad[i]),
+                    "a finite number");
+        if (!o.bed_offset_m.empty())
+            expect("outcome/residual_sliding_m", o.residual_sliding_m, sliding);
+    }
+
 private:
     const ResultRow& row_;
     FileCheck& check_;
@@ -116,6 +133,7 @@ RowChecks check_rows(const Study& study, const ResultReader& reader)
             return; // nothing is said of it
         look.numbers();
         look.falls();
+        look.final_state();
     });
     const std::uint64_t wanted = reader.header().total;
     if (reader.complete() && rows != wanted)
@@ -156,6 +174,10 @@ void compare_rows(const ResultHeader& header, const ResultRow& stored, const Res
     };
     lists(stored.outcome.fall_time_s, again.outcome.fall_time_s,
           [](std::size_t i) { return fmt::format("outcome/fall_time_s[{}]", i); });
+    lists(stored.outcome.bed_offset_m, again.outcome.bed_offset_m,
+          [](std::size_t i) { return fmt::format("outcome/bed_offset_m[{}]", i); });
+    lists(stored.outcome.rotation_rad, again.outcome.rotation_rad,
+          [](std::size_t i) { return fmt::format("outcome/rotation_rad[{}]", i); });
     lists(stored.inputs, again.inputs, [&](std::size_t i) {
         return i < header.input_names.size() ? "input/" + header.input_names[i] : fmt::format("input {}", i);
     });

@@ -102,6 +102,7 @@ Realization nominal_realization(const Study& variant, const StructureSpec& struc
     Study study = variant;
     study.kind = StudyKind::single;
     study.surface.reset();
+    study.survival.reset();
     study.realizations = 1;
     study.perturbations.clear();
     study.structure = structure;

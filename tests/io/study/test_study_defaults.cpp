@@ -132,6 +132,7 @@ const std::vector<std::string> tables = {"study",
                                          "fragility",
                                          "sensitivity",
                                          "rare",
+                                         "survival",
                                          "initial",
                                          "output",
                                          "outcome",
@@ -140,6 +141,8 @@ const std::vector<std::string> tables = {"study",
                                          "surface.frequency_hz",
                                          "surface.pga_m_s2",
                                          "fragility.intensity",
+                                         "survival.observed",
+                                         "survival.hazard",
                                          "outcome.collapse"};
 
 void expect_every_default(const Study& study, const std::string& name)

@@ -277,7 +277,7 @@ TEST(StudyFile, RefusesWordsThatAreNotAllowed)
 {
     expect_line_refused(2, "kind = \"survey\"",
                         {"study.kind = \"survey\" is not allowed",
-                         "Allowed: \"single\", \"surface\", \"fragility\", \"sensitivity\", \"rare\"."});
+                         "Allowed: \"single\", \"surface\", \"fragility\", \"sensitivity\", \"rare\", \"survival\"."});
     expect_line_refused(2, "kind = \"Surface\"", {"Did you mean \"surface\"?"});
     expect_line_refused(5, "kind = \"colonade\"\nblocks = 7",
                         {"structure.kind = \"colonade\"", "\"column\"", "Did you mean \"colonnade\"?"});

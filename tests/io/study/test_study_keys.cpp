@@ -111,6 +111,16 @@ std::vector<std::string> samples()
         "[study]\nkind = \"rare\"\n" + drums + contact + "[excitation]\n" + harmonic +
             "[rare]\n[perturbation]\nfriction = { distribution = \"normal\", cov = 0.01 }\n"};
     all.push_back(single(harmonic) + "[variants]\nNAME = { }\n[optimise]\nbudget = 100\nKEY = { from = 1, to = 2 }\n");
+    const std::string survival = "[study]\nkind = \"survival\"\nrealizations = 40\n" + drums + contact +
+                                 "[excitation]\nkind = \"pulse\"\n[surface]\nfrequency_hz = { from = 1, to = 2, count "
+                                 "= 2 }\npga_m_s2 = { from = 1, to = 2, count = 3 }\n[survival]\n";
+    all.push_back(survival +
+                  "observed = { tolerance_m = 0.01 }\nstands_for_years = 100\nhazard = { k0_per_year = 0.1, k "
+                  "= 2, sigma_ln = 1 }\n");
+    all.push_back(survival +
+                  "observed = { joints = [0, 2], joint_offset_m = [0.01, -0.02], tolerance_m = 0.01, "
+                  "rotation_rad = [0, 0, 0], rotation_tolerance_rad = 0.1 }\nhazard = { intensity_m_s2 = [1, "
+                  "2], rate_per_year = [0.1, 0.01], sigma_ln = 1 }\n");
     all.push_back(single(harmonic) + "[mechanisms]\nvertical_motion = { file = \"v\" }\n");
     // each mechanism with as little as it takes
     for (const MechanismRule& rule : mechanism_rules()) {

@@ -90,6 +90,15 @@ std::vector<Study> all_sorts()
         studies.push_back(single(excitation));
     studies.push_back(single(still, {"contact.normal_damping_n_s_m=0.1", "contact.tangential_damping_n_s_m=0",
                                      "run.step_s=1e-7", "contact.damping_per=chord"}));
+    for (const std::string survival :
+         {"events = 1", "observed = { tolerance_m = 0.002 }\nprior = \"uniform\"\nlevel = 0.9",
+          "observed = { joints = [0, 2], joint_offset_m = [0.001, -0.002], tolerance_m = 0.002, rotation_rad = [0, "
+          "0.01, "
+          "0, 0, 0, 0], rotation_tolerance_rad = 0.01, mirrored = true }\nevents = 3\npause_s = 2.5\nmonuments = 7",
+          "stands_for_years = 2400\nhazard = { k0_per_year = 0.02, k = 2.5, sigma_ln = 1 }",
+          "prior = \"hazard\"\nhazard = { intensity_m_s2 = [1, 2.5], rate_per_year = [0.1, 0.001], sigma_ln = 0.5 }"})
+        studies.push_back(
+            parse_study(surface + structure + "[survival]\n" + survival + "\n", "study.toml", {"study.kind=survival"}));
     const std::string colonnade = R"(
 [study]
 kind = "single"

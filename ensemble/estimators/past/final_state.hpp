@@ -1,0 +1,28 @@
+#pragma once
+/// The final state of a realization against the state that was observed.
+///
+/// Their distance is the largest difference of a value over its tolerance; they agree where it is at most 1 (the
+/// uniform kernel of `past_likelihood.hpp`). Where the sense of the shaking is unknown, the smaller one of the
+/// distances from the observed state and from its mirror image.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+struct MeasuredState {
+    std::vector<double> value;     ///< displacements and rotations; empty: nothing was measured, all agree
+    std::vector<double> tolerance; ///< of each, > 0
+    bool mirrored = false;
+};
+
+struct StateDistance {
+    double value = 0;      ///< in tolerances
+    std::size_t worst = 0; ///< the number of the value that differs most
+    bool agrees() const { return value <= 1; }
+};
+
+StateDistance distance(const MeasuredState& measured, std::span<const double> state);
+
+} // namespace stylobate

@@ -1,0 +1,42 @@
+#pragma once
+/// What "it has stood for T years" tells of the rates of a hazard curve.
+///
+/// Events come as a Poisson process with the rates of the curve, times an unknown factor c that is the same for all
+/// intensities; each finds the structure as it was built, and fells it with the probability P(a). Collapse then has the
+/// annual rate
+///
+///   lambda = c L,   L = integral of P(a) (-dH / d ln a) d ln a
+///
+/// and the structure stands after T years with the probability exp(-c L T). With a lognormal prior of c, median 1, the
+/// posterior follows by quadrature (4001 points of ln c over 8 standard deviations to either side). Testing hazard
+/// models by what has stood: Anderson & Brune, "Methodology for using precarious rocks in Nevada to test seismic hazard
+/// models", Bulletin of the Seismological Society of America 89 (1999) 456; updating their rates: Rood, Stafford &
+/// Rood, "San Andreas fault earthquake hazard model validation using probabilistic analysis of precariously balanced
+/// rocks and Bayesian updating", Seismological Research Letters 95 (2024) 1776.
+///
+/// P is linear in the logarithm of the intensity between values of the axis, and beyond its end as at its end. Below
+/// its begin P is taken as 0: where P is not 0 there, L is too small.
+
+#include "ensemble/estimators/past/intensity_integral.hpp"
+#include "ensemble/estimators/past/rate_curve.hpp"
+
+namespace stylobate {
+
+struct HazardUpdate {
+    PastEstimate collapse_rate;              ///< L, per year: of factor 1
+    PastEstimate stands;                     ///< exp(-L T)
+    PastEstimate beyond;                     ///< part of L that comes from beyond the end of the axis
+    PastEstimate at_begin;                   ///< P at the begin of the axis
+    PastEstimate factor_median;              ///< posterior of c
+    PastEstimate factor_lower, factor_upper; ///< ends of its credible interval, equal tails
+    double prior_lower = 0, prior_upper = 0; ///< of the prior
+};
+
+/// The posterior quantile p of the factor. @param exposure L T   @param sigma_ln > 0
+double factor_quantile(double exposure, double sigma_ln, double p);
+
+/// @param collapse probability of collapse in the cells of one event, the others are not used
+HazardUpdate hazard_update(const PastLikelihood& collapse, const RateCurve& rates, double years, double sigma_ln,
+                           double level);
+
+} // namespace stylobate

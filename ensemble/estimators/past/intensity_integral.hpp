@@ -1,0 +1,47 @@
+#pragma once
+/// Integrals over the intensity of a likelihood that is known on an axis, times a prior density.
+///
+/// Between the values of the axis the likelihood is linear in the logarithm of the intensity; every piece is cut into
+/// 64 parts, over which the trapezoidal rule is taken. The prior has no mass beyond the axis.
+
+#include "ensemble/estimators/past/past_likelihood.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace stylobate {
+
+/// Density over the logarithm of the intensity, up to a factor.
+using PriorDensity = std::function<double(double intensity)>;
+
+class IntensityIntegral {
+public:
+    /// @pre two intensities at least, ascending and > 0
+    IntensityIntegral(const std::vector<double>& intensity, const PriorDensity& prior);
+
+    /// The integral of prior x likelihood over ln(intensity). @param likelihood (ni)
+    double total(std::span<const double> likelihood) const;
+    /// The intensity below which a part p of it lies; NaN where the integral is 0.
+    double quantile(std::span<const double> likelihood, double p) const;
+    /// What each value of the axis contributes to `total`, over the likelihood there: sums to the prior's integral.
+    const std::vector<double>& weights() const { return weights_; }
+
+private:
+    std::vector<double> log_intensity_; ///< (ni)
+    std::vector<double> prior_;         ///< (parts + 1), piece by piece
+    std::vector<double> weights_;
+};
+
+/// The intensity above which the likelihood stays below a part of its largest value, linear in the logarithm between
+/// values of the axis; infinite where it does not at the axis' end, the first intensity where it is below everywhere
+/// but there.
+double likelihood_ratio_limit(const std::vector<double>& intensity, std::span<const double> likelihood, double part);
+
+/// Of each frequency, for a density that is flat in its logarithm; sum 1.
+std::vector<double> frequency_weights(const std::vector<double>& frequency_hz);
+
+/// The mean over the frequencies, weighted. @param cells of one number of events (nf x ni)
+std::vector<double> over_frequencies(std::span<const double> cells, std::span<const double> weights);
+
+} // namespace stylobate

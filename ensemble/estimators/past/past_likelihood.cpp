@@ -1,0 +1,146 @@
+#include "ensemble/estimators/past/past_likelihood.hpp"
+
+#include "ensemble/numerics/random.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
+
+#include <boost/math/distributions/beta.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace stylobate {
+
+namespace {
+
+/// The probabilities at the middles of `past_draws` parts of equal probability.
+double part_of(std::size_t b)
+{
+    return (static_cast<double>(b) + 0.5) / static_cast<double>(past_draws);
+}
+
+/// The quantiles of the posterior there. Where both kinds of outcomes have come: with p = sin2(t) its density over t is
+/// sin(t)^(2 (k + c) - 1) cos(t)^(2 (n - k + c) - 1), which has no poles and a width of 1 / (2 sqrt(n)); it is summed
+/// by the trapezoidal rule over ten of these to either side of its middle. (Boost's quantiles take fifty times as
+/// long.)
+std::vector<double> quantiles_of(const CellCount& count, double c)
+{
+    if (count.successes == 0 || count.successes == count.trials) {
+        const boost::math::beta_distribution<double> posterior(static_cast<double>(count.successes) + c,
+                                                               static_cast<double>(count.trials - count.successes) + c);
+        std::vector<double> values;
+        for (std::size_t b = 0; b < past_draws; ++b)
+            values.push_back(quantile(posterior, part_of(b)));
+        return values;
+    }
+    constexpr std::size_t points = 2001;
+    const auto k = static_cast<double>(count.successes), n = static_cast<double>(count.trials);
+    const double middle = std::asin(std::sqrt((k + 0.5) / (n + 1))), reach = 5 / std::sqrt(n + 1);
+    const double from = std::max(0.0, middle - reach), to = std::min(std::numbers::pi / 2, middle + reach);
+    const double step = (to - from) / static_cast<double>(points - 1);
+    const auto log_density = [&](double t) {
+        return (2 * (k + c) - 1) * std::log(std::sin(t)) + (2 * (n - k + c) - 1) * std::log(std::cos(t));
+    };
+    const double largest = log_density(middle);
+    std::vector<double> sum(points, 0);
+    double before = std::exp(log_density(from) - largest);
+    for (std::size_t i = 1; i < points; ++i) {
+        const double density = std::exp(log_density(std::min(from + step * static_cast<double>(i), to)) - largest);
+        sum[i] = sum[i - 1] + 0.5 * (before + density);
+        before = density;
+    }
+    std::vector<double> values;
+    std::size_t i = 1;
+    for (std::size_t b = 0; b < past_draws; ++b) {
+        const double wanted = part_of(b) * sum.back();
+        while (i + 1 < points && sum[i] < wanted)
+            ++i;
+        const double t = from + step * (static_cast<double>(i - 1) + (wanted - sum[i - 1]) / (sum[i] - sum[i - 1]));
+        values.push_back(std::sin(t) * std::sin(t));
+    }
+    return values;
+}
+
+} // namespace
+
+void PastLikelihood::each(const std::function<void(std::span<const double>)>& f) const
+{
+    f(value);
+    for (const std::vector<double>& draw : drawn)
+        f(draw);
+}
+
+double prior_count(const PastAxes& axes, PastUse use)
+{
+    return use == PastUse::cells ? 0.5 : 0.5 / static_cast<double>(axes.frequency_hz.size());
+}
+
+PastLikelihood past_likelihood(const PastAxes& axes, std::span<const CellCount> counts, std::uint64_t seed, PastUse use,
+                               std::uint64_t index)
+{
+    assert(counts.size() == axes.cells() && "a count for each cell");
+    PastLikelihood likelihood{axes, {}, {past_draws, std::vector<double>(counts.size())}};
+    std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<double>> known;
+    const double c = prior_count(axes, use);
+    std::vector<std::size_t> order(past_draws);
+    for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+        const CellCount& count = counts[cell];
+        const double shown = use == PastUse::rates && count.trials > 0 ? 0 : c;
+        likelihood.value.push_back((static_cast<double>(count.successes) + shown) /
+                                   (static_cast<double>(count.trials) + 2 * shown));
+        auto [at, is_new] = known.try_emplace({count.trials, count.successes});
+        if (is_new)
+            at->second = quantiles_of(count, c);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        for (std::size_t b = past_draws - 1; b > 0; --b) { // Fisher and Yates
+            const double u = uniform01(seed, index + cell, Stream::past, b);
+            std::swap(order[b], order[static_cast<std::size_t>(u * static_cast<double>(b + 1))]);
+        }
+        for (std::size_t b = 0; b < past_draws; ++b)
+            likelihood.drawn[b][cell] = at->second[order[b]];
+    }
+    return likelihood;
+}
+
+PastLikelihood product(std::span<const PastLikelihood> structures)
+{
+    PastLikelihood all = structures.front();
+    for (const PastLikelihood& one : structures.subspan(1)) {
+        assert(one.axes == all.axes && "likelihoods over the same pasts");
+        for (std::size_t cell = 0; cell < all.value.size(); ++cell)
+            all.value[cell] *= one.value[cell];
+        for (std::size_t b = 0; b < all.drawn.size(); ++b)
+            for (std::size_t cell = 0; cell < all.value.size(); ++cell)
+                all.drawn[b][cell] *= one.drawn[b][cell];
+    }
+    return all;
+}
+
+PastEstimate past_estimate(const PastLikelihood& likelihood, const std::function<double(std::span<const double>)>& f)
+{
+    constexpr double most_shift = 0.5, reach = 1.959963984540054;
+    PastEstimate estimate{f(likelihood.value), 0, 0};
+    std::vector<double> drawn;
+    for (const std::vector<double>& draw : likelihood.drawn)
+        drawn.push_back(f(draw));
+    std::sort(drawn.begin(), drawn.end());
+    const auto from = std::lower_bound(drawn.begin(), drawn.end(), estimate.value),
+               to = std::upper_bound(from, drawn.end(), estimate.value);
+    const double below = (static_cast<double>(from - drawn.begin()) + 0.5 * static_cast<double>(to - from) + 0.5) /
+                         static_cast<double>(drawn.size() + 1);
+    const double shift = std::clamp(to_normal(below), -most_shift, most_shift);
+    const auto limit = [&](double z) {
+        const double p = std::erfc(-(2 * shift + z) / std::numbers::sqrt2) / 2;
+        // values of the sample, not between them: one beyond the axis is infinite
+        return sorted_quantile(drawn, p, QuantileDefinition::above);
+    };
+    estimate.lower = std::min(limit(-reach), estimate.value);
+    estimate.upper = std::max(limit(reach), estimate.value);
+    return estimate;
+}
+
+} // namespace stylobate

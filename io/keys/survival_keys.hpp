@@ -1,0 +1,110 @@
+#pragma once
+/// The keys of [survival]: the state in which a structure is found, the prior, and the hazard.
+
+#include "ensemble/model/study.hpp"
+#include "io/keys/conditions.hpp"
+#include "io/keys/ranges.hpp"
+
+namespace stylobate::survival_keys {
+
+inline constexpr std::uint64_t most_joints = 199; ///< of a structure, counted from 0
+
+inline const Range offset_range{-10, 10, false, "Lengths are in metres, positive to the right.", 1e-3};
+inline const Range tolerance_range{0, 10, true, "Lengths are in metres.", 1e-3};
+inline const Range angle_range{-1.5, 1.5, false, "Angles are in radians, counter-clockwise.", degree};
+inline const Range angle_tolerance_range{0, 1.5, true, "Angles are in radians.", degree};
+
+inline const ListKey joints{"joints",
+                            KeyType::wholes,
+                            {0, most_joints, false, "Joints are counted from 0, column by column from the bottom.", 0},
+                            "the joints that were measured, ascending; joint 0 is the bed of the lowest free drum",
+                            {.absent = "all, where tolerance_m is given"}};
+inline const ListKey joint_offset{"joint_offset_m",
+                                  KeyType::numbers,
+                                  offset_range,
+                                  "displacement of the upper face of each of them along the lower one since it was "
+                                  "built, positive to the right",
+                                  {.absent = "0 of each: as new"}};
+inline const NumberKey tolerance{"tolerance_m",
+                                 tolerance_range,
+                                 "the true displacement is within so much of the measured one",
+                                 {.absent = "displacements were not measured", .example = "0.002"}};
+inline const ListKey rotation{"rotation_rad",
+                              KeyType::numbers,
+                              angle_range,
+                              "rotation of each free block from upright, in the plane, counter-clockwise",
+                              {.absent = "not measured"}};
+inline const NumberKey rotation_tolerance{"rotation_tolerance_rad",
+                                          angle_tolerance_range,
+                                          "the true rotation is within so much of the measured one",
+                                          {.absent = "rotations were not measured"}};
+inline const BooleanKey mirrored{"mirrored", ObservedState{}.mirrored,
+                                 "the sense of the shaking is not known: the mirrored state agrees too"};
+inline const TableKey observed{"observed",
+                               "the state in which the structure is found; `tolerance_m` alone: as new, within that",
+                               {&joints, &joint_offset, &tolerance, &rotation, &rotation_tolerance, &mirrored},
+                               {.absent = "that it stands is all that is known"}};
+
+inline const WordKey<PastPrior> prior{"prior", past_prior_names, SurvivalSpec{}.prior,
+                                      "density over the PGA of the past: flat in its logarithm, flat, or in "
+                                      "proportion to the rates of `hazard`; the frequency is flat in its logarithm"};
+inline const NumberKey level{"level",
+                             {0.5, 0.999, false, "A probability: 95 % is 0.95.", 0.01},
+                             SurvivalSpec{}.level,
+                             "of exclusions and of credible intervals"};
+inline const WholeKey events{"events",
+                             {1, 20, "Events in succession, each of the same frequency and PGA."},
+                             1,
+                             "pasts of one event, of two in succession, and so on up to this number are computed"};
+inline const NumberKey pause{"pause_s",
+                             {0, 1000, false, "Times are in seconds.", 1e-3},
+                             SurvivalSpec{}.pause_s,
+                             "time between two events of a past"};
+inline const WholeKey monuments{"monuments",
+                                {0, 10'000, "Simulated monuments; 0: no test."},
+                                SurvivalSpec{}.monuments,
+                                "simulated monuments of known past, by which the credible intervals are tested"};
+inline const NumberKey stands_for{"stands_for_years",
+                                  {0, 1e7, true, "Times are in years.", 0},
+                                  "how long the structure has stood: updates the rates of `hazard`",
+                                  {.absent = "not known, or not used"}};
+
+inline const NumberKey k0{"k0_per_year",
+                          {0, 1000, true, "A rate per year.", 0},
+                          "annual rate at which a PGA of 1 m/s2 is exceeded; the rate of a is k0_per_year a^-k",
+                          {.absent = "give the points of the hazard curve", .example = "0.02"}};
+inline const NumberKey k{"k",
+                         {0, 20, true, "The slope of a hazard curve; mostly 1 to 4.", 0},
+                         "slope of the hazard curve in logarithms",
+                         {.absent = "needed beside k0_per_year", .example = "2.5"}};
+inline const ListKey intensities{"intensity_m_s2",
+                                 KeyType::numbers,
+                                 acceleration_range,
+                                 "PGA of the points of a hazard curve, ascending; between them the rate is a power of "
+                                 "the PGA",
+                                 {.absent = "give k0_per_year or a file"}};
+inline const ListKey rates{"rate_per_year",
+                           KeyType::numbers,
+                           {0, 1000, true, "Rates per year.", 0},
+                           "annual rate at which each of them is exceeded, descending",
+                           {.absent = "give k0_per_year or a file"}};
+inline const TextKey file{"file",
+                          "a hazard curve as a CSV file with the columns pga_m_s2 and rate_per_year; a path relative "
+                          "to the study file",
+                          {.absent = "give k0_per_year or the points"}};
+inline const NumberKey sigma_ln{"sigma_ln",
+                                sigma_ln_range,
+                                "prior of the factor on all rates: lognormal with median 1 and this standard "
+                                "deviation of its logarithm",
+                                {.example = "1.0"}};
+inline const TableKey hazard{"hazard",
+                             "the rates of shaking at the site, which are updated by `stands_for_years`",
+                             {&k0, &k, &intensities, &rates, &file, &sigma_ln},
+                             {.absent = "no rates"}};
+
+inline const TableKey table{"survival",
+                            "what the state of a structure tells of its past shaking",
+                            {&observed, &prior, &level, &events, &pause, &monuments, &stands_for, &hazard},
+                            {.absent = "the defaults of its keys", .used = {in_studies({StudyKind::survival})}}};
+
+} // namespace stylobate::survival_keys

@@ -1,0 +1,50 @@
+/// `stylobate past`: what several structures of one site tell of the shaking that all of them have been through.
+
+#include "ensemble/model/input_error.hpp"
+#include "studies/app/command.hpp"
+#include "studies/app/file_kind.hpp"
+#include "studies/app/output_path.hpp"
+#include "studies/kinds/survival/combined_past.hpp"
+#include "studies/kinds/survival/survival_picture.hpp"
+#include "studies/kinds/survival/survival_table.hpp"
+#include "studies/results/results.hpp"
+
+#include <fmt/format.h>
+
+namespace stylobate {
+
+namespace {
+
+StructurePast past_of(const std::string& file)
+{
+    check_kind(file, "past");
+    const Results results(file);
+    if (!results.study().survival || results.header().kind == "replay")
+        throw InputError(fmt::format("{} is a result of kind '{}', which has no likelihood of a past.\n  Give results "
+                                     "of study.kind = \"survival\".",
+                                     file, results.header().kind));
+    check_complete(results.reader(), file);
+    const PastAxes axes{results.header().frequency_hz, results.header().pga_m_s2,
+                        static_cast<std::size_t>(results.study().events())};
+    return {file, results.study(), axes, agreeing_counts(results.reader().table("survival"), axes)};
+}
+
+} // namespace
+
+int past_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& picture)
+{
+    std::vector<StructurePast> structures;
+    for (const std::string& file : files)
+        structures.push_back(past_of(file));
+    const CombinedPast combined = combined_past(structures);
+    if (!picture.empty()) {
+        check_drawing(picture);
+        for (const std::string& file : files)
+            check_output(file, picture, options.force);
+        plot_curves(combined_figure(combined), "Shaking that several structures exclude", picture);
+    }
+    fmt::print("{}", options.json ? combined_json(combined).text() + "\n" : combined_text(combined));
+    return exit_done;
+}
+
+} // namespace stylobate

@@ -1,0 +1,172 @@
+#include "studies/kinds/survival/survival.hpp"
+
+#include "ensemble/estimators/past/rate_curve.hpp"
+#include "ensemble/model/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace stylobate {
+
+namespace {
+
+RateCurve rate_curve(const HazardSpec& hazard)
+{
+    return hazard.k0_per_year > 0 ? RateCurve(hazard.k0_per_year, hazard.k)
+                                  : RateCurve(hazard.intensity_m_s2, hazard.rate_per_year);
+}
+
+std::uint64_t sum_of(const std::vector<CellCount>& counts, std::uint64_t CellCount::*part)
+{
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
+                           [part](std::uint64_t sum, const CellCount& cell) { return sum + cell.*part; });
+}
+
+} // namespace
+
+SurvivalCounts::SurvivalCounts(const Study& study, const ResultHeader& header)
+    : study_(study), axes_{header.frequency_hz, header.pga_m_s2, static_cast<std::size_t>(study.events())},
+      agree_(axes_.cells()), collapse_(axes_.cells())
+{
+    if (!study.survival->observed)
+        return;
+    const ObservedState& observed = *study.survival->observed;
+    measured_.mirrored = observed.mirrored;
+    for (std::size_t i = 0; i < observed.joints.size(); ++i) {
+        joints_.push_back(static_cast<std::size_t>(observed.joints[i]));
+        measured_.value.push_back(observed.offset_m[i]);
+        measured_.tolerance.push_back(observed.tolerance_m);
+        names_.push_back(fmt::format("displacement of {} [m]", joints_.back() < header.bed_names.size()
+                                                                   ? header.bed_names[joints_.back()]
+                                                                   : "a joint"));
+    }
+    const Layout layout = lay_out(study.structure);
+    for (std::size_t i = 0, free = 0; i < layout.blocks.size() && !observed.rotation_rad.empty(); ++i) {
+        if (layout.blocks[i].fixed)
+            continue;
+        blocks_.push_back(i);
+        measured_.value.push_back(observed.rotation_rad[free++]);
+        measured_.tolerance.push_back(observed.tolerance_rad);
+        names_.push_back(fmt::format("rotation of {} [rad]", layout.blocks[i].name));
+    }
+}
+
+void SurvivalCounts::add(const ResultRow& row)
+{
+    const Outcome& o = row.outcome;
+    if (o.state == State::invalid)
+        return;
+    const std::size_t cell = static_cast<std::size_t>(study_.events(row.index) - 1) * axes_.cells_of_one() + row.cell;
+    ++agree_.at(cell).trials;
+    ++collapse_[cell].trials;
+    if (o.state == State::collapsed) {
+        ++collapse_[cell].successes;
+        return;
+    }
+    Standing state{row.index, cell, {}};
+    for (const std::size_t joint : joints_)
+        state.value.push_back(o.bed_offset_m.at(joint));
+    for (const std::size_t block : blocks_)
+        state.value.push_back(o.rotation_rad.at(block));
+    const StateDistance found = distance(measured_, state.value);
+    agree_[cell].successes += found.agrees();
+    const bool nearer = !nearest_ || found.value < nearest_->distance ||
+                        (found.value == nearest_->distance && row.index < nearest_->index);
+    if (nearer && !state.value.empty())
+        nearest_ = NearestState{row.index, found.value, cell, found.worst, state.value[found.worst]};
+    if (!state.value.empty())
+        standing_.push_back(std::move(state));
+}
+
+std::vector<CellCount> SurvivalCounts::stand() const
+{
+    std::vector<CellCount> stand = collapse_;
+    for (CellCount& cell : stand)
+        cell.successes = cell.trials - cell.successes;
+    return stand;
+}
+
+StandingStates SurvivalCounts::standing() const
+{
+    std::vector<const Standing*> sorted;
+    for (const Standing& one : standing_)
+        sorted.push_back(&one);
+    std::sort(sorted.begin(), sorted.end(), [](const Standing* a, const Standing* b) { return a->index < b->index; });
+    StandingStates states;
+    for (const Standing* one : sorted) {
+        states.cell.push_back(one->cell);
+        states.value.insert(states.value.end(), one->value.begin(), one->value.end());
+    }
+    return states;
+}
+
+PriorDensity prior_density(const SurvivalSpec& spec)
+{
+    switch (spec.prior) {
+    case PastPrior::log_uniform:
+        break;
+    case PastPrior::uniform:
+        return [](double intensity) { return intensity; };
+    case PastPrior::hazard:
+        return [curve = rate_curve(*spec.hazard)](double intensity) { return curve.density(intensity); };
+    }
+    return [](double) { return 1.0; };
+}
+
+std::string prior_words(const SurvivalSpec& spec, const std::vector<double>& pga_m_s2)
+{
+    const char* words = spec.prior == PastPrior::log_uniform ? "flat in ln PGA"
+                        : spec.prior == PastPrior::uniform   ? "flat in PGA"
+                                                             : "in proportion to the rates of the hazard curve";
+    return fmt::format("{} from {:.3g} to {:.3g} m/s2", words, pga_m_s2.front(), pga_m_s2.back());
+}
+
+Survival survival_of(const Study& study, const SurvivalCounts& counts)
+{
+    const SurvivalSpec& spec = *study.survival;
+    Survival s;
+    s.axes = counts.axes();
+    s.prior = prior_words(spec, s.axes.intensity);
+    s.level = spec.level;
+    s.realizations = study.total();
+    s.agreeing = counts.agree();
+    s.standing = counts.stand();
+    s.valid = sum_of(s.agreeing, &CellCount::trials);
+    s.agree = sum_of(s.agreeing, &CellCount::successes);
+    s.stand = sum_of(s.standing, &CellCount::successes);
+    s.measured = counts.measured();
+    s.names = counts.names();
+    s.state_measured = !s.measured.value.empty();
+    s.nearest = counts.nearest();
+    const PriorDensity prior = prior_density(spec);
+    if (s.judged()) {
+        const PastLikelihood likelihood = past_likelihood(s.axes, s.agreeing, study.seed, PastUse::means);
+        for (std::size_t events = 1; events <= s.axes.events; ++events)
+            s.by_events.push_back(exclusion(likelihood, events, prior, spec.level));
+        if (s.axes.frequency_hz.size() > 1) {
+            const PastLikelihood by_cell = past_likelihood(s.axes, s.agreeing, study.seed, PastUse::cells);
+            for (std::size_t f = 0; f < s.axes.frequency_hz.size(); ++f)
+                s.by_frequency.push_back(exclusion(by_cell, 1, prior, spec.level, f));
+        }
+        s.posterior = past_posterior(likelihood, prior, spec.level);
+    }
+    if (s.state_measured && spec.monuments > 0) {
+        std::vector<std::uint64_t> trials;
+        for (const CellCount& cell : s.agreeing)
+            trials.push_back(cell.trials);
+        s.monuments = test_monuments(s.axes, trials, counts.standing(), s.measured, past_prior(s.axes, prior),
+                                     spec.monuments, study.seed);
+    }
+    if (spec.stands_for_years) {
+        s.years = *spec.stands_for_years;
+        s.sigma_ln = spec.hazard->sigma_ln;
+        const PastLikelihood collapse = past_likelihood(s.axes, counts.collapse(), study.seed, PastUse::rates,
+                                                        std::uint64_t{1} << 48); // other random numbers
+        s.rates = hazard_update(collapse, rate_curve(*spec.hazard), s.years, s.sigma_ln, spec.level);
+    }
+    return s;
+}
+
+} // namespace stylobate

@@ -1,0 +1,160 @@
+#include "studies/kinds/survival/survival_picture.hpp"
+
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_maps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+constexpr std::array<const char*, 6> line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#666666"};
+
+} // namespace
+
+void plot_likelihood(const Survival& s, const std::string& title, const std::filesystem::path& png)
+{
+    MapPicture picture;
+    picture.title = title;
+    picture.subtitle = fmt::format("{} of {} realizations agree", s.agree, s.valid);
+    picture.frequency_hz = s.axes.frequency_hz;
+    picture.pga_m_s2 = s.axes.intensity;
+    const std::size_t of_one = s.axes.cells_of_one(), panels = std::min<std::size_t>(s.axes.events, 6);
+    picture.columns = panels > 4 ? 3 : static_cast<int>(std::min<std::size_t>(panels, 2));
+    const auto share = [](const CellCount& cell) {
+        return cell.trials == 0 ? std::nan("") : static_cast<double>(cell.successes) / static_cast<double>(cell.trials);
+    };
+    double most = 0;
+    for (const CellCount& cell : s.agreeing)
+        most = std::max(most, cell.trials == 0 ? 0 : share(cell));
+    for (std::size_t e = 0; e < panels; ++e) {
+        MapPanel panel;
+        panel.title = e == 0 ? "1 event" : fmt::format("{} events in succession", e + 1);
+        for (std::size_t c = e * of_one; c < (e + 1) * of_one; ++c)
+            panel.value.push_back(share(s.agreeing[c]));
+        panel.high = most > 0 ? most : 1;
+        picture.panels.push_back(std::move(panel));
+    }
+    if (s.state_measured && s.axes.frequency_hz.size() > 1) {
+        for (std::size_t c = 0; c < of_one; ++c)
+            picture.line.push_back(share(s.standing[c]));
+        picture.key = "lines: probability of standing after 1 event: 5, 50 and 95 % · colours: share of the "
+                      "realizations that agree with the observed state";
+    }
+    plot_maps(picture, png);
+}
+
+Figure exclusion_figure(const Survival& s)
+{
+    Figure figure;
+    figure.title = "Excluded shaking";
+    figure.x_label = "peak ground acceleration [m/s²]";
+    figure.y_label = "likelihood / largest likelihood";
+    figure.x_log = s.axes.intensity.back() > 4 * s.axes.intensity.front();
+    for (std::size_t e = 0; e < s.by_events.size(); ++e) {
+        const Exclusion& exclusion = s.by_events[e];
+        double most = 0;
+        for (const PastEstimate& at : exclusion.likelihood)
+            most = std::max(most, at.value);
+        if (most == 0)
+            continue;
+        FigureSeries series{
+            e == 0 ? "1 event" : fmt::format("{} events", e + 1), SeriesKind::line, s.axes.intensity, {}, {}, {}};
+        for (const PastEstimate& at : exclusion.likelihood) {
+            series.y.push_back(at.value / most);
+            series.low.push_back(at.lower / most);
+            series.high.push_back(at.upper / most);
+        }
+        figure.series.push_back(std::move(series));
+    }
+    figure.series.push_back({fmt::format("threshold {:.3g}", s.by_events.front().threshold),
+                             SeriesKind::line,
+                             {s.axes.intensity.front(), s.axes.intensity.back()},
+                             {s.by_events.front().threshold, s.by_events.front().threshold},
+                             {},
+                             {}});
+    return figure;
+}
+
+Figure rates_figure(const Survival& s)
+{
+    constexpr int points = 201;
+    Figure figure;
+    figure.title = "Factor on the rates of the hazard curve";
+    figure.x_label = "factor on all rates";
+    figure.y_label = "density over its logarithm";
+    figure.x_log = true;
+    // of an exposure L T; the curves of its interval's ends are the band
+    const auto density = [&](double exposure) {
+        std::vector<double> values;
+        double sum = 0;
+        for (int i = 0; i < points; ++i) {
+            const double z = -4 + 8.0 * i / (points - 1);
+            values.push_back(std::exp(-z * z / 2 - exposure * std::exp(s.sigma_ln * z)));
+            sum += values.back();
+        }
+        for (double& value : values)
+            value /= sum * s.sigma_ln * 8.0 / (points - 1);
+        return values;
+    };
+    FigureSeries prior{"before", SeriesKind::line, {}, density(0), {}, {}};
+    for (int i = 0; i < points; ++i)
+        prior.x.push_back(std::exp(s.sigma_ln * (-4 + 8.0 * i / (points - 1))));
+    FigureSeries posterior{fmt::format("given that it has stood for {:g} years", s.years),
+                           SeriesKind::line,
+                           prior.x,
+                           density(s.rates->collapse_rate.value * s.years),
+                           {},
+                           {}};
+    const std::vector<double> a = density(s.rates->collapse_rate.lower * s.years),
+                              b = density(s.rates->collapse_rate.upper * s.years);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        posterior.low.push_back(std::min({a[i], b[i], posterior.y[i]}));
+        posterior.high.push_back(std::max({a[i], b[i], posterior.y[i]}));
+    }
+    figure.series = {std::move(prior), std::move(posterior)};
+    return figure;
+}
+
+void plot_curves(const Figure& figure, const std::string& title, const std::filesystem::path& png)
+{
+    std::string data, bands, lines;
+    double from = figure.series.front().x.front(), to = from, high = 0;
+    for (std::size_t k = 0; k < figure.series.size(); ++k) {
+        const FigureSeries& series = figure.series[k];
+        const char* colour = line_colours[k % line_colours.size()];
+        data += fmt::format("$series{} << EOD\n", k);
+        for (std::size_t i = 0; i < series.x.size(); ++i) {
+            data += fmt::format("{} {}", series.x[i], series.y[i]);
+            data += series.low.empty() ? "\n" : fmt::format(" {} {}\n", series.low[i], series.high[i]);
+            from = std::min(from, series.x[i]);
+            to = std::max(to, series.x[i]);
+            high = std::max(high, series.high.empty() ? series.y[i] : series.high[i]);
+        }
+        data += "EOD\n";
+        if (!series.low.empty())
+            bands += fmt::format("$series{} using 1:3:4 with filledcurves fillcolor rgb '{}' fillstyle transparent "
+                                 "solid 0.2 noborder notitle, ",
+                                 k, colour);
+        lines += fmt::format("{}$series{} using 1:2 with lines linecolor rgb '{}' linewidth 2 title {}",
+                             lines.empty() ? "" : ", ", k, colour, gnuplot_text(series.name));
+    }
+    const std::string script =
+        data + gnuplot_heading(title, "bands: 95 % intervals of the counts") +
+        (figure.x_log ? "set logscale x\n" : "") +
+        fmt::format("set xrange [{}:{}]\nset yrange [0:{}]\n", from, to, 1.05 * high) +
+        "set xtics (0.001,0.002,0.005,.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100,200,500,1000)\n"
+        "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.2\nset tmargin at screen 0.88\n"
+        "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
+        "set key horizontal center bottom at screen 0.535, screen 0.02 samplen 2\nset xlabel " +
+        gnuplot_text(figure.x_label) + " offset 0,-0.2\nset ylabel " + gnuplot_text(figure.y_label) + "\nplot " +
+        bands + lines;
+    run_gnuplot(script, PictureSize{}, png);
+}
+
+} // namespace stylobate

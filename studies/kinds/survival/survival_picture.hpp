@@ -1,0 +1,21 @@
+#pragma once
+/// The pictures of a survival study.
+
+#include "studies/kinds/survival/survival.hpp"
+#include "studies/report/figure.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace stylobate {
+
+/// Maps of the likelihood, one for each number of events (at most six), with the probability of standing as lines.
+void plot_likelihood(const Survival& survival, const std::string& title, const std::filesystem::path& png);
+/// The likelihood over the intensity, as a part of its largest value, and the threshold. @pre judged
+Figure exclusion_figure(const Survival& survival);
+/// Density of the factor on all rates over its logarithm, before and after. @pre there are rates
+Figure rates_figure(const Survival& survival);
+/// Lines and bands of a figure, by gnuplot.
+void plot_curves(const Figure& figure, const std::string& title, const std::filesystem::path& png);
+
+} // namespace stylobate

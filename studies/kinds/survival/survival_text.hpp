@@ -1,0 +1,32 @@
+#pragma once
+/// A survival study as lines for a terminal, as JSON and as sections of a page.
+
+#include "studies/kinds/page_writer.hpp"
+#include "studies/kinds/survival/survival.hpp"
+#include "studies/report/json.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+std::string survival_text(const Survival& survival);
+Json survival_json(const Survival& survival);
+void survival_section(const Survival& survival, PageWriter& writer);
+
+/// Why nothing can be concluded, and what to do. @pre not judged
+std::string not_judged_words(const Survival& survival);
+/// "5.31 (5.1 to 5.52)"; beyond the axis: "none".
+std::string estimate_words(const PastEstimate& estimate);
+/// What an exclusion comes to, as a sentence without its full stop.
+std::string exclusion_words(const Exclusion& exclusion, const std::string& prior, double level, double axis_end);
+Json exclusion_json(const Exclusion& exclusion);
+Json posterior_json(const PastPosterior& posterior, const PastAxes& axes);
+/// The most probable past, and the credible intervals: lines that are indented.
+std::string posterior_words(const PastPosterior& posterior, const PastAxes& axes, double level);
+/// @param events whether their number is unknown
+std::vector<std::string> monument_words(const MonumentTest& test, double level, bool events);
+/// @pre there are rates
+std::vector<std::string> rates_words(const Survival& survival);
+
+} // namespace stylobate

@@ -1,0 +1,379 @@
+/// The past of a structure: exclusions and posteriors against closed forms and quadrature by independent code;
+/// intervals on simulated counts; simulated monuments of a process whose likelihood is known.
+
+#include "ensemble/estimators/past/exclusion.hpp"
+#include "ensemble/estimators/past/final_state.hpp"
+#include "ensemble/estimators/past/hazard_update.hpp"
+#include "ensemble/estimators/past/past_posterior.hpp"
+#include "ensemble/estimators/past/rate_curve.hpp"
+#include "ensemble/estimators/past/simulated_monuments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+using namespace stylobate;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::vector<double> log_axis(double from, double to, std::size_t n)
+{
+    std::vector<double> axis;
+    for (std::size_t i = 0; i < n; ++i)
+        axis.push_back(from * std::pow(to / from, static_cast<double>(i) / static_cast<double>(n - 1)));
+    return axis;
+}
+
+/// The probability of collapse of a known structure: logistic in ln a.
+struct Logistic {
+    double median = 4, s = 0.2;
+    double collapse(double a) const { return 1 / (1 + std::exp(-std::log(a / median) / s)); }
+};
+
+/// Counts so large that they are the probabilities.
+template <class Probability>
+std::vector<CellCount> exact_counts(const PastAxes& axes, const Probability& p)
+{
+    constexpr std::uint64_t n = 4'000'000'000;
+    std::vector<CellCount> counts;
+    for (std::size_t c = 0; c < axes.cells(); ++c) {
+        const std::size_t ni = axes.intensity.size();
+        const double probability =
+            p(c / axes.cells_of_one() + 1, axes.frequency_hz[c % axes.cells_of_one() / ni], axes.intensity[c % ni]);
+        counts.push_back({n, static_cast<std::uint64_t>(std::llround(probability * static_cast<double>(n)))});
+    }
+    return counts;
+}
+
+PriorDensity flat()
+{
+    return [](double) { return 1.0; };
+}
+
+/// Simpson's rule, by itself.
+template <class F>
+double simpson(const F& f, double from, double to, int n = 20000)
+{
+    const double h = (to - from) / n;
+    double sum = f(from) + f(to);
+    for (int i = 1; i < n; ++i)
+        sum += f(from + i * h) * (i % 2 == 1 ? 4 : 2);
+    return sum * h / 3;
+}
+
+} // namespace
+
+TEST(Past, ALogisticStructureExcludesWhatTheClosedFormsSay)
+{
+    const Logistic truth;
+    const PastAxes axes{{1.0}, log_axis(0.5, 20, 400), 1};
+    const PastLikelihood likelihood = past_likelihood(
+        axes, exact_counts(axes, [&](auto, auto, double a) { return 1 - truth.collapse(a); }), 1, PastUse::means);
+    const Exclusion e = exclusion(likelihood, 1, flat(), 0.95);
+    ASSERT_TRUE(e.excludes() && e.surely());
+    // by the ratio: 1 / (1 + (a / m)^(1/s)) = t L(0.5), t = exp(-1.959964^2 / 2)
+    const double t = std::exp(-1.959963984540054 * 1.959963984540054 / 2);
+    EXPECT_NEAR(e.threshold, t, 1e-12);
+    EXPECT_NEAR(e.threshold, 0.1465, 5e-5);
+    const double limit = t * (1 - truth.collapse(0.5));
+    EXPECT_NEAR(e.by_likelihood.value, truth.median * std::pow(1 / limit - 1, truth.s), 1e-3);
+    EXPECT_EQ(e.weaker.value, 0) << "weak shaking leaves it standing";
+    // with a flat prior: the integral of 1 - collapse over x = ln(a / m) is x - s ln(1 + e^(x / s))
+    const auto mass = [&](double a) {
+        const double x = std::log(a / truth.median);
+        return x - truth.s * std::log1p(std::exp(x / truth.s));
+    };
+    const double wanted = mass(0.5) + 0.95 * (mass(20) - mass(0.5));
+    EXPECT_NEAR(mass(e.by_posterior.value), wanted, 1e-4);
+    EXPECT_NEAR(e.by_prior, 0.5 * std::pow(40, 0.95), 1e-9);
+    EXPECT_LT(e.by_posterior.upper - e.by_posterior.lower, 1e-3);
+}
+
+TEST(Past, AnotherPriorMovesThePosteriorAsQuadratureSays)
+{
+    const Logistic truth;
+    const PastAxes axes{{1.0}, log_axis(0.5, 20, 400), 1};
+    const PastLikelihood likelihood = past_likelihood(
+        axes, exact_counts(axes, [&](auto, auto, double a) { return 1 - truth.collapse(a); }), 1, PastUse::means);
+    const RateCurve rates(0.02, 2.3);
+    const auto posterior_mass = [&](double upto, const auto& density) {
+        return simpson([&](double x) { return (1 - truth.collapse(std::exp(x))) * density(std::exp(x)); },
+                       std::log(0.5), std::log(upto));
+    };
+    const auto uniform = [](double a) { return a; };
+    const auto by_rates = [&](double a) { return rates.density(a); };
+    for (const PriorDensity& prior : {PriorDensity(uniform), PriorDensity(by_rates)}) {
+        const Exclusion e = exclusion(likelihood, 1, prior, 0.95);
+        EXPECT_NEAR(posterior_mass(e.by_posterior.value, prior) / posterior_mass(20, prior), 0.95, 2e-5);
+    }
+    EXPECT_NEAR(rates.density(3), 2.3 * 0.02 * std::pow(3, -2.3), 1e-15);
+    const RateCurve points({1, 2, 8}, {0.1, 0.01, 0.0001});
+    EXPECT_NEAR(points.rate(2), 0.01, 1e-15);
+    EXPECT_NEAR(points.rate(4), 0.001, 1e-12);
+    EXPECT_NEAR(points.rate(16), 0.0001 / 10, 1e-12); // the last piece goes on
+    const double h = 1e-6;
+    EXPECT_NEAR(points.density(3), -(points.rate(3 * std::exp(h)) - points.rate(3 * std::exp(-h))) / (2 * h), 1e-8);
+}
+
+TEST(Past, NothingIsExcludedWhereTheLikelihoodHasNotFallen)
+{
+    const PastAxes axes{{1.0, 2.0}, log_axis(1, 10, 8), 1};
+    const PastLikelihood flat_one = past_likelihood(axes, std::vector<CellCount>(16, {64, 60}), 1, PastUse::means);
+    const Exclusion none = exclusion(flat_one, 1, flat(), 0.95);
+    EXPECT_FALSE(none.excludes());
+    EXPECT_EQ(none.by_likelihood.value, infinite);
+    EXPECT_EQ(none.drawn_with_limit, 0U);
+    EXPECT_NEAR(none.top_ratio.value, 1, 1e-12);
+    EXPECT_GT(none.top_ratio.lower, none.threshold);
+    // a state that three in sixty-four reach: what a count of 0 excludes is not sure
+    std::vector<CellCount> few(16, {64, 0});
+    few[1] = few[9] = {64, 3};
+    const Exclusion weak = exclusion(past_likelihood(axes, few, 1, PastUse::means), 1, flat(), 0.95);
+    EXPECT_TRUE(weak.excludes());
+    EXPECT_FALSE(weak.surely());
+    EXPECT_EQ(weak.by_likelihood.upper, infinite);
+}
+
+TEST(Past, TheDrawsOfACellAreJeffreysPosterior)
+{
+    const PastAxes axes{{1.0}, {1, 2, 3, 4}, 1};
+    const std::vector<CellCount> counts = {{64, 0}, {64, 64}, {64, 10}, {0, 0}};
+    const PastLikelihood likelihood = past_likelihood(axes, counts, 7, PastUse::cells);
+    for (std::size_t c = 0; c < counts.size(); ++c) {
+        const double a = static_cast<double>(counts[c].successes) + 0.5,
+                     b = static_cast<double>(counts[c].trials - counts[c].successes) + 0.5;
+        double mean = 0, square = 0;
+        for (const std::vector<double>& draw : likelihood.drawn) {
+            mean += draw[c] / past_draws;
+            square += draw[c] * draw[c] / past_draws;
+        }
+        EXPECT_NEAR(mean, a / (a + b), 2e-3 * a / (a + b) + 1e-4) << c;
+        const double variance = a * b / ((a + b) * (a + b) * (a + b + 1));
+        EXPECT_NEAR(square - mean * mean, variance, 0.02 * variance) << c;
+    }
+    // other draws for another index, the same for the same
+    EXPECT_EQ(likelihood.drawn, past_likelihood(axes, counts, 7, PastUse::cells).drawn);
+    EXPECT_NE(likelihood.drawn, past_likelihood(axes, counts, 7, PastUse::cells, 100).drawn);
+}
+
+TEST(Past, StructuresOfOneSiteMultiply)
+{
+    const Logistic weak{3, 0.3}, strong{6, 0.2};
+    const PastAxes axes{{1.0}, log_axis(0.5, 20, 300), 1};
+    const auto of = [&](const Logistic& one) {
+        return past_likelihood(axes, exact_counts(axes, [&](auto, auto, double a) { return 1 - one.collapse(a); }), 1,
+                               PastUse::means);
+    };
+    const PastLikelihood both = product(std::vector<PastLikelihood>{of(weak), of(strong)});
+    const Exclusion e = exclusion(both, 1, flat(), 0.95);
+    const auto density = [&](double x) {
+        return (1 - weak.collapse(std::exp(x))) * (1 - strong.collapse(std::exp(x)));
+    };
+    const double low = std::log(0.5), high = std::log(20);
+    EXPECT_NEAR(simpson(density, low, std::log(e.by_posterior.value)) / simpson(density, low, high), 0.95, 2e-5);
+    EXPECT_LT(e.by_posterior.value, exclusion(of(weak), 1, flat(), 0.95).by_posterior.value);
+}
+
+TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
+{
+    const Logistic truth;
+    const PastAxes axes{{1.0}, log_axis(0.5, 60, 600), 1};
+    const PastLikelihood collapse = past_likelihood(
+        axes, exact_counts(axes, [&](auto, auto, double a) { return truth.collapse(a); }), 1, PastUse::rates);
+    const double k0 = 0.05, k = 2.5, years = 2400, sigma = 1.0;
+    const HazardUpdate update = hazard_update(collapse, RateCurve(k0, k), years, sigma, 0.95);
+    // over a itself, not its logarithm
+    const double rate =
+        simpson([&](double a) { return truth.collapse(a) * k0 * k * std::pow(a, -k - 1); }, 0.5, 60, 200000) +
+        truth.collapse(60) * k0 * std::pow(60, -k);
+    EXPECT_NEAR(update.collapse_rate.value, rate, 1e-4 * rate);
+    EXPECT_NEAR(update.stands.value, std::exp(-rate * years), 1e-3 * std::exp(-rate * years));
+    // over c itself
+    const auto density = [&](double c) {
+        return c <= 0 ? 0.0 : std::exp(-std::log(c) * std::log(c) / (2 * sigma * sigma) - c * rate * years) / c;
+    };
+    const double whole = simpson(density, 0, 10, 400000);
+    for (const auto& [quantile, p] : {std::pair{update.factor_lower, 0.025}, std::pair{update.factor_median, 0.5},
+                                      std::pair{update.factor_upper, 0.975}})
+        EXPECT_NEAR(simpson(density, 0, quantile.value, 400000) / whole, p, 1e-4);
+    EXPECT_NEAR(update.prior_upper, std::exp(1.959964), 1e-5);
+    // without exposure the posterior is the prior
+    EXPECT_NEAR(factor_quantile(0, 0.7, 0.975), std::exp(0.7 * 1.959963984540054), 1e-4);
+    // beyond the axis
+    EXPECT_NEAR(update.beyond.value, truth.collapse(60) * k0 * std::pow(60, -k) / rate, 1e-5);
+}
+
+TEST(Past, ThePosteriorFindsThePastThatMadeTheState)
+{
+    // the likelihood is a normal bump at 2 events, 2 Hz, 4 m/s2
+    const PastAxes axes{{1, 2, 4}, log_axis(1, 16, 9), 3};
+    const auto bump = [](std::size_t events, double f, double a) {
+        const double e = static_cast<double>(events) - 2, x = std::log(f / 2), y = std::log(a / 4);
+        return 0.8 * std::exp(-2 * e * e - 4 * x * x - 8 * y * y);
+    };
+    const PastLikelihood likelihood = past_likelihood(axes, exact_counts(axes, bump), 1, PastUse::means);
+    const PastPosterior p = past_posterior(likelihood, flat(), 0.95);
+    EXPECT_EQ(p.best, axes.cells_of_one() + axes.intensity.size() + 4);
+    // a state that is left by shaking about 4 m/s2 excludes what is weaker as what is stronger
+    const Exclusion e = exclusion(likelihood, 2, flat(), 0.95);
+    EXPECT_NEAR(e.weaker.value * e.by_likelihood.value, 16, 1e-3);
+    EXPECT_GT(e.weaker.value, 1);
+    EXPECT_LT(e.weaker.value, 4);
+    double sum = 0;
+    for (const double each : p.cells)
+        sum += each;
+    EXPECT_NEAR(sum, 1, 1e-12);
+    // over the number of events alone
+    const double one = std::exp(-2.0), two = 1;
+    EXPECT_NEAR(p.events[1].value, two / (two + 2 * one), 1e-6);
+    EXPECT_NEAR(p.events[0].value, p.events[2].value, 1e-6);
+    EXPECT_NEAR(p.intensity_median.value, 4, 1e-3);
+    EXPECT_NEAR(std::log(p.intensity_upper.value / 4), std::log(4 / p.intensity_lower.value), 1e-3);
+    const std::vector<double> prior = past_prior(axes, flat());
+    EXPECT_NEAR(std::accumulate(prior.begin(), prior.end(), 0.0), 1, 1e-12);
+}
+
+TEST(Past, AStateAgreesWithinItsTolerancesOrMirrored)
+{
+    MeasuredState measured{{0, 0.004, 0.007}, {0.002, 0.002, 0.001}, false};
+    EXPECT_TRUE(distance(measured, std::vector<double>{0.0019, 0.003, 0.0075}).agrees());
+    const StateDistance off = distance(measured, std::vector<double>{0, 0.004, 0.0095});
+    EXPECT_NEAR(off.value, 2.5, 1e-12);
+    EXPECT_EQ(off.worst, 2U);
+    EXPECT_FALSE(distance(measured, std::vector<double>{0, -0.004, -0.007}).agrees());
+    measured.mirrored = true;
+    EXPECT_TRUE(distance(measured, std::vector<double>{0, -0.004, -0.007}).agrees());
+    EXPECT_TRUE(distance(MeasuredState{}, {}).agrees()); // nothing was measured
+}
+
+TEST(PastStatistics, TheIntervalOfAnExclusionContainsTheTruth)
+{
+    // counts of 48 in each cell of six frequencies by twelve intensities, 200 times
+    const Logistic truth{4, 0.35};
+    const PastAxes axes{{1, 1.5, 2, 3, 4, 6}, log_axis(0.8, 16, 12), 1};
+    const auto stands = [&](auto, double f, double a) { return 1 - truth.collapse(a / std::pow(f, 0.2)); };
+    const Exclusion exact =
+        exclusion(past_likelihood(axes, exact_counts(axes, stands), 1, PastUse::means), 1, flat(), 0.95);
+    std::mt19937_64 random(20261125);
+    int by_likelihood = 0, by_posterior = 0, one_likelihood = 0, one_posterior = 0;
+    const auto contains = [](const PastEstimate& e, double truth) { return e.lower <= truth && truth <= e.upper; };
+    const Exclusion of_one =
+        exclusion(past_likelihood(axes, exact_counts(axes, stands), 1, PastUse::cells), 1, flat(), 0.95, 2);
+    constexpr int repeats = 200;
+    for (int r = 0; r < repeats; ++r) {
+        std::vector<CellCount> counts;
+        for (const double f : axes.frequency_hz)
+            for (const double a : axes.intensity)
+                counts.push_back({48, std::binomial_distribution<std::uint64_t>(48, stands(1, f, a))(random)});
+        const Exclusion e =
+            exclusion(past_likelihood(axes, counts, static_cast<std::uint64_t>(r), PastUse::means), 1, flat(), 0.95);
+        by_likelihood += contains(e.by_likelihood, exact.by_likelihood.value);
+        by_posterior += contains(e.by_posterior, exact.by_posterior.value);
+        const Exclusion one =
+            exclusion(past_likelihood(axes, counts, static_cast<std::uint64_t>(r), PastUse::cells), 1, flat(), 0.95, 2);
+        one_likelihood += contains(one.by_likelihood, of_one.by_likelihood.value);
+        one_posterior += contains(one.by_posterior, of_one.by_posterior.value);
+    }
+    RecordProperty("by_likelihood", by_likelihood);
+    RecordProperty("by_posterior", by_posterior);
+    // 95 % of 200 are 190; 180 or fewer come by chance in 1 of 400 runs
+    EXPECT_GE(by_likelihood, 181);
+    EXPECT_GE(by_posterior, 181);
+    // of a single frequency
+    RecordProperty("one_likelihood", one_likelihood);
+    RecordProperty("one_posterior", one_posterior);
+    EXPECT_GE(one_likelihood, 181);
+    EXPECT_GE(one_posterior, 181);
+}
+
+namespace {
+
+/// A structure whose offset is c a^1.5 n^0.7, times e^(0.5 N), and that falls by a logistic in ln a.
+struct Toy {
+    PastAxes axes{{1, 2, 4}, log_axis(1, 10, 10), 3};
+    std::vector<std::uint64_t> trials;
+    StandingStates standing;
+    MeasuredState measured{{0}, {0.004}, false};
+
+    explicit Toy(std::uint64_t seed, std::uint64_t n = 150)
+    {
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> normal;
+        std::uniform_real_distribution<double> uniform;
+        const Logistic falls{6, 0.25};
+        for (std::size_t c = 0; c < axes.cells(); ++c) {
+            trials.push_back(n);
+            const double a = axes.intensity[c % 10], f = axes.frequency_hz[c % 30 / 10];
+            for (std::uint64_t k = 0; k < n; ++k) {
+                if (uniform(random) < falls.collapse(a / std::sqrt(f)))
+                    continue;
+                standing.cell.push_back(c);
+                standing.value.push_back(0.002 * std::pow(a / f, 1.5) *
+                                         std::pow(static_cast<double>(c / 30) + 1.0, 0.7) *
+                                         std::exp(0.5 * normal(random)));
+            }
+        }
+    }
+};
+
+} // namespace
+
+TEST(PastStatistics, CredibleIntervalsCoverTwoHundredMonumentsAtTheirLevel)
+{
+    const Toy toy(5);
+    const MonumentTest test =
+        test_monuments(toy.axes, toy.trials, toy.standing, toy.measured, past_prior(toy.axes, flat()), 200, 9);
+    ASSERT_GE(test.intensity.size(), 198U);
+    for (const std::vector<double>* u : {&test.intensity, &test.frequency, &test.events}) {
+        const auto n = static_cast<double>(u->size());
+        // 95 %: at least 178 of 200 in all but 1 of 500 runs; 50 %: 78 to 122 in all but 1 of 500
+        EXPECT_GE(static_cast<double>(MonumentTest::inside(*u, 0.95)), 0.89 * n);
+        EXPECT_NEAR(static_cast<double>(MonumentTest::inside(*u, 0.5)), 0.5 * n, 22);
+        double mean = 0;
+        for (const double each : *u)
+            mean += each / n;
+        EXPECT_NEAR(mean, 0.5, 3.1 / std::sqrt(12 * n));
+    }
+}
+
+TEST(PastStatistics, TheTestFindsAPriorThatIsWrong)
+{
+    // monuments of which strong pasts are as frequent as weak ones, judged by a prior that expects weak ones
+    const Toy toy(5);
+    const auto places = [&](const PriorDensity& of_monuments, const PriorDensity& believed) {
+        const std::vector<double> truth = past_prior(toy.axes, of_monuments), prior = past_prior(toy.axes, believed);
+        std::vector<std::uint64_t> trials = toy.trials;
+        StandingStates states = toy.standing;
+        double mean = 0, count = 0;
+        std::mt19937_64 random(3);
+        std::vector<double> weight;
+        for (const std::size_t cell : states.cell)
+            weight.push_back(truth[cell]);
+        std::discrete_distribution<std::size_t> choose(weight.begin(), weight.end());
+        for (int m = 0; m < 200; ++m) {
+            const std::size_t itself = choose(random);
+            const MeasuredState seen{{states.value[itself]}, {0.004}, false};
+            double below = 0, here = 0, all = 0;
+            for (std::size_t r = 0; r < states.cell.size(); ++r) {
+                if (r == itself || !distance(seen, std::span(states.value).subspan(r, 1)).agrees())
+                    continue;
+                const double p = prior[states.cell[r]];
+                all += p;
+                below += states.cell[r] % 10 < states.cell[itself] % 10 ? p : 0;
+                here += states.cell[r] % 10 == states.cell[itself] % 10 ? p : 0;
+            }
+            mean += all > 0 ? (below + here / 2) / all : 0;
+            count += all > 0;
+        }
+        return mean / count;
+    };
+    const auto weak = [](double a) { return std::pow(a, -2.5); };
+    EXPECT_NEAR(places(flat(), flat()), 0.5, 3.1 / std::sqrt(12 * 200.0));
+    EXPECT_GT(places(flat(), weak), 0.5 + 3.1 / std::sqrt(12 * 200.0));
+}

@@ -1,0 +1,230 @@
+/// Survival studies: several events in succession, the final state of a realization, and the counts of the rows.
+
+#include "ensemble/motion/base_motion.hpp"
+#include "ensemble/sampling/sampler.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/trajectory.hpp"
+#include "studies/kinds/survival/combined_past.hpp"
+#include "studies/kinds/survival/survival.hpp"
+#include "studies/kinds/survival/survival_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace stylobate {
+namespace {
+
+/// A squat block that slides and does not rock.
+std::string squat(const std::string& excitation, const std::string& survival)
+{
+    return "[study]\nkind = \"survival\"\nrealizations = 2\n"
+           "[structure]\nblocks = 1\ndrum_width_m = 1.0\ndrum_height_m = 0.2\ndepth_m = 1.0\ndensity_kg_m3 = 2700\n"
+           "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.2\n[excitation]\n" +
+           excitation +
+           "\n[surface]\nfrequency_hz = { from = 1, to = 2, count = 2 }\npga_m_s2 = { from = 3, to = 5, count = 3 }\n"
+           "[survival]\nevents = 3\npause_s = 2\n" +
+           survival + "\n";
+}
+
+TEST(Survival, SeveralEventsAreOneAfterTheOther)
+{
+    for (const std::string kind : {"harmonic", "half_sine", "full_sine", "ricker", "pulse", "tapered"}) {
+        const Study study = parse_study(squat("kind = \"" + kind + "\"", ""), kind);
+        ASSERT_EQ(study.total(), 3U * 6 * 2);
+        ASSERT_EQ(study.originals(), 12U);
+        const Sampler sampler(study, nullptr);
+        const std::uint64_t index = 7, later = index + 2 * study.originals();
+        EXPECT_EQ(study.events(index), 1);
+        EXPECT_EQ(study.events(later), 3);
+        EXPECT_EQ(study.cell(later), study.cell(index));
+        const Realization one = sampler.realization(index), three = sampler.realization(later);
+        EXPECT_EQ(one.pga_m_s2, three.pga_m_s2);
+        const BaseMotion a(study.excitation, one, nullptr), b(study.excitation, three, nullptr);
+        const double T = a.duration_s(), period = (b.duration_s() - T) / 2;
+        EXPECT_NEAR(period, T + 2, 0.02) << kind; // and at most two samples
+        double peak = 0;
+        for (int i = 0; i <= 100; ++i)
+            peak = std::max(peak, std::fabs(a.displacement_m(T * i / 100)));
+        // a half sine leaves the ground in motion: at the velocity v after the first, 2 v after the second
+        const double v = a.displacement_m(T + 1) - a.displacement_m(T), end = a.displacement_m(T) - v * T;
+        for (int event = 0; event < 3; ++event)
+            for (int i = 0; i <= 50; ++i) {
+                const double t = T * i / 50, at = event * period + t;
+                double expected = a.displacement_m(t);
+                for (int before = 0; before < event; ++before)
+                    expected += end + v * (at - before * period);
+                EXPECT_NEAR(b.displacement_m(at), expected, 3e-3 * peak) << kind << ' ' << event << ' ' << i;
+            }
+    }
+}
+
+TEST(Survival, NoiseIsDrawnAnewForEachEvent)
+{
+    const Study study = parse_study(squat("kind = \"noise\"\nstrong_s = 2", ""), "noise");
+    const Sampler sampler(study, nullptr);
+    const Realization two = sampler.realization(study.originals()), one = sampler.realization(0);
+    ASSERT_TRUE(two.motion && one.motion);
+    const std::vector<double>& a = two.motion->acceleration_m_s2;
+    const std::size_t n = one.motion->acceleration_m_s2.size(), second = a.size() - n;
+    EXPECT_NE(std::vector<double>(a.begin(), a.begin() + 100),
+              std::vector<double>(a.begin() + static_cast<std::ptrdiff_t>(second),
+                                  a.begin() + static_cast<std::ptrdiff_t>(second + 100)));
+    for (const auto& [from, to] : {std::pair{std::size_t{0}, n}, std::pair{second, a.size()}}) {
+        double peak = 0;
+        for (std::size_t i = from; i < to; ++i)
+            peak = std::max(peak, std::fabs(a[i]));
+        EXPECT_NEAR(peak, two.pga_m_s2, 1e-9) << "each is as strong";
+    }
+}
+
+TEST(Survival, ABlockThatSlidesUnderOneEventSlidesTwiceAndThriceAsFarUnderTwoAndThree)
+{
+    const Study study = parse_study(squat("kind = \"full_sine\"", "observed = { tolerance_m = 0.001 }"), "squat");
+    const Experiment experiment(study);
+    std::vector<double> offset;
+    for (std::uint64_t events = 0; events < 3; ++events) {
+        const FollowedRealization f = follow(experiment, 2 * 2 + events * study.originals(), Isa::scalar);
+        ASSERT_EQ(f.outcome.bed_offset_m.size(), 1U);
+        ASSERT_EQ(f.outcome.rotation_rad.size(), 1U);
+        offset.push_back(f.outcome.bed_offset_m[0]);
+        // what the trajectory shows
+        const double moved = f.trajectory.x_m.back() - f.trajectory.x_m.front();
+        EXPECT_NEAR(offset.back(), moved, 2e-5);
+        EXPECT_NEAR(f.outcome.rotation_rad[0], 0, 1e-6);
+        EXPECT_EQ(std::fabs(offset.back()), f.outcome.residual_sliding_m);
+    }
+    EXPECT_GT(std::fabs(offset[0]), 0.02);
+    EXPECT_NEAR(offset[1], 2 * offset[0], 0.01 * std::fabs(offset[0]));
+    EXPECT_NEAR(offset[2], 3 * offset[0], 0.015 * std::fabs(offset[0]));
+    // another kind does not have it
+    const Study plain = parse_study(squat("kind = \"full_sine\"", ""), "squat", {"study.kind=survival"});
+    EXPECT_FALSE(follow(Experiment(plain), 0, Isa::scalar).outcome.bed_offset_m.empty());
+}
+
+/// Rows of known outcomes: of the cells of three intensities 10, 5 and 0 of 10 stand, with offsets that are their
+/// number in the cell in mm.
+std::vector<ResultRow> made_rows(const Study& study)
+{
+    std::vector<ResultRow> rows;
+    for (std::uint64_t i = 0; i < study.total(); ++i) {
+        ResultRow row;
+        row.index = i;
+        row.cell = study.cell(i);
+        const std::uint64_t number = i % 10, stand = row.cell % 3 == 0 ? 10 : row.cell % 3 == 1 ? 5 : 0;
+        row.outcome.state = number < stand ? State::slid : State::collapsed;
+        row.outcome.bed_offset_m = {0.001 * static_cast<double>(number)};
+        row.outcome.rotation_rad = {0};
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+Study made_study(const std::string& observed)
+{
+    return parse_study(squat("kind = \"full_sine\"", observed), "made",
+                       {"study.realizations=10", "survival.events=2", "survival.monuments=20"});
+}
+
+ResultHeader header_of(const Study& study)
+{
+    ResultHeader header;
+    header.kind = "survival";
+    header.block_names = {"drum"};
+    header.bed_names = {"drum on the ground"};
+    header.frequency_hz = {1, 2};
+    header.pga_m_s2 = {3, 4, 5};
+    header.total = study.total();
+    return header;
+}
+
+TEST(Survival, CountsAreThoseOfTheRowsInAnyOrder)
+{
+    const Study study = made_study("observed = { joint_offset_m = [0.003], tolerance_m = 0.0011, mirrored = true }");
+    const ResultHeader header = header_of(study);
+    std::vector<ResultRow> rows = made_rows(study);
+    SurvivalCounts counts(study, header);
+    for (const ResultRow& row : rows)
+        counts.add(row);
+    for (std::size_t cell = 0; cell < 12; ++cell) {
+        EXPECT_EQ(counts.agree()[cell].trials, 10U);
+        // 2, 3 and 4 mm agree, wherever they stand
+        EXPECT_EQ(counts.agree()[cell].successes, cell % 3 == 2 ? 0U : 3U) << cell;
+        EXPECT_EQ(counts.stand()[cell].successes, cell % 3 == 0 ? 10U : cell % 3 == 1 ? 5U : 0U);
+    }
+    ASSERT_TRUE(counts.nearest());
+    EXPECT_EQ(counts.nearest()->index, 3U);
+    EXPECT_NEAR(counts.nearest()->distance, 0, 1e-12);
+    const std::string json = survival_json(survival_of(study, counts)).text();
+    std::shuffle(rows.begin(), rows.end(), std::mt19937_64(4));
+    SurvivalCounts shuffled(study, header);
+    for (const ResultRow& row : rows)
+        shuffled.add(row);
+    EXPECT_EQ(survival_json(survival_of(study, shuffled)).text(), json);
+}
+
+TEST(Survival, WhereNothingWasMeasuredAllThatStandAgree)
+{
+    const Study study = made_study("");
+    SurvivalCounts counts(study, header_of(study));
+    for (const ResultRow& row : made_rows(study))
+        counts.add(row);
+    for (std::size_t cell = 0; cell < 12; ++cell)
+        EXPECT_EQ(counts.agree()[cell].successes, counts.stand()[cell].successes);
+    const Survival survival = survival_of(study, counts);
+    EXPECT_FALSE(survival.monuments);
+    ASSERT_TRUE(survival.judged());
+    // 1, 1/2, 0 over 3, 4, 5 m/s2: between 4 and 5 the likelihood falls below the threshold
+    const Exclusion& e = survival.by_events.front();
+    ASSERT_TRUE(e.excludes());
+    EXPECT_GT(e.by_likelihood.value, 4);
+    EXPECT_LT(e.by_likelihood.value, 5);
+    EXPECT_LT(e.by_likelihood.lower, e.by_likelihood.value);
+    EXPECT_GT(e.by_likelihood.upper, e.by_likelihood.value);
+}
+
+TEST(Survival, AStateThatNoneReachesHasANearestOne)
+{
+    const Study study = made_study("observed = { joint_offset_m = [0.02], tolerance_m = 0.002 }");
+    SurvivalCounts counts(study, header_of(study));
+    for (const ResultRow& row : made_rows(study))
+        counts.add(row);
+    const Survival survival = survival_of(study, counts);
+    EXPECT_FALSE(survival.judged());
+    ASSERT_TRUE(survival.nearest);
+    EXPECT_EQ(survival.nearest->index, 9U); // 9 mm, 5.5 tolerances away
+    EXPECT_NEAR(survival.nearest->distance, 5.5, 1e-9);
+    EXPECT_TRUE(survival.by_events.empty());
+    EXPECT_FALSE(survival.posterior);
+    const std::string words = not_judged_words(survival);
+    for (const char* word : {"cannot be judged", "realization 9", "5.5 tolerances", "more realizations"})
+        EXPECT_NE(words.find(word), std::string::npos) << words;
+}
+
+TEST(Survival, StructuresTogetherExcludeMoreThanAlone)
+{
+    const Study study = made_study("");
+    const PastAxes axes{{1, 2}, {3, 4, 5}, 2};
+    const auto counts = [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+        std::vector<CellCount> all;
+        for (int k = 0; k < 4; ++k)
+            for (const std::uint64_t n : {a, b, c})
+                all.push_back({1000, n});
+        return all;
+    };
+    const CombinedPast both =
+        combined_past({{"a.h5", study, axes, counts(1000, 500, 50)}, {"b.h5", study, axes, counts(1000, 400, 20)}});
+    ASSERT_TRUE(both.together.front().excludes());
+    EXPECT_LT(both.together.front().by_likelihood.value, both.alone[0].by_likelihood.value);
+    EXPECT_LT(both.together.front().by_likelihood.value, both.alone[1].by_likelihood.value);
+    // product of the likelihoods: 1, 0.2, 0.001
+    const std::vector<PastEstimate>& l = both.together.front().likelihood;
+    EXPECT_NEAR(l[1].value / l[0].value, 0.2, 0.002);
+}
+
+} // namespace
+} // namespace stylobate
