@@ -4,6 +4,7 @@
 #include "ensemble/model/motion_set.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparable.hpp"
+#include "studies/decisions/compare/input_dependence.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/version.hpp"
 
@@ -139,6 +140,14 @@ Comparison comparison_of(const std::vector<std::string>& names, const std::vecto
         const ReadStudy variant(files[i]);
         VariantComparison found =
             compare_sides(base.side, header.input_names, variant.side, variant.reader.header().input_names, layout);
+        if (!found.limits.empty()) {
+            const auto number = [&](const StudySide& side) {
+                const auto at = std::ranges::find(side.limits(), found.limits.front().name, &LimitDefinition::name);
+                return static_cast<std::size_t>(at - side.limits().begin());
+            };
+            found.depends = input_dependences(base.reader, base.side, variant.side, number(base.side),
+                                              number(variant.side), layout);
+        }
         found.name = names[i];
         found.results = fs::path(files[i]).filename().string();
         found.study_toml = variant.reader.header().study_toml;

@@ -1,6 +1,7 @@
 #pragma once
 /// What an intervention changes, by limit state and place, as plain data.
 
+#include "ensemble/estimators/paired/dependence.hpp"
 #include "ensemble/estimators/paired/paired_counts.hpp"
 #include "studies/experiment/limit_state.hpp"
 
@@ -65,6 +66,13 @@ struct CommonInput {
     std::uint64_t numbers = 1; ///< how many of the quantity (joints, blocks) are so
 };
 
+/// On which drawn quantity the change of the first limit state depends.
+struct InputDependence {
+    std::string input; ///< "friction": of a quantity that joints or blocks have of their own the mean over them
+    Dependence found;
+    double p_adjusted = 1; ///< over the quantities, by Holm's procedure
+};
+
 struct VariantComparison {
     std::string name;                                                 ///< "dowels"
     std::string results;                                              ///< its results file
@@ -74,6 +82,7 @@ struct VariantComparison {
     std::vector<CommonInput> inputs;
     std::vector<std::string> notes; ///< what else differs, in sentences
     std::vector<LimitComparison> limits;
+    std::vector<InputDependence> depends; ///< smallest p-value first; none where pairs share motions
 };
 
 struct Comparison {

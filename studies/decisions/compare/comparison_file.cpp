@@ -107,6 +107,52 @@ void read_places(const Table& table, const std::vector<PlaceComparison*>& places
     }
 }
 
+void add_dependences(Table& table, const std::vector<InputDependence>& depends)
+{
+    std::vector<std::string> inputs;
+    std::vector<double> z, p, adjusted, between, difference, lower, upper;
+    for (const InputDependence& input : depends) {
+        inputs.push_back(input.input);
+        z.push_back(input.found.z);
+        p.push_back(input.found.p);
+        adjusted.push_back(input.p_adjusted);
+        between.insert(between.end(), input.found.between.begin(), input.found.between.end());
+        for (const PairedDifference& third : input.found.thirds) {
+            difference.push_back(third.value);
+            lower.push_back(third.lower);
+            upper.push_back(third.upper);
+        }
+    }
+    const std::size_t n = inputs.size();
+    table.add("depends_on", std::move(inputs));
+    table.add("depends_z", std::move(z), {n});
+    table.add("depends_p", std::move(p), {n});
+    table.add("depends_p_adjusted", std::move(adjusted), {n});
+    table.add("depends_between", std::move(between), {n, 2});
+    table.add("depends_difference", std::move(difference), {n, 3});
+    table.add("depends_difference_lower", std::move(lower), {n, 3});
+    table.add("depends_difference_upper", std::move(upper), {n, 3});
+}
+
+std::vector<InputDependence> dependences_of(const Table& table)
+{
+    const std::vector<std::string>& inputs = table.texts("depends_on");
+    const std::size_t n = inputs.size();
+    const std::vector<double>&z = table.numbers("depends_z", {n}), &p = table.numbers("depends_p", {n}),
+          &adjusted = table.numbers("depends_p_adjusted", {n}), &between = table.numbers("depends_between", {n, 2}),
+          &difference = table.numbers("depends_difference", {n, 3}),
+          &lower = table.numbers("depends_difference_lower", {n, 3}),
+          &upper = table.numbers("depends_difference_upper", {n, 3});
+    std::vector<InputDependence> all;
+    for (std::size_t i = 0; i < n; ++i) {
+        InputDependence& input = all.emplace_back(InputDependence{inputs[i], {z[i], p[i], {}, {}}, adjusted[i]});
+        input.found.between = {between[2 * i], between[2 * i + 1]};
+        for (std::size_t third = 0; third < 3; ++third)
+            input.found.thirds[third] = {difference[3 * i + third], lower[3 * i + third], upper[3 * i + third]};
+    }
+    return all;
+}
+
 Table table_of(const VariantComparison& v, std::size_t number, std::size_t cells)
 {
     Table table(variant_table + std::to_string(number));
@@ -144,6 +190,7 @@ Table table_of(const VariantComparison& v, std::size_t number, std::size_t cells
     table.add("input_draws", draws);
     table.add("input_numbers", numbers);
     table.add("notes", v.notes);
+    add_dependences(table, v.depends);
     return table;
 }
 
@@ -180,6 +227,7 @@ VariantComparison variant_of(const Table& table, std::size_t cells)
         v.inputs.push_back({inputs[i], static_cast<CommonDraws>(draws[i]), numbers[i]});
     }
     v.notes = table.texts("notes");
+    v.depends = dependences_of(table);
     return v;
 }
 

@@ -1,7 +1,10 @@
 #include "studies/decisions/compare/comparison_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/drawing/plot_structure.hpp"
 #include "io/files/temporary_folder.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/report/html_figure.hpp"
@@ -9,10 +12,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <functional>
 
 namespace stylobate {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string side_text(const Share& share)
 {
@@ -35,7 +42,7 @@ class ComparisonPage {
 public:
     ComparisonPage(const Comparison& comparison, const std::string& file, const std::string& title,
                    std::vector<std::string>& warnings)
-        : c_(comparison), warnings_(warnings),
+        : c_(comparison), file_(file), warnings_(warnings),
           page_(title.empty() ? "Comparison with " + (c_.title.empty() ? c_.base_name : c_.title) : title,
                 fmt::format("{}. Made by stylobate {}.", file, c_.code_version))
     {
@@ -43,6 +50,11 @@ public:
 
     HtmlPage page()
     {
+        page_.section("The answer");
+        answers();
+        structure();
+        page_.section("What it hangs on");
+        hangs_on();
         page_.section("What changes");
         page_.paragraph(
             common_text(c_) +
@@ -59,10 +71,103 @@ public:
             page_.heading(variant.name);
             page_.block(variant.study_toml);
         }
+        page_.section("How to repeat it");
+        commands();
         return std::move(page_);
     }
 
 private:
+    void answers()
+    {
+        std::string names;
+        for (const VariantComparison& variant : c_.variants)
+            names += (names.empty() ? "" : ", ") + variant.name;
+        page_.paragraph(
+            fmt::format("The question: does the structure of {} fare better with {}?", c_.base_name, names));
+        for (const VariantComparison& variant : c_.variants) {
+            if (variant.limits.empty())
+                continue;
+            const LimitComparison& limit = variant.limits.front();
+            const ChangeVerdict verdict = limit.verdict(limit.overall);
+            page_.box(verdict == ChangeVerdict::better  ? "good"
+                      : verdict == ChangeVerdict::worse ? "bad"
+                                                        : "warn",
+                      variant.name, answer_text(c_, variant));
+            if (const std::string harm = harm_text(c_, variant); !harm.empty())
+                page_.note(variant.name + ": " + harm);
+        }
+    }
+
+    /// Draws it, or says why not.
+    void picture(const char* what, const std::string& caption, const std::function<void(const fs::path& png)>& draw)
+    {
+        try {
+            const TemporaryFolder folder;
+            const fs::path png = folder / "picture.png";
+            draw(png);
+            page_.figure(png_image(png, caption), caption);
+        } catch (const InputError& error) {
+            warnings_.push_back(fmt::format("{} was not drawn: {}", what, error.what()));
+            page_.note(fmt::format("{} was not drawn: {}", what, error.what()));
+        }
+    }
+
+    void structure()
+    {
+        picture("the structure", "The structure of the base, as designed.", [&](const fs::path& png) {
+            plot_structure(parse_study(c_.base_toml, c_.base_name), c_.base_name, png);
+        });
+    }
+
+    void hangs_on()
+    {
+        if (c_.motions > 0)
+            page_.paragraph("Pairs share motions here, so no test by drawn quantity was made. How much the answer "
+                            "depends on the motions is in the width of its intervals, which count each motion once.");
+        else
+            page_.paragraph(fmt::format(
+                "Differences of the first limit state in the lower, middle and upper third of each drawn quantity, "
+                "means "
+                "over the cells. A quantity counts where the adjusted p-value of its rank test is at most {:g}.",
+                c_.rate));
+        for (const VariantComparison& variant : c_.variants) {
+            if (variant.limits.empty())
+                continue;
+            HtmlTable table{
+                "lrrrr", {"quantity", "lower third", "middle third", "upper third", "adjusted p"}, {}, variant.name};
+            for (const InputDependence& input : variant.depends) {
+                std::vector<Html> row = {input.input};
+                for (const PairedDifference& third : input.found.thirds)
+                    row.emplace_back(fmt::format("{:+.3f} [{:+.3f}, {:+.3f}]", third.value, third.lower, third.upper));
+                row.emplace_back(fmt::format("{:.2g}", input.p_adjusted));
+                table.rows.push_back(std::move(row));
+            }
+            if (!table.rows.empty())
+                page_.table(table);
+            page_.heading("What would change it: " + variant.name);
+            std::vector<Html> items;
+            for (const std::string& sentence : what_would_change_it(c_, variant))
+                items.emplace_back(sentence);
+            page_.list(items);
+        }
+        page_.note(
+            "Not examined: what the studies hold fixed. Another structure, shaking, contact form or range of the "
+            "drawn quantities can have another answer.");
+    }
+
+    void commands()
+    {
+        std::string studies = "base.toml", results = c_.base_results;
+        for (std::size_t i = 0; i < c_.variants.size(); ++i) {
+            studies += fmt::format(" variant_{}.toml", i + 1);
+            results += " " + c_.variants[i].results;
+        }
+        page_.paragraph("The studies above, in files of their own, give the same numbers with the same version of the "
+                        "program. The second command uses the results that exist.");
+        page_.block(
+            fmt::format("stylobate compare {}\nstylobate compare {}\nstylobate report {}\n", studies, results, file_));
+    }
+
     void overall()
     {
         for (const VariantComparison& variant : c_.variants) {
@@ -89,16 +194,10 @@ private:
             return stripes(limit);
         if (c_.frequency_hz.empty())
             return;
-        try {
-            const TemporaryFolder folder;
-            const auto png = folder / "map.png";
-            comparison_picture(c_, limit, "", png);
-            page_.figure(png_image(png, "Change of " + limit + " over frequency and PGA"),
-                         "Change of " + limit + ". Cells in full colours are named: " + adjustment_text(c_) + ".");
-        } catch (const InputError& error) {
-            warnings_.push_back(std::string("the map was not drawn: ") + error.what());
-            page_.note(std::string("The map was not drawn: ") + error.what());
-        }
+        picture("the map",
+                "Change of " + limit +
+                    " over frequency and PGA. Cells in full colours are named: " + adjustment_text(c_) + ".",
+                [&](const fs::path& png) { comparison_picture(c_, limit, "", png); });
     }
 
     void stripes(const std::string& limit)
@@ -175,6 +274,7 @@ private:
     }
 
     const Comparison& c_;
+    const std::string& file_;
     std::vector<std::string>& warnings_;
     HtmlPage page_;
 };

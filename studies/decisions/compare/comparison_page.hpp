@@ -9,8 +9,9 @@
 
 namespace stylobate {
 
-/// What the interventions change, where they harm, what is common, and how it was computed. Where the map cannot be
-/// drawn the page has a message.
+/// For a reader who decides: the answer in a sentence with its interval, the structure, what the answer hangs on and
+/// what would change it; then what changes, where it harms, what is common, the studies and the commands. Where the map
+/// cannot be drawn the page has a message.
 /// @param file for names   @param title empty: by the base
 /// @param warnings receives a line for a picture that could not be drawn
 HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::string& title,

@@ -1,5 +1,7 @@
 #include "studies/decisions/compare/comparison_text.hpp"
 
+#include "studies/decisions/compare/comparison_answer.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -91,6 +93,22 @@ Json named_json(const Comparison& comparison, const LimitComparison& limit, bool
     return list;
 }
 
+Json dependence_json(const InputDependence& input)
+{
+    Json thirds = Json::list();
+    for (const PairedDifference& third : input.found.thirds)
+        thirds.item(
+            Json::object().member("difference", third.value).member("lower", third.lower).member("upper", third.upper));
+    return Json::object()
+        .member("quantity", input.input)
+        .member("z", input.found.z)
+        .member("p", input.found.p)
+        .member("p_adjusted", input.p_adjusted)
+        .member("between_low", input.found.between[0])
+        .member("between_high", input.found.between[1])
+        .member("thirds", thirds);
+}
+
 Json variant_json(const Comparison& comparison, const VariantComparison& variant)
 {
     Json inputs = Json::list();
@@ -107,6 +125,9 @@ Json variant_json(const Comparison& comparison, const VariantComparison& variant
                                       .member("worse_cells", named_json(comparison, limit, true))
                                       .member("better_cells", named_json(comparison, limit, false))
                                       .member("cells", cells_json(comparison, limit)));
+    Json depends = Json::list();
+    for (const InputDependence& input : variant.depends)
+        depends.item(dependence_json(input));
     Json json = Json::object();
     json.member("name", variant.name)
         .member("results", variant.results)
@@ -115,6 +136,7 @@ Json variant_json(const Comparison& comparison, const VariantComparison& variant
         .member("invalid_variant", variant.invalid_variant)
         .member("dropped_pairs", variant.dropped)
         .member("common", inputs)
+        .member("depends_on", depends)
         .member("notes", Json::list(variant.notes))
         .member("limit_states", limits);
     return json;
@@ -142,6 +164,8 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
         if (limit.cells.size() > 1)
             text += named_text(comparison, limit, true) + named_text(comparison, limit, false);
     }
+    for (const std::string& dependence : dependence_texts(comparison, variant))
+        text += "  hangs on " + dependence + "\n";
     return text;
 }
 

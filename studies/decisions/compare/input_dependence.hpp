@@ -1,22 +1,15 @@
 #pragma once
 /// On which drawn quantities the gain of a variant depends: friction, stiffness, a phase.
 
-#include "ensemble/estimators/paired/dependence.hpp"
 #include "io/store/result_store.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/decisions/compare/study_side.hpp"
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace stylobate {
-
-struct InputDependence {
-    std::string input; ///< "friction": of a quantity that joints or blocks have of their own the mean over them
-    Dependence found;
-    double p_adjusted = 1; ///< over the quantities, by Holm's procedure
-};
 
 /// Pairs that are looked at, at most: the first ones of each cell.
 inline constexpr std::uint64_t most_dependence_pairs = 4'000'000;
