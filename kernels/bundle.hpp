@@ -150,10 +150,78 @@ struct OfRealizationExtension {
     enum Field : int {
         base_dx,      ///< increment of the base's displacement in the last step [m]; step
         base_dy,      ///< the same upwards [m]; step
-        joint_energy, ///< 2 x the energy taken by dowels and worn corners [J]; step
+        joint_energy, ///< 2 x the energy taken by dowels, worn corners and reinforcements [J]; step
         drag_energy,  ///< 2 dt2 x the work against drag and ties [J s2]; step
         count
     };
+};
+
+/// Fields of what strengthens a block (`mechanisms/reinforced.hpp`); present only with a reinforced model. All zero is
+/// neutral. The fields from `tendon_set` on are the memory of the path, which the step writes.
+struct OfBlockReinforcement {
+    enum Field : int {
+        tendon_stiffness, ///< tendon: k [N/m]
+        tendon_stretch,   ///< elongation at rest, T0 / k [m]
+        tendon_yield,     ///< T_y [N]
+        tendon_length,    ///< distance of the anchors at rest [m]
+        tendon_x,         ///< from the lower anchor to the upper one in the reference stack [m]
+        tendon_y,         ///< [m]
+        clamp_pull,       ///< clamp: stiffness in tension [N/m]
+        clamp_push,       ///< in compression [N/m]
+        clamp_strength,   ///< [N]
+        clamp_gap,        ///< free play to either side [m]
+        clamp_break,      ///< elongation at which it breaks [m]
+        clamp_length,     ///< place of its right end along the left block's axis at rest [m]
+        clamp_x,          ///< its right end from the right block's geometric centre, in that block's frame [m]
+        clamp_y,          ///< [m]
+        tendon_set,       ///< plastic elongation [m]; step
+        tendon_at,        ///< elongation since rest at the last step [m]; step
+        tendon_force,     ///< at the last step [N]; step
+        clamp_set,        ///< plastic elongation [m]; step
+        clamp_at,         ///< elongation since rest at the last step [m]; step
+        clamp_force,      ///< at the last step, tension positive [N]; step
+        clamp_broken,     ///< 1 once it has broken; step
+        held,             ///< energy stored in both [J]; step
+        count
+    };
+    static constexpr int memory = tendon_set; ///< the first field that the step writes
+};
+
+/// The same of a bed. The fields from `bearing_at` on are the memory of the path.
+struct OfJointReinforcement {
+    enum Field : int {
+        bearing_stiffness,  ///< bearing: k [N/m]
+        bearing_dashpot,    ///< c / dt [N/m]
+        bearing_per_radius, ///< 1 / R [1/m]
+        rest_offset,        ///< offset of the faces at rest, from which bearing and mortar count [m]
+        bond_tension,       ///< mortar: f_t D [N/m]
+        bond_cohesion,      ///< mortar: c D [N/m]
+        hold_limit,         ///< pull_out: F_a of one dowel [N]
+        hold_stiffness,     ///< [N/m]
+        per_hold_stiffness, ///< 1 / that, 0 without [m/N]
+        hold_length,        ///< embedded length [m]
+        hold_spread,        ///< of the dowels from the middle of the upper face [m]
+        bond,               ///< mortar: 1 while it is whole; step
+        bond_spring,        ///< its elastic shear force [N]; step
+        bearing_at,         ///< offset at the last step, from `rest_offset` [m]; step
+        bearing_force,      ///< at the last step [N]; step
+        bond_offset,        ///< offset of the faces at the last step, from `rest_offset` [m]; step
+        bond_opening,       ///< opening at the middle of the upper face at the last step [m]; step
+        bond_pull,          ///< tension at the last step [N]; step
+        bond_couple,        ///< its moment about that middle [N m]; step
+        bond_shear,         ///< shear force at the last step [N]; step
+        left_set,           ///< pull_out: plastic opening of the left dowel [m]; step
+        left_at,            ///< its opening at the last step [m]; step
+        left_force,         ///< its force at the last step [N]; step
+        left_out,           ///< 1 once it is out; step
+        right_set,          ///< the same of the right dowel; step
+        right_at,           ///< step
+        right_force,        ///< step
+        right_out,          ///< step
+        held,               ///< energy stored in all of them [J]; step
+        count
+    };
+    static constexpr int memory = bearing_at; ///< the first field that the step writes from nothing
 };
 
 /// Additional fields of a block of the rigid form (`rigid/rigid_step.hpp`).
@@ -289,6 +357,9 @@ struct BundleOf {
     Number* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
     Number* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
     Number* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
+    // with a reinforced model:
+    Number* block_reinforcements = nullptr; ///< (blocks x OfBlockReinforcement::count x lanes)
+    Number* joint_reinforcements = nullptr; ///< (joints x OfJointReinforcement::count x lanes)
     // with the rigid form:
     Number* rigid_blocks = nullptr; ///< (blocks x OfRigidBlock::count x lanes)
     Number* rigid_joints = nullptr; ///< (joints x OfRigidJoint::count x lanes)
@@ -319,6 +390,14 @@ struct BundleOf {
     constexpr Number& at(OfRealizationExtension::Field field, int lane) const
     {
         return realization_extensions[field * lanes + lane];
+    }
+    constexpr Number& at(OfBlockReinforcement::Field field, int block, int lane) const
+    {
+        return block_reinforcements[(block * OfBlockReinforcement::count + field) * lanes + lane];
+    }
+    constexpr Number& at(OfJointReinforcement::Field field, int joint, int lane) const
+    {
+        return joint_reinforcements[(joint * OfJointReinforcement::count + field) * lanes + lane];
     }
     constexpr Number& at(OfRigidBlock::Field field, int block, int lane) const
     {
@@ -351,13 +430,16 @@ constexpr std::size_t bundle_registers(const Topology& topology)
                                ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
                                      OfRealizationExtension::count
                                : 0;
+    const int reinforcements = topology.model.reinforced ? topology.blocks * OfBlockReinforcement::count +
+                                                               topology.joints * OfJointReinforcement::count
+                                                         : 0;
     const int rigid = topology.model.rigid()
                           ? topology.blocks * OfRigidBlock::count + topology.joints * OfRigidJoint::count +
                                 topology.rigid_edges * OfRigidEdge::count + OfRigid::count
                           : 0;
     const int remainders = compensated<Number> ? topology.blocks * OfRemainder::count : 0;
     return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + extensions + rigid + remainders) +
+                                    OfRealization::count + extensions + reinforcements + rigid + remainders) +
            table_registers(topology);
 }
 
@@ -396,6 +478,10 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
         b.joint_extensions = take(topology.joints * OfJointExtension::count);
         b.realization_extensions = take(OfRealizationExtension::count);
     }
+    if (topology.model.reinforced) {
+        b.block_reinforcements = take(topology.blocks * OfBlockReinforcement::count);
+        b.joint_reinforcements = take(topology.joints * OfJointReinforcement::count);
+    }
     if (topology.model.rigid()) {
         b.rigid_blocks = take(topology.blocks * OfRigidBlock::count);
         b.rigid_joints = take(topology.joints * OfRigidJoint::count);
@@ -426,6 +512,8 @@ constexpr BundleOf<Number> lane_of(BundleOf<Number> b, int lane)
     move(b.realization_extensions);
     move(b.vertical_table);
     move(b.pitch_table);
+    move(b.block_reinforcements);
+    move(b.joint_reinforcements);
     move(b.rigid_blocks);
     move(b.rigid_joints);
     move(b.rigid_edges);

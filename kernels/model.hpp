@@ -22,6 +22,7 @@ enum class RestitutionLaw : std::uint8_t {
 struct Model {
     bool mechanisms = false; ///< an extension of a joint, a block or the base may be other than neutral
     ContactForm form = ContactForm::area;
+    bool reinforced = false; ///< with mechanisms: so may be one of what strengthens a structure (`reinforced.hpp`)
     constexpr bool rigid() const { return form == ContactForm::rigid; }
     /// Whether the bundle has the rows of the extensions: some belong to the forms.
     constexpr bool extended() const

@@ -48,6 +48,16 @@ public:
     {
         return L::load(&b_.realization_extensions[f * stride()]);
     }
+    STYLOBATE_INLINE Real get(OfBlockReinforcement::Field f, int i) const
+    {
+        return L::load(&b_.block_reinforcements[row(i, OfBlockReinforcement::count, f)]);
+    }
+    STYLOBATE_INLINE Real get(OfJointReinforcement::Field f, int i) const
+    {
+        return L::load(&b_.joint_reinforcements[row(i, OfJointReinforcement::count, f)]);
+    }
+    /// Whether there are rows of reinforcements.
+    STYLOBATE_INLINE bool reinforced() const { return b_.joint_reinforcements != nullptr; }
     STYLOBATE_INLINE Real get(OfPitch::Field f, int step) const
     {
         return L::load(&b_.pitch_table[row(step, OfPitch::count, f)]);
@@ -85,6 +95,14 @@ public:
     STYLOBATE_INLINE void put(OfJointExtension::Field f, int i, Real v) const
     {
         L::store(&b_.joint_extensions[row(i, OfJointExtension::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfBlockReinforcement::Field f, int i, Real v) const
+    {
+        L::store(&b_.block_reinforcements[row(i, OfBlockReinforcement::count, f)], v);
+    }
+    STYLOBATE_INLINE void put(OfJointReinforcement::Field f, int i, Real v) const
+    {
+        L::store(&b_.joint_reinforcements[row(i, OfJointReinforcement::count, f)], v);
     }
     STYLOBATE_INLINE void put(OfRealizationExtension::Field f, Real v) const
     {

@@ -424,7 +424,8 @@ private:
                 put(OfJointExtension::couple, joint, couple);
             }
             if constexpr (extended)
-                joint_energy = joint_energy + after_force(*this, topology_.joint[joint], joint, s, f, turning);
+                joint_energy =
+                    joint_energy + after_force<Mechanism>(*this, topology_.joint[joint], joint, s, f, turning);
             put(OfJoint::dashpot_force, joint, dashpot);
             shear_energy = fma(f.tangential + get(OfJoint::shear_force, joint), s.sliding, shear_energy);
             put(OfJoint::shear_force, joint, f.tangential);
@@ -515,6 +516,8 @@ private:
         const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
         const Real base = this->base(step);
         const Real push = gx - base;
+        if constexpr (Mechanism::extended)
+            reinforce_blocks<Mechanism>(*this, topology_);
         [[maybe_unused]] auto pull = [&] {
             if constexpr (Mechanism::extended)
                 return ExtendedPull<Real, Layout>(*this, step);

@@ -27,23 +27,25 @@ struct Topology {
     const TopologyJoint* joint = nullptr; ///< (joints)
     int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
     Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
-    const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes
+    const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes, and the clamped blocks
     bool stack = false; ///< the beds are those of one column: bed j lies between block fixed - 1 + j and the next one
     const int* rigid_order = nullptr; ///< of the rigid form: what `rigid_order` makes (`rigid_order.hpp`)
     int rigid_edges = 0;              ///< and the pairs of beds in it
     constexpr int beds() const { return joints - watched; }
     constexpr int free_blocks() const { return blocks - fixed; }
+    /// (reinforced) The block that a clamp joins to block i, at its right; -1: none.
+    constexpr int clamped_to(int i) const { return bed_lists[blocks + 1 + 2 * beds() + i]; }
 };
 
 /// How many integers `list_beds` writes.
 inline int bed_lists_size(const Topology& topology)
 {
-    return topology.blocks + 1 + 2 * topology.beds();
+    return topology.blocks + 1 + 2 * topology.beds() + (topology.model.reinforced ? topology.blocks : 0);
 }
 
 /// Sees whether the beds are a stack, and lists the beds of every block, for the sum of its forces: those of block i
 /// are entries lists[i] to lists[i + 1] - 1, in the order of the joints; an entry is twice the bed's number, and one
-/// more where the block is its lower one.
+/// more where the block is its lower one. With a reinforced model the blocks that clamps join follow, all -1 at first.
 /// @param lists (`bed_lists_size`) the caller's, to live as long as the topology
 inline void list_beds(Topology& topology, int* lists)
 {
@@ -60,6 +62,8 @@ inline void list_beds(Topology& topology, int* lists)
                 lists[at++] = 2 * bed + (topology.joint[bed].lower == i);
     }
     lists[topology.blocks] = at;
+    while (at < bed_lists_size(topology))
+        lists[at++] = -1;
     topology.bed_lists = lists;
 }
 

@@ -1,6 +1,7 @@
 #include "ensemble/engine/lanes.hpp"
 
 #include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/reinforcement.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "kernels/step.hpp"
 
@@ -70,6 +71,10 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
             order_.push_back(block);
         }
     };
+    for (const Block& block : pattern.blocks) // what a clamp holds to may touch no free block
+        if (const int right = block.reinforcement.clamp_to;
+            right >= 0 && pattern.blocks[static_cast<std::size_t>(right)].fixed)
+            take(right);
     // from the end: those on which others rest come last, next to the free blocks, as `Topology::stack` asks
     for (auto joint = pattern.joints.rbegin(); joint != pattern.joints.rend(); ++joint)
         for (int block : {joint->lower, joint->upper})
@@ -91,6 +96,8 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     close_.resize(static_cast<std::size_t>(topology_.watched));
     bed_lists_.resize(static_cast<std::size_t>(bed_lists_size(topology_)));
     list_beds(topology_, bed_lists_.data());
+    if (topology_.model.reinforced)
+        list_clamps(pattern);
 
     if (topology_.model.rigid()) {
         rigid_order_ = rigid_order(topology_);
@@ -120,6 +127,15 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     for (int lane = 0; lane < lanes(); ++lane)
         clear(lane);
     active_ = 0;
+}
+
+/// Which blocks the clamps join: the same in all realizations of a study.
+void LaneSet::list_clamps(const Realization& pattern)
+{
+    int* const clamped = bed_lists_.data() + (bed_lists_.size() - pattern.blocks.size());
+    for (std::size_t i = 0; i < pattern.blocks.size(); ++i)
+        if (const int right = pattern.blocks[i].reinforcement.clamp_to; right >= 0)
+            clamped[place_of_[i]] = place_of_[static_cast<std::size_t>(right)];
 }
 
 void LaneSet::clear(int lane)
@@ -190,6 +206,8 @@ void LaneSet::store_state(int lane, const Realization& r)
     }
     if (topology_.model.extended())
         store_extension(r, order_, bundle_, lane);
+    if (topology_.model.reinforced)
+        store_reinforcement(r, rest, order_, bundle_, lane);
     if (topology_.model.rigid())
         store_rigid(lane, r);
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
@@ -247,6 +265,16 @@ void LaneSet::first_increments(int lane)
         for (int j = 0; j < topology_.beds(); ++j)
             for (const auto field : {OfJointExtension::dowel_at, OfJointExtension::dowel_force})
                 bundle_.at(field, j, lane) = one.at(field, j, 0);
+    if (topology_.model.reinforced) {
+        using J = OfJointReinforcement;
+        using B = OfBlockReinforcement;
+        for (int j = 0; j < topology_.joints; ++j)
+            for (int f = J::memory; f < J::count; ++f)
+                bundle_.at(static_cast<J::Field>(f), j, lane) = one.at(static_cast<J::Field>(f), j, 0);
+        for (int i = 0; i < topology_.blocks; ++i)
+            for (int f = B::memory; f < B::count; ++f)
+                bundle_.at(static_cast<B::Field>(f), i, lane) = one.at(static_cast<B::Field>(f), i, 0);
+    }
     w.start_dowel_j = dowel_energy(topology_, bundle_, lane);
 }
 
@@ -258,7 +286,8 @@ void LaneSet::load(int lane, Realization realization)
     ++active_;
     place.realization = std::move(realization);
     const Realization& r = place.realization;
-    assert((!model_of(r).mechanisms || topology_.model.mechanisms) && r.form == topology_.model.form &&
+    assert((!model_of(r).mechanisms || topology_.model.mechanisms) &&
+           (!model_of(r).reinforced || topology_.model.reinforced) && r.form == topology_.model.form &&
            "the realizations of a bundle follow the model of the pattern that it was made from");
     place.scales = scales_of(r);
     place.motion = BaseMotion(study_.excitation, r, record_);

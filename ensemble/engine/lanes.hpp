@@ -171,6 +171,7 @@ private:
     /// Makes the tables of the base's motion of the next chunk.
     void fill_tables();
     /// Tables of the vertical motion and of the base's rotation for the next chunk.
+    void list_clamps(const Realization& pattern);
     void fill_extension(int lane);
     /// Displacement of a (kernel's) block's geometric centre.
     BlockMotion centre(int k, int lane) const;

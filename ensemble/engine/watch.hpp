@@ -71,6 +71,7 @@ STYLOBATE_INLINE bool is_finite(const Topology& topology, const Bundle& b, int l
     return abs_of(sum) <= 0x1.fffffffffffffp+1023;
 }
 
+/// Of dowels and of what strengthens the structure.
 STYLOBATE_INLINE double dowel_energy(const Topology& topology, const Bundle& b, int lane)
 {
     double energy = 0;
@@ -79,6 +80,12 @@ STYLOBATE_INLINE double dowel_energy(const Topology& topology, const Bundle& b, 
             const double force = b.at(OfJointExtension::dowel_force, j, lane);
             energy += 0.5 * force * force * b.at(OfJointExtension::per_dowel_stiffness, j, lane);
         }
+    if (topology.model.reinforced) {
+        for (int j = 0; j < topology.beds(); ++j)
+            energy += b.at(OfJointReinforcement::held, j, lane);
+        for (int i = 0; i < topology.blocks; ++i)
+            energy += b.at(OfBlockReinforcement::held, i, lane);
+    }
     return energy;
 }
 

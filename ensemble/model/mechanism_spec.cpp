@@ -1,7 +1,10 @@
 #include "ensemble/model/mechanism_spec.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 
 namespace stylobate {
 namespace {
@@ -9,10 +12,13 @@ namespace {
 constexpr auto acting = ParameterRole::acting;
 constexpr auto needed = ParameterRole::needed;
 constexpr auto detail = ParameterRole::detail;
+constexpr auto extra = ParameterRole::extra;
 constexpr std::monostate by_sampler{};
 
 using Joint_ = JointExtension;
 using Block_ = BlockExtension;
+using OnJoint_ = JointReinforcement;
+using OnBlock_ = BlockReinforcement;
 
 // name, suffix, unit, low, high, open, role, neutral, member, what it is
 constexpr MechanismParameter stribeck[] = {
@@ -65,7 +71,12 @@ constexpr MechanismParameter sensor_gain[] = {{"gain", "", "", 0, 100, true, act
 constexpr MechanismParameter dowel[] = {
     {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &Joint_::dowel_stiffness_n_m, "stiffness against sliding"},
     {"yield", "_n", "N", 0, 1e12, true, needed, 0, &Joint_::dowel_yield_n, "force at which the dowel yields"},
-    {"gap", "_m", "m", 0, 1, false, detail, 0, &Joint_::dowel_gap_m, "free play to either side before it acts"}};
+    {"gap", "_m", "m", 0, 1, false, detail, 0, &Joint_::dowel_gap_m, "free play to either side before it acts"},
+    {"stone_strength", "_pa", "Pa", 0, 1e9, false, extra, 0, by_sampler,
+     "compressive strength of the stone, to check the yield force against; 0: not checked"},
+    {"diameter", "_m", "m", 0, 1, false, extra, 0, by_sampler, "diameter of the dowel, for this check"},
+    {"embedment", "_m", "m", 0, 10, false, extra, 0, by_sampler,
+     "length of the dowel in either block, for this check"}};
 constexpr MechanismParameter adhesion[] = {{"force", "_n_m", "N/m", 0, 1e9, false, acting, 0, &Joint_::adhesion_n_m,
                                             "force of adhesion per contact length, until the joint first slips"}};
 constexpr MechanismParameter eccentricity[] = {
@@ -83,6 +94,40 @@ constexpr MechanismParameter tie[] = {
     {"force", "_n", "N", -1e12, 1e12, false, acting, 0, &Block_::tie_n, "constant force, to the right"},
     {"turning_dashpot", "_n_m_s", "N m s", 0, 1e9, false, acting, 0, &Block_::tie_n_m_s,
      "moment against the rate of rotation relative to the base"}};
+
+constexpr MechanismParameter tendon[] = {
+    {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &OnBlock_::tendon_n_m, "axial stiffness E A / L"},
+    {"prestress", "_n", "N", 0, 1e12, false, detail, 0, &OnBlock_::tendon_prestress_n,
+     "tension at rest; 0: just taut, so that it acts as soon as the anchors move apart"},
+    {"yield", "_n", "N", 0, 1e12, true, extra, 1e12, &OnBlock_::tendon_yield_n, "tension at which it yields"}};
+constexpr MechanismParameter bearing[] = {
+    {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &OnJoint_::bearing_n_m,
+     "horizontal stiffness, of an elastomeric bearing G A / t"},
+    {"dashpot", "_n_s_m", "N s/m", 0, 1e12, false, acting, 0, &OnJoint_::bearing_n_s_m,
+     "horizontal force against the velocity of the offset"},
+    {"curvature", "_per_m", "1/m", 0, 100, false, acting, 0, &OnJoint_::bearing_per_m,
+     "curvature 1 / R of the dish of a friction pendulum"}};
+constexpr MechanismParameter mortar[] = {
+    {"tensile_strength", "_pa", "Pa", 0, 1e9, false, acting, 0, by_sampler, "tensile strength of the bond"},
+    {"cohesion", "_pa", "Pa", 0, 1e9, true, needed, 0, by_sampler, "its shear strength without pressure"}};
+constexpr MechanismParameter clamp[] = {
+    {"stiffness", "_n_m", "N/m", 0, 1e12, false, acting, 0, &OnBlock_::clamp_n_m, "axial stiffness of the clamps"},
+    {"strength", "_n", "N", 0, 1e12, true, needed, 1, &OnBlock_::clamp_strength_n,
+     "force at which they yield or slip out of the stone"},
+    {"gap", "_m", "m", 0, 1, false, detail, 0, &OnBlock_::clamp_gap_m, "free play to either side"},
+    {"compression", "", "", 0, 1, false, detail, 1, &OnBlock_::clamp_compression,
+     "ratio of the stiffness in compression to that in tension; 0: acts in tension alone"},
+    {"height", "_m", "m", -100, 100, false, extra, 0, &OnBlock_::clamp_height_m,
+     "height above the middle of the block"},
+    {"break", "_m", "m", 0, 10, true, extra, 10, &OnBlock_::clamp_break_m, "elongation at which they break"}};
+constexpr MechanismParameter pull_out[] = {
+    {"hold", "_n", "N", 0, 1e12, false, acting, 0, &OnJoint_::hold_n, "axial force at which one dowel slips"},
+    {"stiffness", "_n_m", "N/m", 0, 1e12, true, needed, 1, &OnJoint_::hold_stiffness_n_m,
+     "axial stiffness of one dowel"},
+    {"length", "_m", "m", 0, 10, true, needed, 1, &OnJoint_::hold_length_m,
+     "embedded length: the dowel is out when the joint has opened by it"},
+    {"spread", "_m", "m", 0, 10, false, detail, 0, &OnJoint_::hold_spread_m,
+     "distance of each of the two dowels from the middle of the face"}};
 
 constexpr auto joint = MechanismPlace::joint;
 constexpr auto block = MechanismPlace::block;
@@ -111,7 +156,16 @@ constexpr MechanismRule rules[] = {
     {Mechanism::eccentricity, "eccentricity", block, "an eccentric centre of mass", eccentricity},
     {Mechanism::wedge, "wedge", joint, "a face that is not square", wedge},
     {Mechanism::drum_offset, "drum_offset", block, "a block displaced from its nominal position", drum_offset},
-    {Mechanism::tie, "tie", block, "a block tied to the base: spring, dashpots, constant force", tie}};
+    {Mechanism::tie, "tie", block, "a block tied to the base: spring, dashpots, constant force", tie},
+    {Mechanism::tendon, "tendon", block, "a cable through a column, from the fixed ground to the top of a drum", tendon,
+     UsualPlaces::tops},
+    {Mechanism::bearing, "bearing", joint, "a seismic isolator in a joint, beside its friction", bearing,
+     UsualPlaces::feet},
+    {Mechanism::mortar, "mortar", joint, "a bonded joint, until it breaks", mortar},
+    {Mechanism::clamp, "clamp", block, "clamps between a block and its neighbour at the right", clamp,
+     UsualPlaces::neighbours},
+    {Mechanism::pull_out, "pull_out", joint, "two dowels that resist the opening of a joint until they are out",
+     pull_out}};
 static_assert(std::size(rules) == mechanism_count);
 
 constexpr bool in_order()
@@ -160,6 +214,63 @@ bool acts(const MechanismSpec& spec, double friction)
         if (parameters[i].role == acting && spec.values[i] != neutral.values[i])
             return true;
     return false;
+}
+
+std::vector<int> usual_places(const MechanismRule& rule, const Layout& layout)
+{
+    std::vector<int> places;
+    const int beds = static_cast<int>(layout.beds.size()), blocks = static_cast<int>(layout.blocks.size());
+    const auto at = [&](int i) -> const PlacedBlock& { return layout.blocks[static_cast<std::size_t>(i)]; };
+    if (rule.place == MechanismPlace::joint) {
+        for (int j = 0, column = -1; j < beds; ++j) {
+            const PlacedBlock& upper = at(layout.beds[static_cast<std::size_t>(j)].upper);
+            const bool foot = upper.role == BlockRole::drum && upper.column != column;
+            column = upper.column;
+            if (rule.usual != UsualPlaces::feet || foot)
+                places.push_back(j);
+        }
+        return places;
+    }
+    for (int i = 0; i < blocks && rule.place == MechanismPlace::block; ++i) {
+        const bool top = at(i).role == BlockRole::drum && (i + 1 == blocks || at(i + 1).column != at(i).column);
+        const int beside = right_neighbour(layout, i);
+        const bool pair = at(i).role == BlockRole::epistyle && beside >= 0 && at(beside).role == BlockRole::epistyle;
+        if (!at(i).fixed && (rule.usual == UsualPlaces::all || (rule.usual == UsualPlaces::tops && top) ||
+                             (rule.usual == UsualPlaces::neighbours && pair)))
+            places.push_back(i);
+    }
+    return places;
+}
+
+std::string why_not(const MechanismRule& rule, const Layout& layout, int place)
+{
+    if (rule.mechanism == Mechanism::tendon && layout.blocks[static_cast<std::size_t>(place)].role != BlockRole::drum)
+        return "is no drum, and a tendon goes through a column";
+    if (rule.mechanism == Mechanism::clamp && right_neighbour(layout, place) < 0)
+        return "has no neighbour at its right";
+    return {};
+}
+
+std::string contradiction(const MechanismRule& rule, std::span<const double> values)
+{
+    const auto number = [&](std::size_t i) { return fmt::format("{} = {:g}", rule.parameters[i].key(), values[i]); };
+    if (rule.mechanism == Mechanism::tendon && values[1] > 0 && values[0] == 0)
+        return number(1) + " has no effect without a stiffness";
+    if (rule.mechanism == Mechanism::tendon && values[1] > values[2])
+        return number(1) + " is above " + number(2);
+    if (rule.mechanism == Mechanism::dowel && values[3] > 0) {
+        if (!(values[4] > 0 && values[5] > 0))
+            return number(3) + " needs diameter_m and embedment_m";
+        const double most = stone_carries_n(values[3], values[4], values[5]);
+        if (values[1] > most)
+            return fmt::format("{} is above {:.4g} N, at which the stone is crushed", number(1), most);
+    }
+    return {};
+}
+
+double stone_carries_n(double strength_pa, double diameter_m, double embedment_m)
+{
+    return (std::numbers::sqrt2 - 1) * strength_pa * diameter_m * embedment_m;
 }
 
 std::string input_name(Mechanism mechanism, const MechanismParameter& parameter)

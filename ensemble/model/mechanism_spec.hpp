@@ -2,7 +2,7 @@
 /// The mechanisms that a study can name: one table says what each is, from which studies are read, written, perturbed
 /// and explained. The equations are in `kernels/mechanisms/` and, for the base, in `base_motion.hpp`.
 
-#include "ensemble/model/realization.hpp"
+#include "ensemble/model/structure.hpp"
 
 #include <array>
 #include <cstddef>
@@ -35,9 +35,14 @@ enum class Mechanism : std::uint8_t {
     eccentricity,
     wedge,
     drum_offset,
-    tie
+    tie,
+    tendon,
+    bearing,
+    mortar,
+    clamp,
+    pull_out
 };
-inline constexpr int mechanism_count = 20;
+inline constexpr int mechanism_count = 25;
 const char* to_string(Mechanism mechanism);
 
 /// Where a mechanism acts.
@@ -47,11 +52,20 @@ enum class MechanismPlace {
     base
 };
 
+/// Where it acts when a study names no places.
+enum class UsualPlaces {
+    all,       ///< every bed, or every free block
+    tops,      ///< the uppermost drum of each column
+    feet,      ///< the lowest bed of each column
+    neighbours ///< every epistyle beside another one, which is at its right
+};
+
 /// What a parameter is to its mechanism.
 enum class ParameterRole {
     acting, ///< at its neutral value the mechanism does nothing by it; at least one of these is given
     needed, ///< says how the mechanism acts, and is given
-    detail  ///< says how the mechanism acts; has a default
+    detail, ///< says how the mechanism acts; has a default
+    extra   ///< the same; a study's text has it only where it is not the default
 };
 
 struct MechanismParameter {
@@ -64,7 +78,7 @@ struct MechanismParameter {
     double neutral; ///< of an acting one; of the others the default
     /// The member that it is in a realization; none where the sampler does something else with it.
     std::variant<std::monostate, double JointExtension::*, double BlockExtension::*, double BaseExtension::*,
-                 double BaseChange::*>
+                 double BaseChange::*, double JointReinforcement::*, double BlockReinforcement::*>
         member;
     const char* says;
 
@@ -77,13 +91,14 @@ struct MechanismRule {
     MechanismPlace place;
     const char* says;
     std::span<const MechanismParameter> parameters;
+    UsualPlaces usual = UsualPlaces::all;
 };
 
 /// All of them, in the order of the enumeration.
 std::span<const MechanismRule> mechanism_rules();
 const MechanismRule& rule_of(Mechanism mechanism);
 
-inline constexpr std::size_t most_parameters = 4;
+inline constexpr std::size_t most_parameters = 6;
 
 /// A mechanism with the same values at one or several places.
 struct MechanismSpec {
@@ -99,6 +114,22 @@ MechanismSpec neutral_spec(Mechanism mechanism, double friction);
 
 /// Whether it says anything but neutral values.
 bool acts(const MechanismSpec& spec, double friction);
+
+/// The beds or blocks of a structure at which a mechanism acts when none are named, ascending.
+std::vector<int> usual_places(const MechanismRule& rule, const Layout& layout);
+
+/// Why a mechanism cannot act at a place of a structure; empty: it can.
+/// @pre the place is one of the structure's, and not a fixed block
+std::string why_not(const MechanismRule& rule, const Layout& layout, int place);
+
+/// What of a mechanism's values contradicts itself; empty: nothing.
+/// @param values in the order of the rule's parameters
+std::string contradiction(const MechanismRule& rule, std::span<const double> values);
+
+/// Shear that the stone carries at a rigid dowel, embedded as deep in both blocks, when it is crushed along the whole
+/// dowel: (sqrt 2 - 1) f d l. Source: K. W. Johansen, "Theory of timber connections", IABSE Publications 9 (1949)
+/// 249-262, as EN 1995-1-1 (8.6c) for equal members.
+double stone_carries_n(double strength_pa, double diameter_m, double embedment_m);
 
 /// "stribeck_velocity": of the values that were drawn, in results.
 std::string input_name(Mechanism mechanism, const MechanismParameter& parameter);

@@ -48,6 +48,37 @@ struct BlockExtension {
     friend bool operator==(const BlockExtension&, const BlockExtension&) = default;
 };
 
+/// What strengthens a joint (`kernels/mechanisms/reinforced.hpp`). Every default is neutral. All of it was put in when
+/// the structure was at rest.
+struct JointReinforcement {
+    double bearing_n_m = 0;        ///< bearing: k
+    double bearing_n_s_m = 0;      ///< bearing: c
+    double bearing_per_m = 0;      ///< bearing: 1 / R, the curvature of its dish
+    double bond_tension_n_m = 0;   ///< mortar: tensile strength times depth, f_t D
+    double bond_cohesion_n_m = 0;  ///< mortar: cohesion times depth, c D
+    double hold_n = 0;             ///< pull_out: F_a of one dowel
+    double hold_stiffness_n_m = 0; ///< pull_out: axial stiffness of one dowel
+    double hold_length_m = 0;      ///< pull_out: opening at which a dowel is out
+    double hold_spread_m = 0;      ///< pull_out: of the two dowels from the middle of the upper face
+    bool bonded() const { return bond_tension_n_m > 0; }
+    friend bool operator==(const JointReinforcement&, const JointReinforcement&) = default;
+};
+
+/// The same of a block.
+struct BlockReinforcement {
+    double tendon_n_m = 0;         ///< tendon: k, from the middle of the block's top face down to the fixed ground
+    double tendon_prestress_n = 0; ///< tendon: T0, at rest
+    double tendon_yield_n = 1e12;  ///< tendon: T_y
+    double clamp_n_m = 0;          ///< clamp: k, to the block `clamp_to`
+    double clamp_strength_n = 0;   ///< clamp: F_y
+    double clamp_gap_m = 0;        ///< clamp: free play to either side
+    double clamp_compression = 1;  ///< clamp: its stiffness in compression over that in tension
+    double clamp_height_m = 0;     ///< clamp: above the middle of this block
+    double clamp_break_m = 10;     ///< clamp: elongation at which it breaks
+    int clamp_to = -1;             ///< the block beside it at the right; -1: no clamp
+    friend bool operator==(const BlockReinforcement&, const BlockReinforcement&) = default;
+};
+
 /// The same of the base, beside what changes its horizontal motion alone (gain, offset in time, distortion).
 struct BaseExtension {
     double pitch_rad_s2_m = 0; ///< table_pitch: rotation of the table about the middle of the base, per acceleration
@@ -81,6 +112,7 @@ struct Block {
     BlockRole role = BlockRole::drum;
     int column = 0; ///< of a drum, from the left; -1 for all else
     BlockExtension extension{};
+    BlockReinforcement reinforcement{};
 };
 
 /// The bed between two blocks, or what becomes one if they meet.
@@ -95,6 +127,7 @@ struct Joint {
     double friction = 0;
     double restitution = 0; ///< of the rigid form, 0 to 1 (`RestitutionLaw`)
     JointExtension extension{};
+    JointReinforcement reinforcement{};
 };
 
 struct Realization {
@@ -130,7 +163,8 @@ struct Realization {
     std::shared_ptr<const Motion> vertical;
     ContactForm form = ContactForm::area;
     RestitutionLaw restitution_law = RestitutionLaw::newton;
-    bool extended = false; ///< run by the extended step even where every extension is neutral (`is_extended`)
+    bool extended = false;   ///< run by the extended step even where every extension is neutral (`is_extended`)
+    bool reinforced = false; ///< with the rows of reinforcements even where every one is neutral (`model_of`)
     double step_s = 0;
     std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`
 };

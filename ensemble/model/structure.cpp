@@ -225,4 +225,19 @@ Layout lay_out(const StructureSpec& structure)
     return layout;
 }
 
+int right_neighbour(const Layout& layout, int block)
+{
+    const PlacedBlock& left = layout.blocks[static_cast<std::size_t>(block)];
+    const double near = left.right() - 1e-9 * left.width_m; // faces that touch, to rounding
+    int found = -1;
+    for (std::size_t i = 0; i < layout.blocks.size(); ++i) {
+        const PlacedBlock& other = layout.blocks[i];
+        if (other.left() < near || !(other.bottom() < left.y_m && left.y_m < other.top()))
+            continue;
+        if (found < 0 || other.left() < layout.blocks[static_cast<std::size_t>(found)].left())
+            found = static_cast<int>(i);
+    }
+    return found;
+}
+
 } // namespace stylobate

@@ -17,10 +17,12 @@ enum class StructureKind {
 
 /// Values of a bed that differ from those of [contact].
 struct BedSpec {
-    std::optional<double> friction;                 ///< mu
-    std::optional<double> normal_stiffness_n_m2;    ///< K_N
-    std::optional<double> tangential_stiffness_n_m; ///< K_T
-    std::optional<double> restitution;              ///< of the rigid form
+    std::optional<double> friction;                      ///< mu
+    std::optional<double> normal_stiffness_n_m2;         ///< K_N
+    std::optional<double> tangential_stiffness_n_m;      ///< K_T
+    std::optional<double> restitution;                   ///< of the rigid form
+    std::optional<double> normal_damping_ratio = {};     ///< of critical; of a layer in the joint
+    std::optional<double> tangential_damping_ratio = {}; ///< the same along the face
     friend bool operator==(const BedSpec&, const BedSpec&) = default;
 };
 
@@ -108,5 +110,8 @@ struct Layout {
 ///         whose centre of mass is not between its outermost seats; for blocks without size or mass, for columns and
 ///         epistyles that are not listed from the left, and for a column that is fixed as a whole
 Layout lay_out(const StructureSpec& structure);
+
+/// The block that stands next to one at its right: at the height of its middle, nearest to it; -1: none.
+int right_neighbour(const Layout& layout, int block);
 
 } // namespace stylobate

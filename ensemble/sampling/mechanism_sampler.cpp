@@ -22,6 +22,16 @@ bool is_extension(const MechanismRule& rule)
     });
 }
 
+/// Whether it needs the rows of reinforcements.
+bool is_reinforcement(const MechanismRule& rule)
+{
+    return rule.mechanism == Mechanism::mortar ||
+           std::any_of(rule.parameters.begin(), rule.parameters.end(), [](const MechanismParameter& parameter) {
+               return std::holds_alternative<double JointReinforcement::*>(parameter.member) ||
+                      std::holds_alternative<double BlockReinforcement::*>(parameter.member);
+           });
+}
+
 /// Sets the member of a realization that a parameter is.
 void set(const MechanismParameter& parameter, std::size_t place, double value, Realization& realization)
 {
@@ -32,6 +42,10 @@ void set(const MechanismParameter& parameter, std::size_t place, double value, R
                 realization.joints[place].extension.*member = value;
             else if constexpr (std::is_same_v<Member, double BlockExtension::*>)
                 realization.blocks[place].extension.*member = value;
+            else if constexpr (std::is_same_v<Member, double JointReinforcement::*>)
+                realization.joints[place].reinforcement.*member = value;
+            else if constexpr (std::is_same_v<Member, double BlockReinforcement::*>)
+                realization.blocks[place].reinforcement.*member = value;
             else if constexpr (std::is_same_v<Member, double BaseExtension::*>)
                 realization.base.*member = value;
             else if constexpr (std::is_same_v<Member, double BaseChange::*>)
@@ -50,15 +64,20 @@ Stream stream_of(Mechanism mechanism, std::size_t parameter)
 }
 
 MechanismSampler::MechanismSampler(const Study& study, const Layout& layout)
-    : friction_(study.contact.friction), damping_(study.contact.damping), form_(study.contact.form)
+    : friction_(study.contact.friction), depth_m_(study.structure.depth_m), damping_(study.contact.damping),
+      form_(study.contact.form)
 {
     extended_ = (damping_ == DampingAt::ends && form_ == ContactForm::area) || study.vertical.has_value();
     for (const MechanismSpec& spec : study.mechanisms)
         add(spec, layout);
     for (const MechanismPerturbation& perturbation : study.mechanism_perturbations)
         add(perturbation);
-    for (const Acting& acting : acting_)
+    for (const Acting& acting : acting_) {
         extended_ = extended_ || (acting.may_act && is_extension(*acting.rule));
+        reinforced_ = reinforced_ || (acting.may_act && is_reinforcement(*acting.rule));
+    }
+    for (std::size_t i = 0; i < layout.blocks.size(); ++i)
+        right_.push_back(right_neighbour(layout, static_cast<int>(i)));
 }
 
 void MechanismSampler::add(const MechanismSpec& spec, const Layout& layout)
@@ -86,10 +105,11 @@ void MechanismSampler::add(const MechanismSpec& spec, const Layout& layout)
     if (!spec.places.empty())
         for (const int place : spec.places)
             set_at(static_cast<std::size_t>(place));
+    else if (rule.place == MechanismPlace::base)
+        set_at(0);
     else
-        for (std::size_t place = 0; place < places; ++place)
-            if (rule.place != MechanismPlace::block || !layout.blocks[place].fixed)
-                set_at(place);
+        for (const int place : usual_places(rule, layout))
+            set_at(static_cast<std::size_t>(place));
 }
 
 void MechanismSampler::add(const MechanismPerturbation& perturbation)
@@ -166,7 +186,8 @@ double MechanismSampler::offset_m(const Values& values, std::size_t block) const
 
 void MechanismSampler::apply(const Values& values, Realization& realization) const
 {
-    realization.extended = extended_;
+    realization.extended = extended_ || reinforced_;
+    realization.reinforced = reinforced_;
     realization.form = form_;
     if (damping_ == DampingAt::ends && form_ == ContactForm::area) // the other forms have theirs there anyway
         for (Joint& joint : realization.joints)
@@ -180,6 +201,9 @@ void MechanismSampler::apply(const Values& values, Realization& realization) con
                 continue;
             for (std::size_t p = 0; p < rule->parameters.size(); ++p)
                 set(rule->parameters[p], place, values[i][p][place], realization);
+            check(*rule, values[i], place, realization.index);
+            if (rule->mechanism == Mechanism::clamp)
+                realization.blocks[place].reinforcement.clamp_to = right_[place];
             if (rule->place != MechanismPlace::joint)
                 continue;
             Joint& joint = realization.joints[place];
@@ -187,6 +211,9 @@ void MechanismSampler::apply(const Values& values, Realization& realization) con
                 joint.extension.dynamic_ratio = values[i][0][place] / friction_;
             } else if (rule->mechanism == Mechanism::joint_friction) {
                 joint.friction *= values[i][0][place];
+            } else if (rule->mechanism == Mechanism::mortar) {
+                joint.reinforcement.bond_tension_n_m = values[i][0][place] * depth_m_;
+                joint.reinforcement.bond_cohesion_n_m = values[i][1][place] * depth_m_;
             } else if (rule->mechanism == Mechanism::hertz) {
                 const double given = values[i][1][place];
                 joint.extension.reference_overlap_m2 =
@@ -195,6 +222,20 @@ void MechanismSampler::apply(const Values& values, Realization& realization) con
         }
     }
     check_room(realization);
+}
+
+/// What was drawn for a place does not contradict itself.
+void MechanismSampler::check(const MechanismRule& rule, const Values::value_type& values, std::size_t place,
+                             std::uint64_t index) const
+{
+    std::array<double, most_parameters> at{};
+    for (std::size_t p = 0; p < rule.parameters.size(); ++p)
+        at[p] = values[p][place];
+    if (const std::string why = contradiction(rule, at); !why.empty())
+        throw InputError(fmt::format("mechanisms.{}: in realization {} at {} {}: {}. Change the values, or limit their "
+                                     "spread with min and max.",
+                                     rule.name, index, rule.place == MechanismPlace::joint ? "joint" : "block", place,
+                                     why));
 }
 
 /// What was drawn fits into the blocks.
@@ -215,6 +256,16 @@ void MechanismSampler::check_room(const Realization& realization) const
                                          "lies {:g} m from its middle, outside the block of {:g} m. Lower the value, "
                                          "or limit its spread with min and max.",
                                          realization.index, i, block.extension.eccentricity_m, 2 * block.half_width_m));
+        const BlockReinforcement& clamp = block.reinforcement;
+        if (clamp.clamp_to < 0)
+            continue;
+        const Block& right = realization.blocks[static_cast<std::size_t>(clamp.clamp_to)];
+        const double y = block.y_m + clamp.clamp_height_m;
+        if (std::abs(y - block.y_m) > block.half_height_m || std::abs(y - right.y_m) > right.half_height_m)
+            throw InputError(
+                fmt::format("mechanisms.clamp: in realization {} the clamp of block {} is {:g} m above its "
+                            "middle, outside one of the two blocks. Reduce height_m.",
+                            realization.index, i, clamp.clamp_height_m));
     }
 }
 

@@ -41,7 +41,7 @@ public:
 
     /// Writes everything else into a realization whose blocks and joints exist.
     /// @throws InputError if the drawn structure cannot be built: a face that is lost as a whole, a centre of mass
-    ///                    outside its block
+    ///                    outside its block, values that contradict each other
     void apply(const Values& values, Realization& realization) const;
 
 private:
@@ -62,11 +62,16 @@ private:
 
     void add(const MechanismSpec& spec, const Layout& layout);
     void add(const MechanismPerturbation& perturbation);
+    void check(const MechanismRule& rule, const Values::value_type& values, std::size_t place,
+               std::uint64_t index) const;
     void check_room(const Realization& realization) const;
 
     double friction_ = 0; ///< of [contact]
+    double depth_m_ = 0;  ///< of all blocks
     DampingAt damping_ = DampingAt::centroid;
     bool extended_ = false;
+    bool reinforced_ = false;
+    std::vector<int> right_; ///< (blocks) the neighbour at the right; -1: none
     ContactForm form_ = ContactForm::area;
     std::vector<Acting> acting_;
     Values nominal_;

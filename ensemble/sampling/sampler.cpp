@@ -383,6 +383,14 @@ Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int
     const Block& above = blocks[static_cast<std::size_t>(upper)];
     const double mass = contact_mass_kg(below, above);
     const Ratios ratio = ratios(values);
+    // a bed's own ratio changes as that of [contact] does, and stays where a drawn value takes the latter's place
+    const BedSpec own = value < layout_.beds.size() ? layout_.beds[value].bed : BedSpec{};
+    const double changed =
+        std::any_of(study_->perturbations.begin(), study_->perturbations.end(),
+                    [](const Perturbation& p) { return p.quantity == Quantity::damping_ratio && replaces(p); }) ||
+                contact.normal_damping_ratio == 0
+            ? 1
+            : values[Quantity::damping_ratio][0] / contact.normal_damping_ratio;
     Joint joint;
     joint.lower = lower;
     joint.upper = upper;
@@ -393,6 +401,12 @@ Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int
         2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass));
     joint.tangential_damping_n_s_m = contact.tangential_damping_n_s_m.value_or(
         2 * ratio.tangential * std::sqrt(joint.tangential_stiffness_n_m * mass));
+    if (own.normal_damping_ratio)
+        joint.normal_damping_n_s_m =
+            2 * *own.normal_damping_ratio * changed * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass);
+    if (own.tangential_damping_ratio)
+        joint.tangential_damping_n_s_m =
+            2 * *own.tangential_damping_ratio * changed * std::sqrt(joint.tangential_stiffness_n_m * mass);
     joint.restitution = value < restitution_.size() ? restitution_[value] : contact.restitution;
     joint.damping_chord_m = contact.damping_per == DampingPer::chord ? chord_m : 0;
     return joint;

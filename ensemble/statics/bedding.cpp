@@ -65,6 +65,8 @@ Bedding bedding(double K, double L, double N, double e)
 Bedding bedding(const BedLaw& law, double L, double N, double e)
 {
     const double area = law.area(N);
+    if (law.bonded)
+        return {area / L, -12 * area * e / (L * L * L)};
     if (law.form == ContactForm::area || std::fabs(e) >= L / 2)
         return bedding(N / area, L, N, e);
     if (law.form == ContactForm::points)

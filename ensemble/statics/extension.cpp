@@ -1,5 +1,7 @@
 #include "ensemble/statics/extension.hpp"
 
+#include "ensemble/statics/reinforcement.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +34,7 @@ const Block& block_of(const Realization& r, int block)
 
 bool has_mechanisms(const Realization& r)
 {
-    return r.extended || r.vertical != nullptr || r.base != BaseExtension{} ||
+    return r.extended || is_reinforced(r) || r.vertical != nullptr || r.base != BaseExtension{} ||
            std::any_of(r.blocks.begin(), r.blocks.end(),
                        [](const Block& block) { return block.extension != BlockExtension{}; }) ||
            std::any_of(r.joints.begin(), r.joints.end(),
@@ -48,16 +50,19 @@ bool rests_otherwise(const Realization& r)
 {
     return (r.form != ContactForm::area && r.form != ContactForm::rigid) ||
            std::any_of(r.blocks.begin(), r.blocks.end(),
-                       [](const Block& block) { return block.extension.eccentricity_m != 0; }) ||
+                       [](const Block& block) {
+                           return block.extension.eccentricity_m != 0 || block.reinforcement.tendon_prestress_n > 0;
+                       }) ||
            std::any_of(r.joints.begin(), r.joints.end(), [](const Joint& joint) {
                const JointExtension& e = joint.extension;
-               return e.force_exponent != 1 || e.chip_left_m != 0 || e.chip_right_m != 0 || e.wedge_rad != 0;
+               return joint.reinforcement.bonded() || e.force_exponent != 1 || e.chip_left_m != 0 ||
+                      e.chip_right_m != 0 || e.wedge_rad != 0;
            });
 }
 
 Model model_of(const Realization& r)
 {
-    return {has_mechanisms(r), r.form};
+    return {has_mechanisms(r), r.form, is_reinforced(r)};
 }
 
 double bed_load_n(const Realization& r, int bed)
@@ -117,6 +122,7 @@ BedLaw bed_law(const Realization& r, int bed)
     law.faces.wedge_sine = std::sin(e.wedge_rad);
     law.faces.wedge_versine = 2 * std::sin(0.5 * e.wedge_rad) * std::sin(0.5 * e.wedge_rad);
     law.K_n = joint.normal_stiffness_n_m2;
+    law.bonded = joint.reinforcement.bonded();
     law.exponent = e.force_exponent - 1;
     law.per_reference = 1 / e.reference_overlap_m2;
     if (r.form == ContactForm::points)

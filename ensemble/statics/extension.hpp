@@ -36,6 +36,7 @@ struct BedLaw {
     double K_n = 0;           ///< [N/m2]
     double exponent = 0;      ///< q - 1
     double per_reference = 0; ///< [1/m2]
+    bool bonded = false;      ///< what opens carries tension, too (`mortar`)
 
     /// Elastic normal force under an overlap (or what stands for it in the other forms) [N].
     double force(double area) const;

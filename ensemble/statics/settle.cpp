@@ -1,5 +1,7 @@
 #include "ensemble/statics/settle.hpp"
 
+#include "ensemble/statics/reinforcement.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -41,6 +43,35 @@ Placement<double> placement(const Block& lower, const Pose& l, const Block& uppe
     const double x = bx * std::cos(l.theta) + by * std::sin(l.theta);
     const double y = -bx * std::sin(l.theta) + by * std::cos(l.theta) - lower.half_height_m;
     return {x, -y, sine, cosine};
+}
+
+/// The part of a bonded bed that opens.
+JointForce bond_force(const Realization& r, const Joint& joint, const BedLaw& law, const Pose& l, const Pose& u)
+{
+    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
+    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+    const Placement<double> place =
+        onto_wedge(placement(lower, l, upper, u), law.faces.wedge_sine, law.faces.wedge_versine);
+    const double left = std::max(-lower.half_width_m - place.x, -upper.half_width_m) + joint.extension.chip_left_m;
+    const double right = std::min(lower.half_width_m - place.x, upper.half_width_m) - joint.extension.chip_right_m;
+    const double at_left = left * place.sine - place.depth, at_right = right * place.sine - place.depth;
+    const BondPull<double> pull = bond_pull(left, right, at_left, at_right);
+    JointForce f;
+    if (!(pull.force > 0))
+        return f;
+    const double most = std::max(at_left, at_right), least = std::min(at_left, at_right);
+    const double length = (right - left) * most / (most - std::min(least, 0.0)), arm = pull.couple / pull.force;
+    const double nx = -std::sin(l.theta), ny = std::cos(l.theta);
+    const double px = u.x + upper.half_height_m * std::sin(u.theta) + arm * std::cos(u.theta);
+    const double py = u.y - upper.half_height_m * std::cos(u.theta) + arm * std::sin(u.theta);
+    const Row opening = relative_motion(nx, ny, px, py, l, u);
+    Row turning = Row::Zero();
+    turning(2) = -1;
+    turning(5) = 1;
+    const double k = law.K_n * length;
+    f.stiffness = k * opening * opening.transpose() + k * length * length / 12 * turning * turning.transpose();
+    f.force = -law.K_n * pull.force * opening;
+    return f;
 }
 
 /// @param law of a bed of an extended model, else null
@@ -140,6 +171,9 @@ public:
             weight_(first_[b] + 1) = -m * g * std::cos(r.base_tilt_rad);
             scale_.segment<3>(first_[b]) = Eigen::Vector3d(m * g, m * g, m * g * r.blocks[b].half_width_m);
         }
+        for (std::size_t b = 0; b < r.blocks.size(); ++b)
+            if (first_[b] >= 0 && r.blocks[b].reinforcement.tendon_prestress_n > 0)
+                tendons_.push_back(static_cast<int>(b));
         if (rests_otherwise(r))
             for (int j = 0; j < r.beds(); ++j)
                 laws_.push_back(bed_law(r, j));
@@ -153,6 +187,7 @@ public:
     {
         K_.setZero();
         residual_ = weight_;
+        add_tendons(at);
         for (int j = 0; j < r_.beds(); ++j) {
             const Joint& joint = r_.joints[static_cast<std::size_t>(j)];
             add(joint, full_bed(r_, joint, at[static_cast<std::size_t>(joint.lower)],
@@ -172,6 +207,7 @@ public:
                 residual_(first_[b] + 2) +=
                     e * (std::cos(at[b].theta) * weight_(first_[b] + 1) - std::sin(at[b].theta) * weight_(first_[b]));
             }
+        add_tendons(at);
         spring_n_.assign(r_.joints.size(), 0);
         for (std::size_t j = 0; j < r_.joints.size(); ++j) {
             const Joint& joint = r_.joints[j];
@@ -180,6 +216,8 @@ public:
                 joint_force(r_, static_cast<int>(j), j < laws_.size() ? &laws_[j] : nullptr, at[l], at[u]);
             spring_n_[j] = f.spring;
             add(joint, f);
+            if (j < laws_.size() && laws_[j].bonded)
+                add(joint, bond_force(r_, joint, laws_[j], at[l], at[u]));
         }
         return residual_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
@@ -201,6 +239,15 @@ public:
     }
 
 private:
+    void add_tendons(const std::vector<Pose>& at)
+    {
+        for (const int block : tendons_) {
+            const auto b = static_cast<std::size_t>(block);
+            const TendonPull pull = tendon_pull(r_, block, at[b]);
+            residual_.segment<3>(first_[b]) += Eigen::Vector3d(pull.x_n, pull.y_n, pull.moment_n_m);
+        }
+    }
+
     void add(const Joint& joint, const JointForce& f)
     {
         const std::size_t both[2] = {static_cast<std::size_t>(joint.lower), static_cast<std::size_t>(joint.upper)};
@@ -219,6 +266,7 @@ private:
     std::vector<Eigen::Index> first_; ///< (blocks) of the three unknowns of a block; -1: fixed
     Eigen::VectorXd weight_, scale_;  ///< of the blocks in the base's frame; what an unbalanced force is measured by
     std::vector<BedLaw> laws_;        ///< (beds) with extensions, else empty
+    std::vector<int> tendons_;        ///< free blocks with a prestressed one
     Eigen::MatrixXd K_;
     Eigen::VectorXd residual_, least_;
 };

@@ -2,6 +2,7 @@
 
 #include "ensemble/statics/bedding.hpp"
 #include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/reinforcement.hpp"
 #include "ensemble/statics/settle.hpp"
 
 #include <algorithm>
@@ -110,7 +111,7 @@ void lean(const Realization& r, std::vector<Pose>& poses)
             poses[i].theta += r.initial_tilt_rad;
         }
         if (r.form != ContactForm::rigid)
-            sink(r, poses, moved, bed_load_n(r, bed), foot.half_height_m);
+            sink(r, poses, moved, bed_force_n(r, bed), foot.half_height_m);
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
         if (r.blocks[i].role != BlockRole::epistyle)
@@ -198,9 +199,22 @@ void stack_up_extended(const Realization& r, std::vector<Pose>& poses, StaticSta
             const double fx = l.x - lower.half_height_m * std::sin(l.theta);
             const double fy = l.y + lower.half_height_m * std::cos(l.theta);
             const double weight = mass * r.gravity_m_s2;
-            const double N = -weight * (down_x * nx + down_y * ny), T = weight * (down_x * tx + down_y * ty);
+            double N = -weight * (down_x * nx + down_y * ny), T = weight * (down_x * tx + down_y * ty);
             const double rx = x / mass - fx, ry = y / mass - fy;
-            const double crossing = rx * tx + ry * ty + (rx * nx + ry * ny) * T / N;
+            double crossing = rx * tx + ry * ty + (rx * nx + ry * ny) * T / N;
+            for (int k = j; k < r.beds(); ++k) {
+                const int i = r.joints[static_cast<std::size_t>(k)].upper;
+                const Pose& at = poses[static_cast<std::size_t>(i)];
+                const TendonPull pull = tendon_pull(r, i, at);
+                if (pull.y_n == 0)
+                    continue;
+                const double px = at.x - fx, py = at.y - fy;
+                const double moment = pull.moment_n_m + px * pull.y_n - py * pull.x_n;
+                const double more = -(pull.x_n * nx + pull.y_n * ny);
+                crossing = (crossing * N - moment) / (N + more);
+                N += more;
+                T += pull.x_n * tx + pull.y_n * ty;
+            }
 
             const BedLaw law = bed_law(r, j);
             const double X = upper.x_m - lower.x_m;
@@ -219,7 +233,8 @@ void stack_up_extended(const Realization& r, std::vector<Pose>& poses, StaticSta
             moved = std::max(
                 {moved, std::fabs(put.x - pose.x), std::fabs(put.y - pose.y), std::fabs(put.theta - pose.theta)});
             pose = put;
-            const double limit = joint.friction * N + joint.extension.adhesion_n_m * length;
+            const double bond = joint.reinforcement.bonded() ? joint.reinforcement.bond_cohesion_n_m : 0;
+            const double limit = joint.friction * N + (joint.extension.adhesion_n_m + bond) * length;
             state.spring_n.push_back(std::clamp(T, -limit, limit));
         }
     }

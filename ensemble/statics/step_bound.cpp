@@ -1,6 +1,7 @@
 #include "ensemble/statics/step_bound.hpp"
 
 #include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/reinforcement.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -65,7 +66,8 @@ FullContact extended_contact(const Realization& r, int bed, double times)
     const Joint& joint = r.joints[static_cast<std::size_t>(bed)];
     const JointExtension& e = joint.extension;
     FullContact contact = full_contact(r.blocks, joint);
-    const double L = contact.chord, load = times * bed_load_n(r, bed);
+    const JointReinforcement& held = joint.reinforcement;
+    const double L = contact.chord, load = times * bed_force_n(r, bed);
     const BedLaw law = bed_law(r, bed);
     const double area = law.area(load);
     double tangent = (1 + law.exponent) * load / (area * law.K_n); // of the force over that of the linear law
@@ -74,7 +76,12 @@ FullContact extended_contact(const Realization& r, int bed, double times)
     const double spread = r.form == ContactForm::two_corner ? 4 : 12;
     contact.k_n *= tangent;
     contact.k_theta = contact.k_n * L * L / spread;
-    contact.k_t += e.dowel_stiffness_n_m;
+    contact.k_t += e.dowel_stiffness_n_m + held.bearing_n_m + held.bearing_per_m * load;
+    contact.c_t += held.bearing_n_s_m;
+    if (held.hold_n > 0) {
+        contact.k_n += 2 * held.hold_stiffness_n_m;
+        contact.k_theta += 2 * held.hold_stiffness_n_m * held.hold_spread_m * held.hold_spread_m;
+    }
     const double length = joint.damping_chord_m > 0 ? joint.damping_chord_m : face_length_m(r, bed);
     const double C = joint.normal_damping_n_s_m;
     if (r.form != ContactForm::area)
@@ -82,7 +89,7 @@ FullContact extended_contact(const Realization& r, int bed, double times)
     else
         contact.c_theta = e.face_damping * C * L / length * L * L / 4;
     contact.c_n = C * std::max(1.0, joint.damping_chord_m > 0 ? L / length : 1.0) +
-                  e.rate_s_m * std::min(times, bound_load) * bed_load_n(r, bed);
+                  e.rate_s_m * std::min(times, bound_load) * bed_force_n(r, bed);
     return contact;
 }
 
@@ -126,6 +133,28 @@ double edge_rate(const std::vector<Block>& blocks, const Joint& joint, double x,
     const Eigen::Vector2d root(std::sqrt(C_n), std::sqrt(C_t));
     const Eigen::Matrix2d symmetric = root.asDiagonal() * compliance * root.asDiagonal();
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()(1);
+}
+
+/// Stiffness of a block against its tendon and its clamps, which may turn: in both directions, each fully.
+Eigen::Matrix3d held_stiffness(const Realization& r, int block)
+{
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+    const Block& b = r.blocks[static_cast<std::size_t>(block)];
+    const auto add = [&](double k, double arm_x, double arm_y) {
+        const Eigen::Vector3d along(1, 0, -arm_y), up(0, 1, arm_x);
+        stiffness += k * (along * along.transpose() + up * up.transpose());
+    };
+    const double e = b.extension.eccentricity_m;
+    add(b.reinforcement.tendon_n_m, -e, b.half_height_m);
+    for (std::size_t i = 0; i < r.blocks.size(); ++i) {
+        const Block& left = r.blocks[i];
+        const BlockReinforcement& clamp = left.reinforcement;
+        if (clamp.clamp_to < 0 || (static_cast<int>(i) != block && clamp.clamp_to != block))
+            continue;
+        const double side = static_cast<int>(i) == block ? 1 : -1;
+        add(clamp.clamp_n_m, side * b.half_width_m - e, left.y_m + clamp.clamp_height_m - b.y_m);
+    }
+    return stiffness;
 }
 
 /// Largest eigenvalue of M^-1 K of a block that is held on both its long faces by full contacts [1/s2].
@@ -265,8 +294,9 @@ StepBound step_bound(const Realization& r)
         const bool stays = joint.damping_chord_m == 0 || r.form != ContactForm::area;
         const double at_edge = r.form == ContactForm::area ? 1 - joint.extension.face_damping : 0.5;
         const double C_n = (stays ? at_edge * joint.normal_damping_n_s_m : 0) +
-                           joint.extension.rate_s_m * bound_load * bed_load_n(r, j);
-        const double C_t = joint.damping_chord_m == 0 ? joint.tangential_damping_n_s_m : 0;
+                           joint.extension.rate_s_m * bound_load * bed_force_n(r, j);
+        const double C_t =
+            (joint.damping_chord_m == 0 ? joint.tangential_damping_n_s_m : 0) + joint.reinforcement.bearing_n_s_m;
         for (const double side : {-0.5, 0.5})
             rate = std::max(rate, edge_rate(r.blocks, joint, contact.x + side * contact.chord, C_n, C_t));
     }
@@ -275,6 +305,7 @@ StepBound step_bound(const Realization& r)
         stiffness[b](0, 0) += std::max(r.blocks[b].extension.tie_n_m, 0.0);
         damping[b](0, 0) += r.blocks[b].extension.tie_n_s_m;
         damping[b](2, 2) += r.blocks[b].extension.tie_n_m_s;
+        stiffness[b] += held_stiffness(r, static_cast<int>(b));
     }
 
     StepBound bound;
@@ -385,7 +416,21 @@ Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& j
             v.K(v.first[b], v.first[b]) += e.tie_n_m;
             v.C(v.first[b], v.first[b]) += e.tie_n_s_m;
             v.C(v.first[b] + 2, v.first[b] + 2) += e.tie_n_m_s;
+            v.K(v.first[b] + 1, v.first[b] + 1) += blocks[b].reinforcement.tendon_n_m;
         }
+    for (std::size_t b = 0; b < blocks.size(); ++b) { // clamps, beside what play they have
+        const BlockReinforcement& clamp = blocks[b].reinforcement;
+        if (clamp.clamp_to < 0)
+            continue;
+        const auto right = static_cast<std::size_t>(clamp.clamp_to);
+        Eigen::VectorXd stretch = Eigen::VectorXd::Zero(size);
+        if (v.first[b] >= 0)
+            stretch.segment<3>(v.first[b]) = Eigen::Vector3d(-1, 0, clamp.clamp_height_m);
+        if (v.first[right] >= 0)
+            stretch.segment<3>(v.first[right]) =
+                Eigen::Vector3d(1, 0, blocks[right].y_m - blocks[b].y_m - clamp.clamp_height_m);
+        v.K += clamp.clamp_n_m * stretch * stretch.transpose();
+    }
     return v;
 }
 

@@ -63,6 +63,8 @@ std::string bed_words(const BedSpec& bed)
     add("K_N", bed.normal_stiffness_n_m2, " N/m2");
     add("K_T", bed.tangential_stiffness_n_m, " N/m");
     add("restitution", bed.restitution, "");
+    add("damping", bed.normal_damping_ratio, "");
+    add("tangential damping", bed.tangential_damping_ratio, "");
     return words;
 }
 

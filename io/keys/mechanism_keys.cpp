@@ -20,6 +20,22 @@ KeyFacts facts_of(const MechanismRule& rule, const MechanismParameter& parameter
     return {};
 }
 
+/// Where a mechanism acts when no place is given.
+std::string usual_words(const MechanismRule& rule)
+{
+    switch (rule.usual) {
+    case UsualPlaces::tops:
+        return "the uppermost drum of each column";
+    case UsualPlaces::feet:
+        return "the lowest joint of each column";
+    case UsualPlaces::neighbours:
+        return "every epistyle beside another one";
+    case UsualPlaces::all:
+        break;
+    }
+    return rule.place == MechanismPlace::joint ? "every joint" : "every block";
+}
+
 } // namespace
 
 Range range_of(const MechanismParameter& parameter)
@@ -40,9 +56,9 @@ MechanismKey::MechanismKey(const MechanismRule& rule)
     if (rule.place != MechanismPlace::base) {
         const std::string one = rule.place == MechanismPlace::joint ? "joint" : "block";
         place.emplace(one, WholeKey::Limits{0, most_places}, "the " + one + " at which it acts, counted from 0",
-                      KeyFacts{.absent = "every " + one});
+                      KeyFacts{.absent = usual_words(rule)});
         places.emplace(one + "s", KeyType::wholes, Range{0, static_cast<double>(most_places)},
-                       "several of them, instead", KeyFacts{.absent = "every " + one});
+                       "several of them, instead", KeyFacts{.absent = usual_words(rule)});
         keys = {&*place, &*places};
     }
     parameters.reserve(rule.parameters.size());

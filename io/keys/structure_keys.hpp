@@ -42,6 +42,15 @@ inline const NumberKey bed_restitution{"restitution",
                                        restitution_range,
                                        "restitution of the bed under the block, of rigid contacts",
                                        {.absent = "contact.restitution"}};
+inline const NumberKey bed_normal_damping{
+    "normal_damping_ratio",
+    damping_ratio_range,
+    "normal dashpot of the bed under the block as a fraction of the critical damping, of a layer in it",
+    {.absent = "contact.normal_damping_ratio"}};
+inline const NumberKey bed_tangential_damping{"tangential_damping_ratio",
+                                              damping_ratio_range,
+                                              "tangential dashpot of that bed",
+                                              {.absent = "contact.tangential_damping_ratio"}};
 inline const WholeKey count{"count", {1, most_blocks, "Equal drums, one on the other."}, 1, "number of equal drums"};
 
 // of a column, and of all columns
@@ -58,7 +67,8 @@ inline const WholeKey fixed_blocks{"fixed_blocks",
 inline const TableKey drums{"drums",
                             "the drums one by one from the bottom, instead of `blocks`",
                             {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
-                             &bed_tangential_stiffness, &bed_restitution, &count},
+                             &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping, &bed_tangential_damping,
+                             &count},
                             {.absent = "equal drums"},
                             KeyType::tables};
 inline const NumberKey drum_width{"drum_width_m",
@@ -81,7 +91,8 @@ inline const NumberKey density_of_all{"density_kg_m3",
 inline const TableKey capital{"capital",
                               "an additional block on top of the column",
                               {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
-                               &bed_tangential_stiffness, &bed_restitution},
+                               &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping,
+                               &bed_tangential_damping},
                               {.absent = "no capital"}};
 inline const NumberKey gravity{"gravity_m_s2", gravity_range, StructureSpec{}.gravity_m_s2, "acceleration of gravity"};
 
@@ -123,7 +134,7 @@ inline const TableKey epistyles{"epistyles",
                                 "the epistyles one by one from the left; [] for none",
                                 {&first_column, &last_column, &epistyle_x, &length, &own_epistyle_height, &mass,
                                  &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
-                                 &bed_restitution},
+                                 &bed_restitution, &bed_normal_damping, &bed_tangential_damping},
                                 colonnade_facts("equal pieces over all columns"),
                                 KeyType::tables};
 inline const WholeKey epistyle_bays{"epistyle_bays",

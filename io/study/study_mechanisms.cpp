@@ -80,6 +80,11 @@ private:
         if (rule.mechanism == Mechanism::face_damping && study_.contact.damping == DampingAt::ends)
             section_.refuse(rule.name, "and contact.damping = \"ends\" exclude each other",
                             "\"ends\" is a share of 1 in every joint. Give one of the two.");
+        if (rule.mechanism == Mechanism::mortar && study_.contact.form != ContactForm::area)
+            section_.refuse(rule.name,
+                            fmt::format("is not available with contact.form = \"{}\"",
+                                        word_for(contact_form_names, study_.contact.form)),
+                            "Remove it, or give contact.form = \"area\".");
         const TableKey& key = mechanism_key(rule.mechanism);
         std::vector<MechanismSpec> specs;
         std::vector<bool> taken(static_cast<std::size_t>(rule.place == MechanismPlace::base ? 1 : places(rule.place)));
@@ -102,21 +107,12 @@ private:
         }
         for (MechanismSpec& spec : specs) {
             std::sort(spec.places.begin(), spec.places.end());
-            if (static_cast<long>(spec.places.size()) == can_act(rule.place))
+            if (spec.places == usual_places(rule, layout_))
                 spec.places.clear();
         }
         std::sort(specs.begin(), specs.end(),
                   [](const MechanismSpec& a, const MechanismSpec& b) { return a.places < b.places; });
         study_.mechanisms.insert(study_.mechanisms.end(), specs.begin(), specs.end());
-    }
-
-    /// So many places there are at which it can act.
-    long can_act(MechanismPlace place) const
-    {
-        if (place != MechanismPlace::block)
-            return places(place);
-        return std::count_if(layout_.blocks.begin(), layout_.blocks.end(),
-                             [](const PlacedBlock& block) { return !block.fixed; });
     }
 
     MechanismSpec read_one(const KeyReader& keys, const MechanismRule& rule)
@@ -179,14 +175,19 @@ private:
             all.push_back(static_cast<int>(place));
         const bool named = !all.empty();
         if (!named)
-            for (int place = 0; place < places(rule.place); ++place)
-                if (rule.place == MechanismPlace::joint || !layout_.blocks[static_cast<std::size_t>(place)].fixed)
-                    all.push_back(place);
+            all = usual_places(rule, layout_);
+        if (all.empty())
+            keys.refuse_all(
+                fmt::format("{} acts nowhere: there are no epistyles side by side. Give the place by {}.\n  "
+                            "{}",
+                            keys.path(), one, there_is));
         for (const int place : all) {
             const auto k = static_cast<std::size_t>(place);
             const std::string& key = keys.has(one) ? one : several;
             if (rule.place == MechanismPlace::block && layout_.blocks[k].fixed)
                 keys.refuse(key, fmt::format("contains {}, which is fixed to the shaking table", place), there_is);
+            if (const std::string why = why_not(rule, layout_, place); !why.empty())
+                keys.refuse(key, fmt::format("contains {}, which {}", place, why), there_is);
             if (taken[k]) {
                 const std::string twice = fmt::format("{} {} occurs twice", one, place);
                 if (named)
@@ -203,6 +204,9 @@ private:
     /// What is lost of a face leaves some of it, and the centre of mass lies in its block.
     void check_room(const KeyReader& keys, const MechanismSpec& spec) const
     {
+        if (const std::string why = contradiction(rule_of(spec.mechanism), spec.values); !why.empty())
+            keys.refuse_all(fmt::format("{}: {}.", keys.path(), why));
+
         const auto width = [&](int block) {
             return block < 0 ? HUGE_VAL : layout_.blocks[static_cast<std::size_t>(block)].width_m;
         };
@@ -215,6 +219,10 @@ private:
                                 fmt::format("leaves nothing of joint {}, whose face is {} m", place, face),
                                 "left_m and right_m together are less than the face.");
             }
+            if (spec.mechanism == Mechanism::clamp &&
+                std::abs(spec.values[4]) > layout_.blocks[static_cast<std::size_t>(place)].height_m / 2)
+                keys.refuse("height_m", fmt::format("is outside block {}", place),
+                            "Give no more than half its height.");
             if (spec.mechanism == Mechanism::eccentricity && !(std::abs(spec.values[0]) < width(place) / 2))
                 keys.refuse("offset_m", fmt::format("is outside block {}, which is {} m wide", place, width(place)),
                             "Give less than half of its width.");
@@ -247,8 +255,10 @@ std::string entry(const MechanismSpec& spec, const Study& study)
             add(vertical_keys::unit, vertical.unit);
         add(vertical_keys::baseline, vertical.baseline);
     } else {
+        const std::span<const MechanismParameter> rule = rule_of(spec.mechanism).parameters;
         for (std::size_t i = 0; i < key.parameters.size(); ++i)
-            add(key.parameters[i], spec.values[i]);
+            if (rule[i].role != ParameterRole::extra || spec.values[i] != rule[i].neutral)
+                add(key.parameters[i], spec.values[i]);
     }
     return fmt::format("{{ {} }}", fmt::join(parts, ", "));
 }

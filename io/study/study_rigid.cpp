@@ -51,17 +51,20 @@ std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const Structur
                 mechanisms, rule.name, "is not available with " + form,
                 "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
                 "it, or give contact.form = \"two_corner\" with a high stiffness."};
-    const auto stiff = [](const BedSpec& bed) { return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m; };
+    const auto stiff = [](const BedSpec& bed) {
+        return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m || bed.normal_damping_ratio ||
+               bed.tangential_damping_ratio;
+    };
     const KeyReader of_structure = top.table(structure_keys::table.name);
     for (const ColumnSpec& column : structure.columns)
         for (const DrumSpec& drum : column.drums)
             if (stiff(drum.bed))
-                return RigidObstacle{of_structure, "drums", "gives a bed a stiffness, which is not used by " + form,
-                                     "Remove it."};
+                return RigidObstacle{of_structure, "drums",
+                                     "gives a bed a stiffness or damping, which is not used by " + form, "Remove it."};
     for (const EpistyleSpec& epistyle : structure.epistyles)
         if (stiff(epistyle.bed))
-            return RigidObstacle{of_structure, "epistyles", "gives a seat a stiffness, which is not used by " + form,
-                                 "Remove it."};
+            return RigidObstacle{of_structure, "epistyles",
+                                 "gives a seat a stiffness or damping, which is not used by " + form, "Remove it."};
     const std::vector<PlacedBlock> blocks = lay_out(structure).blocks;
     for (std::size_t i = 0; i < blocks.size(); ++i)
         for (std::size_t k = i + 1; k < blocks.size(); ++k) {

@@ -86,8 +86,8 @@ double read_mass(const std::vector<MassSource>& sources, const Source& size, dou
 BedSpec read_bed(const KeyReader& keys)
 {
     using namespace structure_keys;
-    return {keys.maybe(bed_friction), keys.maybe(bed_normal_stiffness), keys.maybe(bed_tangential_stiffness),
-            keys.maybe(bed_restitution)};
+    return {keys.maybe(bed_friction),    keys.maybe(bed_normal_stiffness), keys.maybe(bed_tangential_stiffness),
+            keys.maybe(bed_restitution), keys.maybe(bed_normal_damping),   keys.maybe(bed_tangential_damping)};
 }
 
 /// The keys of one column: its own ones, and behind them those of the structure for what it does not say.

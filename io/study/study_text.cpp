@@ -89,6 +89,8 @@ void add(Entries& entries, const BedSpec& bed)
     entries.add(structure_keys::bed_normal_stiffness, bed.normal_stiffness_n_m2);
     entries.add(structure_keys::bed_tangential_stiffness, bed.tangential_stiffness_n_m);
     entries.add(structure_keys::bed_restitution, bed.restitution);
+    entries.add(structure_keys::bed_normal_damping, bed.normal_damping_ratio);
+    entries.add(structure_keys::bed_tangential_damping, bed.tangential_damping_ratio);
 }
 
 Entries entries_of(const DrumSpec& drum)

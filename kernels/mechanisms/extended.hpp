@@ -17,6 +17,7 @@
 #include "kernels/mechanisms/hertz.hpp"
 #include "kernels/mechanisms/points.hpp"
 #include "kernels/mechanisms/rate_damping.hpp"
+#include "kernels/mechanisms/reinforced.hpp"
 #include "kernels/mechanisms/stribeck.hpp"
 #include "kernels/mechanisms/table_pitch.hpp"
 #include "kernels/mechanisms/tie.hpp"
@@ -189,6 +190,12 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const Rows<Real, Layout>& rows, int jo
     const Real limit = adhesion_limit(mu * F_n, rows.get(J::adhesion, joint), m.chord, broken);
     ContactForce<Real> contact = friction_force(law, select(pressed, limit, zero), m.chord, m.sliding, spring);
     contact.normal = F_n;
+    if (rows.reinforced()) { // the bond carries the shear until it breaks
+        const auto bonded = rows.get(OfJointReinforcement::bond, joint) != zero;
+        contact.tangential = select(bonded, zero, contact.tangential);
+        contact.spring = select(bonded, zero, contact.spring);
+        contact.excess = select(bonded, zero, contact.excess);
+    }
     rows.put(J::broken, joint, adhesion_broken(broken, pressed, contact.excess));
     return {contact, couple, mu};
 }
@@ -231,15 +238,20 @@ STYLOBATE_INLINE Real add_dowel(const Rows<Real, Layout>& rows, int joint, int l
     return work;
 }
 
-/// What follows the contact force of a bed: its dowel, and the wear by slip and rocking.
+/// What follows the contact force of a bed: its dowel, what strengthens it, and the wear by slip and
+/// rocking.
 /// @param s intermediate values of the bed (`JointScratch`);  @param turning as in `BedMotion`
 /// @return 2 x the energy that these dissipated or stored [J]
-template <class Real, class Layout, class Scratch>
+/// @tparam Mechanism the stepper's
+template <class Mechanism, class Real, class Layout, class Scratch>
 STYLOBATE_INLINE Real after_force(const Rows<Real, Layout>& rows, TopologyJoint blocks, int joint, const Scratch& s,
                                   const ContactForce<Real>& f, Real turning)
 {
     using J = OfJointExtension;
     Real energy = add_dowel(rows, joint, blocks.lower, blocks.upper, s.place, s.apart_x, s.apart_y);
+    if (rows.reinforced())
+        energy = energy + Reinforcing<Real, Mechanism, Layout>::bed(rows, blocks, joint, s.place, s.apart_x, s.apart_y,
+                                                                    f.normal, turning);
     rows.put(J::slip, joint, fma(f.excess, rows.get(OfJoint::per_K_t, joint), rows.get(J::slip, joint)));
     const Real wear = rows.get(J::corner_wear, joint);
     if (any(wear != Real(0.0))) {

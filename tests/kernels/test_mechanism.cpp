@@ -80,6 +80,32 @@ std::vector<Case> cases()
                        for (Block& block : r.blocks)
                            block.extension.eccentricity_m = block.fixed ? 0 : 0.001;
                    }});
+    const auto held = [&](const char* name, void (*set)(JointReinforcement&)) {
+        all.push_back({name, [set](Realization& r) {
+                           for (int j = 0; j < r.beds(); ++j)
+                               set(r.joints[static_cast<std::size_t>(j)].reinforcement);
+                       }});
+    };
+    held("bearing", [](JointReinforcement& e) {
+        e.bearing_n_m = 50;
+        e.bearing_n_s_m = 2;
+        e.bearing_per_m = 3;
+    });
+    held("mortar", [](JointReinforcement& e) {
+        e.bond_tension_n_m = 30;
+        e.bond_cohesion_n_m = 20;
+    });
+    held("pull_out", [](JointReinforcement& e) {
+        e.hold_n = 0.2;
+        e.hold_stiffness_n_m = 1e5;
+        e.hold_length_m = 1e-3;
+        e.hold_spread_m = 0.01;
+    });
+    all.push_back({"tendon", [](Realization& r) {
+                       r.blocks.back().reinforcement.tendon_n_m = 5e3;
+                       r.blocks.back().reinforcement.tendon_prestress_n = 3;
+                       r.blocks.back().reinforcement.tendon_yield_n = 5;
+                   }});
     all.push_back({"table_pitch", [](Realization& r) { r.base.pitch_rad_s2_m = 1e-3; }});
     all.push_back({"vertical_motion", [](Realization& r) { r.base.vertical_ratio = 0.3; }});
     all.push_back({"two_corner", [](Realization& r) { r.form = ContactForm::two_corner; }});
@@ -103,11 +129,15 @@ TEST(Mechanism, NeutralOnesGiveTheBitsOfTheFormWithoutThem)
         std::vector<Realization> neutral = plain;
         for (Realization& r : neutral)
             r.extended = true;
+        std::vector<Realization> held = neutral;
+        for (Realization& r : held)
+            r.reinforced = true;
         const std::vector<Bits> want = run_bits(Isa::scalar, study, plain, 300);
         EXPECT_NE(want[0], want[7]);
         for (const Isa isa : usable_isas()) {
             EXPECT_EQ(run_bits(isa, study, plain, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
             EXPECT_EQ(run_bits(isa, study, neutral, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
+            EXPECT_EQ(run_bits(isa, study, held, 300), want) << to_string(isa) << ' ' << static_cast<int>(form);
         }
     }
 }
@@ -126,6 +156,47 @@ TEST(Mechanism, NeutralOnesGiveTheBaselinesBitsInAColonnadeThatFalls)
     const std::vector<Bits> want = run_bits(best_isa(), study, {r}, 1500);
     EXPECT_EQ(run_bits(best_isa(), study, {neutral}, 1500), want);
     EXPECT_EQ(run_bits(Isa::scalar, study, {neutral}, 1500), want);
+    neutral.reinforced = true;
+    neutral.blocks[1].reinforcement.clamp_to = 4; // a clamp of no stiffness
+    EXPECT_EQ(run_bits(best_isa(), study, {neutral}, 1500), want);
+}
+
+TEST(Mechanism, ClampsHaveTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
+{
+    const Study study = harmonic(4, 0.5);
+    Bed bed;
+    bed.xi = 0.1;
+    Realization plain = colonnade(paper_colonnade(2), bed, 3e-5);
+    plain.frequency_hz = 2;
+    plain.pga_m_s2 = 9;
+    plain.reinforced = true;
+    // a drum of the left column and the one beside it
+    std::vector<int> drums;
+    for (std::size_t i = 0; i < plain.blocks.size(); ++i)
+        if (!plain.blocks[i].fixed && plain.blocks[i].role == BlockRole::drum)
+            drums.push_back(static_cast<int>(i));
+    ASSERT_EQ(drums.size(), 4u);
+    plain.blocks[static_cast<std::size_t>(drums[1])].reinforcement.clamp_to = drums[3];
+    std::vector<Realization> all(4, plain);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        BlockReinforcement& clamp = all[i].blocks[static_cast<std::size_t>(drums[1])].reinforcement;
+        clamp.clamp_n_m = 2e4;
+        clamp.clamp_strength_n = i == 1 ? 2 : 50;
+        clamp.clamp_gap_m = i == 2 ? 1e-4 : 0;
+        clamp.clamp_compression = i == 3 ? 0 : 1;
+        clamp.clamp_height_m = 0.01;
+        clamp.clamp_break_m = i == 3 ? 0.002 : 10;
+    }
+    std::vector<Bits> want;
+    for (const Realization& r : all)
+        want.push_back(run_bits(Isa::scalar, study, {r}, 400).front());
+    for (std::size_t i = 1; i < all.size(); ++i)
+        EXPECT_NE(want[i], want[0]) << i;
+    for (const Isa isa : usable_isas()) {
+        const std::vector<Bits> got = run_bits(isa, study, all, 400);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            EXPECT_EQ(got[i], want[i]) << i << ' ' << to_string(isa);
+    }
 }
 
 TEST(Mechanism, EachHasTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
@@ -136,12 +207,14 @@ TEST(Mechanism, EachHasTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
         std::vector<std::string> names;
         Realization plain = shaken_drums(7, 3);
         plain.extended = true;
+        plain.reinforced = true;
         plain.form = form;
         plain.step_s = 3e-5; // safe for all
         for (const Case& c : cases()) {
             Realization r = plain;
             c.set(r);
-            if (r.form != form || (form != ContactForm::area && c.name == "face_damping")) // their dashpots are there
+            if (r.form != form || (form != ContactForm::area &&
+                                   (c.name == "face_damping" || c.name == "mortar"))) // their dashpots are there
                 continue;
             all.push_back(r);
             names.push_back(c.name);

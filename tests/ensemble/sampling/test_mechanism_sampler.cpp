@@ -251,6 +251,40 @@ TEST(MechanismSampler, StreamsStayAndAreDistinct)
     EXPECT_LE(most_parameters, 8u);
 }
 
+TEST(MechanismSampler, ReinforcementsReachTheirMembers)
+{
+    Study study = specimen();
+    add(study, Mechanism::tendon, {1e4, 30, 200});
+    add(study, Mechanism::bearing, {2e4, 30, 0.5});
+    add(study, Mechanism::mortar, {2e5, 3e5}, {2});
+    add(study, Mechanism::pull_out, {50, 1e6, 0.01, 0.012}, {1, 3});
+    const Realization r = made(study);
+    EXPECT_TRUE(r.extended);
+    EXPECT_TRUE(r.reinforced);
+    for (std::size_t i = 0; i < 7; ++i) {
+        EXPECT_EQ(r.blocks[i].reinforcement.tendon_n_m, i == 6 ? 1e4 : 0) << i;
+        EXPECT_EQ(r.blocks[i].reinforcement.tendon_prestress_n, i == 6 ? 30 : 0) << i;
+    }
+    EXPECT_EQ(r.blocks[6].reinforcement.tendon_yield_n, 200);
+    EXPECT_EQ(r.joints[0].reinforcement.bearing_n_m, 2e4);
+    EXPECT_EQ(r.joints[0].reinforcement.bearing_n_s_m, 30);
+    EXPECT_EQ(r.joints[0].reinforcement.bearing_per_m, 0.5);
+    EXPECT_EQ(r.joints[1].reinforcement.bearing_n_m, 0);
+    EXPECT_EQ(r.joints[2].reinforcement.bond_tension_n_m, 2e5 * 0.048);
+    EXPECT_EQ(r.joints[2].reinforcement.bond_cohesion_n_m, 3e5 * 0.048);
+    EXPECT_FALSE(r.joints[1].reinforcement.bonded());
+    EXPECT_EQ(r.joints[3].reinforcement.hold_n, 50);
+    EXPECT_EQ(r.joints[3].reinforcement.hold_stiffness_n_m, 1e6);
+    EXPECT_EQ(r.joints[3].reinforcement.hold_length_m, 0.01);
+    EXPECT_EQ(r.joints[3].reinforcement.hold_spread_m, 0.012);
+    // neutral ones need no rows
+    Study neutral = specimen();
+    add(neutral, Mechanism::tendon, {0, 0, 1e12});
+    EXPECT_FALSE(made(neutral).extended);
+    EXPECT_FALSE(made(neutral).reinforced);
+    EXPECT_EQ(made(neutral).step_s, made(specimen()).step_s);
+}
+
 TEST(MechanismSampler, WhatCannotBeBuiltIsRefused)
 {
     const auto message = [](const Study& study) {
@@ -268,6 +302,11 @@ TEST(MechanismSampler, WhatCannotBeBuiltIsRefused)
     Study eccentric = specimen();
     add(eccentric, Mechanism::eccentricity, {0.03}, {4});
     EXPECT_NE(message(eccentric).find("block 4 lies 0.03 m from its middle"), std::string::npos) << message(eccentric);
+    Study tensioned = specimen();
+    add(tensioned, Mechanism::tendon, {1e4, 300, 200});
+    EXPECT_NE(message(tensioned).find("realization 0 at block 6: prestress_n = 300 is above yield_n = 200"),
+              std::string::npos)
+        << message(tensioned);
 }
 
 } // namespace

@@ -290,6 +290,31 @@ TEST(Sampler, DampingOptions)
     EXPECT_NEAR(joint.tangential_damping_n_s_m / joint.normal_damping_n_s_m, 1, 1e-12);
 }
 
+TEST(Sampler, ABedMayHaveADampingOfItsOwn)
+{
+    // C = 2 xi sqrt(k m)
+    Study study = specimen();
+    study.structure.columns[0].drums[3].bed.normal_damping_ratio = 0.4;
+    study.structure.columns[0].drums[3].bed.tangential_damping_ratio = 0.3;
+    const double mass = study.structure.columns[0].drums[3].mass_kg;
+    const auto ratios = [&](const Realization& r, std::size_t bed) {
+        const Joint& joint = r.joints[bed];
+        return std::pair{joint.normal_damping_n_s_m / (2 * std::sqrt(joint.normal_stiffness_n_m2 * 0.048 * mass)),
+                         joint.tangential_damping_n_s_m / (2 * std::sqrt(joint.tangential_stiffness_n_m * mass))};
+    };
+    Realization r = Sampler(study, nullptr).realization(0);
+    EXPECT_NEAR(ratios(r, 2).first, 0.4, 1e-12); // drum 0 is fixed
+    EXPECT_NEAR(ratios(r, 2).second, 0.3, 1e-12);
+    EXPECT_NEAR(ratios(r, 1).first, study.contact.normal_damping_ratio, 1e-12);
+    // it changes as the common one does, and stays where that is replaced
+    study.perturbations = {relative(Quantity::damping_ratio, Per::structure, 0.2)};
+    r = Sampler(study, nullptr).realization(1);
+    EXPECT_NE(ratios(r, 2).first, 0.4);
+    EXPECT_NEAR(ratios(r, 2).first / 0.4, ratios(r, 1).first / study.contact.normal_damping_ratio, 1e-12);
+    study.perturbations = {between(DistributionKind::uniform, Quantity::damping_ratio, Per::structure, 0.05, 0.5)};
+    EXPECT_NEAR(ratios(Sampler(study, nullptr).realization(1), 2).first, 0.4, 1e-12);
+}
+
 TEST(Sampler, OnceForTheStructure)
 {
     Study study = specimen();

@@ -28,6 +28,10 @@ const std::string listed = "[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndens
                            "= 1.2, height_m = 0.3 } }, { x_m = 3, drums = [ { width_m = 1, height_m = 2 } ], capital = "
                            "{ width_m = 1.2, height_m = 0.3 } } ]\n"
                            "epistyles = [ { first_column = 0, last_column = 1, length_m = 4, height_m = 0.5 } ]\n";
+/// With two epistyles side by side, as clamps need them.
+const std::string bays =
+    "[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndensity_kg_m3 = 2700\ncolumns = 3\ncolumn_spacing_m = 3\n"
+    "blocks = 2\ndrum_width_m = 1\ndrum_height_m = 2\nepistyle_height_m = 0.5\nepistyle_bays = 1\n";
 const std::string contact = "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.7\n";
 
 const std::string rigid = "[contact]\nform = \"rigid\"\nfriction = 0.7\n";
@@ -49,6 +53,10 @@ std::string every_mechanism()
         const std::size_t exponent = text.find("exponent = 0.1");
         if (exponent != std::string::npos)
             text.replace(exponent, 14, "exponent = 1.1");
+        // nor is there stone so weak
+        const std::size_t strength = text.find("stone_strength_pa = 0.1");
+        if (strength != std::string::npos)
+            text.replace(strength, 23, "stone_strength_pa = 1e8");
         text += " }\n";
     }
     return text;
@@ -93,7 +101,7 @@ std::vector<std::string> samples()
         single("kind = \"record\"\nfile = \"a\"\n"),
         single("kind = \"table\"\nfile = \"a\"\n"),
         single("kind = \"sweep\"\nfrom_hz = 0.3\nto_hz = 7.7\nduration_s = 41.3\npga_m_s2 = 3.3\n"),
-        single(harmonic) + every_mechanism(),
+        single(harmonic, bays) + every_mechanism(),
         surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "adaptive = { budget = 100 }\n",
         surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "[twins]\n",
         fragility +
@@ -129,7 +137,7 @@ std::vector<std::string> samples()
             if (parameter.role == ParameterRole::needed || &parameter == &rule.parameters.front())
                 values += (values.empty() ? "" : ", ") + parameter.key() + " = " +
                           toml_number(std::max(1.2 * parameter.low, 0.4));
-        all.push_back(single(harmonic) + "[mechanisms]\n" + rule.name + " = { " + values + " }\n");
+        all.push_back(single(harmonic, bays) + "[mechanisms]\n" + rule.name + " = { " + values + " }\n");
     }
     // of each distribution one
     const auto spreads = [](const SpreadKey& key) {
@@ -150,8 +158,8 @@ std::vector<std::string> samples()
         for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
             const SpreadKey& key = spread_key(rule.mechanism, i);
             for (const std::string& spread : spreads(key))
-                all.push_back(single(harmonic) + every_mechanism() + "[perturbation.mechanisms]\n" + rule.name + "." +
-                              key.name + " = " + spread + "\n");
+                all.push_back(single(harmonic, bays) + every_mechanism() + "[perturbation.mechanisms]\n" + rule.name +
+                              "." + key.name + " = " + spread + "\n");
         }
     return all;
 }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,10 @@ eccentricity = { blocks = [1, 3], offset_m = -0.001 }
 wedge = { joint = 0, angle_rad = 0.0041 }
 drum_offset = { block = 2, offset_m = 0.0005 }
 tie = { block = 4, stiffness_n_m = -50, dashpot_n_s_m = 2, force_n = 0.1, turning_dashpot_n_m_s = 0.01 }
+tendon = { block = 6, stiffness_n_m = 1e6, prestress_n = 500, yield_n = 2000 }
+bearing = { joint = 0, stiffness_n_m = 2e4, dashpot_n_s_m = 30, curvature_per_m = 0.5 }
+mortar = { joints = [2, 3], tensile_strength_pa = 2e5, cohesion_pa = 3e5 }
+pull_out = { joint = 1, hold_n = 50, stiffness_n_m = 1e6, length_m = 0.01, spread_m = 0.012 }
 )";
 
 const MechanismSpec& only(const Study& study, Mechanism mechanism)
@@ -78,29 +84,43 @@ const MechanismSpec& only(const Study& study, Mechanism mechanism)
     return *at;
 }
 
+/// Of a mechanism's parameters, in their order; the others are 0.
+std::array<double, most_parameters> values(std::initializer_list<double> first)
+{
+    std::array<double, most_parameters> all{};
+    std::copy(first.begin(), first.end(), all.begin());
+    return all;
+}
+
 TEST(StudyMechanisms, ReadsEveryMechanism)
 {
     const Study s = read(all_mechanisms);
     for (const MechanismRule& rule : mechanism_rules())
-        ASSERT_TRUE(s.names(rule.mechanism)) << rule.name;
-    ASSERT_EQ(s.mechanisms.size(), 21u); // joint_friction has two
+        ASSERT_TRUE(s.names(rule.mechanism) || rule.mechanism == Mechanism::clamp) << rule.name;
+    ASSERT_EQ(s.mechanisms.size(), 25u); // joint_friction has two; there is nothing to clamp
     for (std::size_t i = 1; i < s.mechanisms.size(); ++i)
         EXPECT_LE(s.mechanisms[i - 1].mechanism, s.mechanisms[i].mechanism);
 
     const MechanismSpec& stribeck = only(s, Mechanism::stribeck);
-    EXPECT_EQ(stribeck.values, (std::array{0.5, 0.05, 0.0, 0.0}));
+    EXPECT_EQ(stribeck.values, values({0.5, 0.05, 0.0, 0.0}));
     EXPECT_TRUE(stribeck.places.empty());
     EXPECT_EQ(s.mechanisms[1].places, (std::vector{0, 5})); // in the order of the places
     EXPECT_EQ(s.mechanisms[1].values[0], 1.2);
     EXPECT_EQ(s.mechanisms[2].places, std::vector{2});
     EXPECT_EQ(only(s, Mechanism::drag).places, std::vector{6});
-    EXPECT_EQ(only(s, Mechanism::corner_loss).values, (std::array{0.002, 0.003, 0.0, 0.0}));
-    EXPECT_EQ(only(s, Mechanism::hertz).values, (std::array{1.2, 0.0, 0.0, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::corner_loss).values, values({0.002, 0.003, 0.0, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::hertz).values, values({1.2, 0.0, 0.0, 0.0}));
     EXPECT_EQ(only(s, Mechanism::face_damping).places, (std::vector{3, 4}));
-    EXPECT_EQ(only(s, Mechanism::harmonic_distortion).values, (std::array{0.02, 0.0, 0.0, -0.01}));
-    EXPECT_EQ(only(s, Mechanism::dowel).values, (std::array{1e5, 20.0, 1e-3, 0.0}));
-    EXPECT_EQ(only(s, Mechanism::tie).values, (std::array{-50.0, 2.0, 0.1, 0.01}));
+    EXPECT_EQ(only(s, Mechanism::harmonic_distortion).values, values({0.02, 0.0, 0.0, -0.01}));
+    EXPECT_EQ(only(s, Mechanism::dowel).values, values({1e5, 20.0, 1e-3, 0.0}));
+    EXPECT_EQ(only(s, Mechanism::tie).values, values({-50.0, 2.0, 0.1, 0.01}));
     EXPECT_EQ(only(s, Mechanism::eccentricity).places, (std::vector{1, 3}));
+    EXPECT_EQ(only(s, Mechanism::tendon).values, values({1e6, 500, 2000}));
+    EXPECT_TRUE(only(s, Mechanism::tendon).places.empty()); // the uppermost drum
+    EXPECT_EQ(only(s, Mechanism::bearing).values, values({2e4, 30, 0.5}));
+    EXPECT_TRUE(only(s, Mechanism::bearing).places.empty()); // the lowest joint
+    EXPECT_EQ(only(s, Mechanism::mortar).values, values({2e5, 3e5}));
+    EXPECT_EQ(only(s, Mechanism::pull_out).values, values({50, 1e6, 0.01, 0.012}));
     EXPECT_FALSE(s.vertical);
 }
 
@@ -176,6 +196,8 @@ TEST(StudyMechanisms, NeutralValuesAreAccepted)
 {
     for (const MechanismRule& rule : mechanism_rules()) {
         const MechanismSpec neutral = neutral_spec(rule.mechanism, 0.68);
+        if (rule.mechanism == Mechanism::clamp)
+            continue; // a column has nothing to clamp
         std::string entry = std::string(rule.name) + " = { ";
         for (std::size_t i = 0; i < rule.parameters.size(); ++i)
             // the yield force of a dowel has no neutral value
@@ -230,6 +252,75 @@ TEST(StudyMechanisms, SaysWhichPlacesThereAre)
                    {"joint 1 occurs twice", "Give one entry"});
     expect_refused("wedge = [ { joint = 1, angle_rad = 0.001 }, { angle_rad = 0.002 } ]",
                    {"acts everywhere", "joint 1 occurs twice", "Give the place"});
+}
+
+TEST(StudyMechanisms, SaysWhatCannotStrengthen)
+{
+    expect_refused("tendon = { prestress_n = 500 }", {"mechanisms.tendon.stiffness_n_m is missing"});
+    expect_refused("tendon = { stiffness_n_m = 1e6, prestress_n = -5 }", {"prestress_n = -5 is outside [0, "});
+    expect_refused("tendon = { stiffness_n_m = 0, prestress_n = 5 }",
+                   {"prestress_n = 5 has no effect without a stiffness"});
+    expect_refused("tendon = { stiffness_n_m = 1e6, prestress_n = 500, yield_n = 400 }",
+                   {"prestress_n = 500 is above yield_n = 400"});
+    expect_refused("tendon = { block = 0, stiffness_n_m = 1e6 }", {"contains 0, which is fixed"});
+    expect_refused("mortar = { tensile_strength_pa = 1e5 }", {"mechanisms.mortar.cohesion_pa is missing"});
+    expect_refused(study("mortar = { tensile_strength_pa = 1e5, cohesion_pa = 1e5 }", "form = \"points\""), 17,
+                   {"mechanisms.mortar", "is not available with contact.form = \"points\""});
+    expect_refused("clamp = { stiffness_n_m = 1e6, strength_n = 100 }",
+                   {"mechanisms.clamp acts nowhere", "Give the place by block"});
+    expect_refused("clamp = { block = 3, stiffness_n_m = 1e6, strength_n = 100 }",
+                   {"contains 3, which has no neighbour at its right"});
+    // the stone carries (sqrt 2 - 1) x 60e6 Pa x 0.006 m x 0.03 m = 4473.5 N
+    const std::string stone = ", stone_strength_pa = 60e6, diameter_m = 0.006, embedment_m = 0.03 }";
+    EXPECT_NO_THROW(read("dowel = { stiffness_n_m = 1e6, yield_n = 4470" + stone));
+    expect_refused("dowel = { stiffness_n_m = 1e6, yield_n = 4480" + stone,
+                   {"yield_n = 4480 is above 4474 N, at which the stone is crushed"});
+    expect_refused("dowel = { stiffness_n_m = 1e6, yield_n = 400, stone_strength_pa = 60e6 }",
+                   {"needs diameter_m and embedment_m"});
+}
+
+TEST(StudyMechanisms, ADowelsTextHasTheStoneOnlyWhereItIsGiven)
+{
+    const std::string text = read("dowel = { stiffness_n_m = 1e6, yield_n = 400 }").text;
+    EXPECT_NE(text.find("dowel = { stiffness_n_m = 1000000.0, yield_n = 400.0, gap_m = 0.0 }"), std::string::npos)
+        << text;
+}
+
+TEST(StudyMechanisms, ReinforcementsActAtTheirUsualPlaces)
+{
+    const std::string structure =
+        "[study]\nkind = \"single\"\n[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndensity_kg_m3 = 2700\ncolumns = "
+        "3\ncolumn_spacing_m = 3\nblocks = 3\nfixed_blocks = 1\ndrum_width_m = 1\ndrum_height_m = "
+        "2\nepistyle_height_m = 0.5\nepistyle_bays = 1\n[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = "
+        "0.7\n[excitation]\nkind = \"none\"\nduration_s = 1\n[mechanisms]\n";
+    const Study s =
+        parse_study(structure + "tendon = { stiffness_n_m = 1e6 }\nbearing = { stiffness_n_m = 1e6 }\nclamp "
+                                "= { stiffness_n_m = 1e6, strength_n = 100 }\n",
+                    "temple.toml");
+    const Layout layout = lay_out(s.structure);
+    EXPECT_EQ(usual_places(rule_of(Mechanism::tendon), layout), (std::vector{2, 5, 8}));
+    EXPECT_EQ(usual_places(rule_of(Mechanism::bearing), layout), (std::vector{0, 2, 4}));
+    EXPECT_EQ(usual_places(rule_of(Mechanism::clamp), layout), (std::vector{9}));
+    EXPECT_EQ(right_neighbour(layout, 9), 10);
+    EXPECT_EQ(right_neighbour(layout, 1), 4);
+    EXPECT_EQ(right_neighbour(layout, 10), -1);
+    // named one by one it is the same study
+    const Study named =
+        parse_study(structure + "tendon = { blocks = [8, 2, 5], stiffness_n_m = 1e6 }\nbearing = { joints = [0, 2, 4], "
+                                "stiffness_n_m = 1e6 }\nclamp = { block = 9, stiffness_n_m = 1e6, strength_n = 100 }\n",
+                    "temple.toml");
+    EXPECT_EQ(named.text, s.text);
+    const auto refused = [&](const std::string& mechanism) {
+        try {
+            parse_study(structure + mechanism, "temple.toml");
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(refused("tendon = { block = 9, stiffness_n_m = 1e6 }").find("is no drum"), std::string::npos);
+    EXPECT_NE(refused("clamp = { stiffness_n_m = 1e6, strength_n = 100, height_m = 0.3 }").find("outside block 9"),
+              std::string::npos);
 }
 
 TEST(StudyMechanisms, OfTheBaseNeedAMotionThatHasThem)

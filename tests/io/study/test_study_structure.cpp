@@ -106,6 +106,22 @@ drums = [
     EXPECT_EQ(study.contact.tangential_stiffness_n_m, 3e9 * 1.5); // the widest drum's
 }
 
+TEST(StudyStructure, ALayerHasADampingOfItsOwn)
+{
+    const Study study = read(R"(depth_m = 2
+drum_width_m = 1.5
+drum_height_m = 0.5
+density_kg_m3 = 2000
+drums = [
+    { count = 2 },
+    { normal_stiffness_n_m2 = 1e9, normal_damping_ratio = 0.4, tangential_damping_ratio = 0.3 },
+])");
+    const BedSpec& bed = study.structure.columns[0].drums[2].bed;
+    EXPECT_EQ(bed.normal_damping_ratio, 0.4);
+    EXPECT_EQ(bed.tangential_damping_ratio, 0.3);
+    EXPECT_EQ(parse_study(study.text, "again.toml").structure, study.structure);
+}
+
 TEST(StudyStructure, TaperAndCapital)
 {
     const Study study = read(R"(depth_m = 1

@@ -219,6 +219,8 @@ TEST(StudyText, DiffersWhereverAStudyDoes)
         [](Study& s) { s.structure.columns[0].drums[2].bed.friction = 0.68; },
         [](Study& s) { s.structure.columns[0].drums[2].bed.normal_stiffness_n_m2 = 1e8; },
         [](Study& s) { s.structure.columns[0].drums[2].bed.tangential_stiffness_n_m = 4.8e6; },
+        [](Study& s) { s.structure.columns[0].drums[2].bed.normal_damping_ratio = 0.1; },
+        [](Study& s) { s.structure.columns[0].drums[2].bed.tangential_damping_ratio = 0.1; },
         [&](Study& s) { up(s.structure.depth_m); },
         [&](Study& s) { up(s.structure.columns[0].drums[3].mass_kg); },
         [&](Study& s) { up(s.structure.gravity_m_s2); },
@@ -330,6 +332,8 @@ TEST(StudyText, DiffersWhereverAColonnadeDoes)
                                  [](Study& s) { s.structure.epistyles[0].bed.friction = 0.68; },
                                  [](Study& s) { s.structure.epistyles[0].bed.normal_stiffness_n_m2 = 1e8; },
                                  [](Study& s) { s.structure.epistyles[0].bed.tangential_stiffness_n_m = 1e8; },
+                                 [](Study& s) { s.structure.epistyles[0].bed.normal_damping_ratio = 0.1; },
+                                 [](Study& s) { s.structure.epistyles[0].bed.tangential_damping_ratio = 0.1; },
                              });
 }
 
