@@ -222,6 +222,100 @@ neutral = {}
         EXPECT_EQ(limit.value["overall"]["base_only"].number + limit.value["overall"]["variant_only"].number, 0);
 }
 
+TEST_F(Compare, AnAdaptiveComparisonDependsOnNothingButItsStudies)
+{
+    write_study(96, "[variants]\nsmoother = { \"contact.friction\" = 0.3 }\n");
+    const Words words = {"compare", "col.toml", "--adaptive", "600", "--margin", "0.1", "-o", "a.h5"};
+    const Ended ended = run(with(words, {"--json"}));
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended), smoother = variant(json, "smoother");
+    EXPECT_EQ(json["adaptive"]["budget"].number, 600);
+    EXPECT_GT(json["adaptive"]["rounds"].number, 2);
+    EXPECT_LE(smoother["pairs"].number, 600);
+    EXPECT_GE(smoother["pairs"].number, 16 * 8);
+    double fewest = 1e9, most = 0;
+    for (const JsonValue& cell : smoother["limit_states"]["collapse"]["cells"].items) {
+        fewest = std::min(fewest, cell["pairs"].number);
+        most = std::max(most, cell["pairs"].number);
+    }
+    EXPECT_LT(fewest, most);
+    const std::string whole = read_bytes(folder / "a.h5");
+    // what is there already is not run again, and more than is asked for is left out
+    EXPECT_EQ(run(with(words, {"--threads", "1"})).status, 0);
+    EXPECT_TRUE(read_bytes(folder / "a.h5") == whole);
+    ASSERT_EQ(run(Words{"run", "col.toml"}).status, 0);
+    EXPECT_EQ(run(words).status, 0);
+    EXPECT_TRUE(read_bytes(folder / "a.h5") == whole);
+    fs::remove(folder / "col.h5");
+    fs::remove(folder / "col_smoother.h5");
+    Ended part;
+    for (int i = 0; i < 3 && part.status != 0; ++i) {
+        ProgramRun program{.arguments = with(words, {"--threads", "1", "--simd", "scalar"})};
+        program.terminal = true;
+        program.signal = i == 0 ? SIGINT : i == 1 ? SIGKILL : 0;
+        program.when = i == 0 ? when_done(60) : when_there(folder / "col_smoother.h5");
+        part = run(program);
+    }
+    EXPECT_EQ(part.status, 0) << testing::PrintToString(part);
+    EXPECT_TRUE(read_bytes(folder / "a.h5") == whole);
+    expect_refused(Words{"compare", "col.toml", "--adaptive", "100", "-o", "b.h5"},
+                   {"--adaptive 100", "16 cells", "Give at least 128"});
+}
+
+TEST_F(Compare, HasPicturesTablesAndAPage)
+{
+    ASSERT_EQ(run(Words{"compare", "col.toml"}).status, 0);
+    EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "csv"}).out, "col_comparison.csv\n");
+    const std::string csv = read_bytes(folder / "col_comparison.csv");
+    EXPECT_TRUE(csv.starts_with("variant,limit_state,place,both,")) << csv.substr(0, 100);
+    EXPECT_EQ(count_of(csv, "\n"), 1U + 2 * 3 * 17);
+    EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg", "--limit", "slid"}).out,
+              "col_comparison_slid.svg\n");
+    EXPECT_EQ(run(Words{"report", "col_comparison.h5"}).status, 0);
+    const std::string page = read_bytes(folder / "col_comparison.html");
+    for (const char* words : {"What changes", "Where it changes", "smoother", "same quantiles", "data:image/png"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+    expect_refused(Words{"export", "col_comparison.h5", "--to", "png", "--limit", "peak"}, {"it has collapse"});
+    expect_refused(Words{"export", "col_comparison.h5", "--to", "vtk"}, {"png, svg, pdf or csv"});
+    expect_refused(Words{"export", "col_comparison.h5", "--to", "png", "--cell", "3"}, {"is a comparison"});
+    expect_refused(Words{"replay", "col_comparison.h5", "--realization", "1"}, {"is a comparison of studies"});
+}
+
+TEST_F(Compare, SearchesTheValuesOfAKey)
+{
+    write_study(8, "[optimise]\nbudget = 1500\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n");
+    const Words words = {"compare", "col.toml", "--search"};
+    const Ended ended = run(with(words, {"--json"}));
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    EXPECT_LE(json["realizations"].number, 1500);
+    EXPECT_GE(json["points"].items.size(), 5U);
+    const JsonValue key = json["keys"].items[0];
+    EXPECT_LE(key["flat_from"].number, key["best"].number);
+    EXPECT_GE(key["flat_to"].number, key["best"].number);
+    EXPECT_LE(json["lower"].number, json["probability"].number);
+    // a point is the study with that value
+    const JsonValue point = json["points"].items[1];
+    EXPECT_EQ(point["values"].items[0].number, 0.2);
+    ASSERT_EQ(run(Words{"run", "col.toml", "--set", "contact.friction=0.2", "-o", "own.h5"}).status, 0);
+    EXPECT_TRUE(read_bytes(folder / "own.h5") == read_bytes(folder / point["results"].text));
+    // again from its files
+    EXPECT_EQ(run(with(words, {"--json", "--threads", "1"})).out, ended.out);
+    const auto refused = [&](const std::string& more, const Words& parts) {
+        write_study(8, more);
+        expect_refused(words, parts);
+    };
+    refused("", {"has no [optimise]"});
+    refused("[optimise]\nbudget = 500\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n",
+            {"optimise.budget = 500", "Give a budget of at least"});
+    refused("[optimise]\n\"contact.friction\" = { from = 0.9, to = 0.2 }\n", {"is not above from"});
+    refused("[optimise]\nbudget = 2000\n", {"0 keys of the study to choose"});
+    refused("[optimise]\n\"contact.friction\" = { from = 0.2, to = 90 }\n", {"contact.friction", "is outside"});
+    refused("[optimise]\nminimise = \"unseated\"\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n",
+            {"is no limit state of the study", "It has collapse, rocked, slid"});
+    refused("[optimise]\n\"excitation.cycles\" = { from = 4, to = 9 }\n", {"excitation.cycles"});
+}
+
 TEST_F(Compare, RunOfAStudyWithVariantsRunsTheBase)
 {
     const Ended ended = run(Words{"run", "col.toml"});

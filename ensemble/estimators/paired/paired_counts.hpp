@@ -11,10 +11,7 @@ struct PairedCounts {
     std::uint64_t variant_only = 0; ///< discordant: reached in the variant alone
     std::uint64_t neither = 0;
 
-    void add(bool base, bool variant)
-    {
-        ++(base ? (variant ? both : base_only) : (variant ? variant_only : neither));
-    }
+    void add(bool base, bool variant) { ++(base ? (variant ? both : base_only) : (variant ? variant_only : neither)); }
     PairedCounts& operator+=(const PairedCounts& more)
     {
         both += more.both;

@@ -12,10 +12,9 @@
 /// 2 n x2 - (b + c - (2 n - b + c) d) x - c d (1 - d) = 0. Without a discordant pair its limits are -+ z2 / (n + z2).
 ///
 /// Chosen among Tango's, Agresti and Min's ("Simple improved confidence intervals for comparing matched proportions",
-/// Statistics in Medicine 24 (2005) 729) and Bonett and Price's, by exact summation: with five expected discordant
-/// pairs or more the coverage of Tango's is 0.935 to 0.976 at level 0.95, and it is conservative with fewer. Agresti
-/// and Min's falls to 0.83 where an intervention acts in one direction alone, which is the usual case
-/// (docs/compare.md).
+/// Statistics in Medicine 24 (2005) 729) and Bonett and Price's, by exact summation: the coverage of Tango's at level
+/// 0.95 is 0.93 to 0.98 with eight expected discordant pairs or more, and it is conservative with few. Agresti and
+/// Min's falls to 0.83 where an intervention acts in one direction alone, which is the usual case (docs/compare.md).
 ///
 /// Groups (runs under one motion) are not independent trials. Their counts are divided by the design effect
 ///

@@ -7,6 +7,7 @@
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
     case ChangeVerdict::worse:
         return tag("bad", "worse");
     default:
-        return tag("", verdict_text(limit, place));
+        return verdict_text(limit, place);
     }
 }
 
@@ -204,7 +205,7 @@ private:
     {
         Figure figure;
         figure.title = "Shares of " + limit;
-        figure.x_label = c_.measure;
+        figure.x_label = describe_measure(c_.measure);
         figure.y_label = "probability";
         figure.x_log = true;
         const auto add = [&](const LimitComparison& of, const std::string& name, Share PlaceComparison::*side) {
@@ -235,20 +236,28 @@ private:
         page_.paragraph("Cells that are named by the exact test of their discordant pairs, over all cells of a limit "
                         "state: " +
                         adjustment_text(c_) + ".");
-        for (const VariantComparison& variant : c_.variants)
-            for (const LimitComparison& limit : variant.limits)
-                if (limit.damage)
-                    for (const bool worse : {true, false})
-                        list(variant, limit, worse);
+        for (const VariantComparison& variant : c_.variants) {
+            std::string none; // limit states of which no cell is named
+            for (const LimitComparison& limit : variant.limits) {
+                if (!limit.damage)
+                    continue;
+                const bool worse = list(variant, limit, true), better = list(variant, limit, false);
+                if (!worse && !better)
+                    none += (none.empty() ? "" : ", ") + limit.name;
+            }
+            if (!none.empty())
+                page_.note(fmt::format("{}: no cell is named of {}.", variant.name, none));
+        }
     }
 
-    void list(const VariantComparison& variant, const LimitComparison& limit, bool worse)
+    /// @returns whether a cell is named
+    bool list(const VariantComparison& variant, const LimitComparison& limit, bool worse)
     {
         const std::vector<std::size_t> cells = limit.named(c_.rate, worse);
         const std::string what = fmt::format("{}: {} {} in {} of {} cells", variant.name, limit.name,
                                              worse ? "worse" : "better", cells.size(), limit.cells.size());
         if (cells.empty())
-            return page_.note(what + ".");
+            return false;
         HtmlTable table{"lrrrr", {"place", "base", variant.name, "difference", "adjusted p"}, {}, what};
         for (const std::size_t cell : cells)
             table.rows.push_back({c_.place(cell), fmt::format("{:.3f}", limit.cells[cell].base.probability),
@@ -256,6 +265,7 @@ private:
                                   difference_text(limit.cells[cell]),
                                   fmt::format("{:.2g}", limit.cells[cell].p_adjusted)});
         page_.table(table);
+        return true;
     }
 
     void common()

@@ -1,9 +1,10 @@
 #include "studies/decisions/compare/comparison_picture.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/curves/plot_shares.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "io/plots/plot_shares.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>
 
@@ -77,7 +78,7 @@ void draw_stripes(const Comparison& comparison, const std::string& limit, const 
     picture.title = title;
     picture.subtitle = fmt::format("{} motions · bars: {:g} % intervals of each share, clustered by motion",
                                    comparison.motions, 100 * comparison.level);
-    picture.x_label = comparison.measure;
+    picture.x_label = describe_measure(comparison.measure);
     picture.y_label = "probability of reaching the limit state";
     const auto series = [&](const LimitComparison& of, const std::string& name, Share PlaceComparison::*side) {
         ShareSeries s{name, comparison.intensity, {}, {}, {}};

@@ -157,10 +157,9 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
         const PlaceComparison& all = limit.overall;
         text += fmt::format("  {}: {} to {}, difference {}: {}\n", limit.name, share_text(all.base),
                             share_text(all.variant), difference_text(all), verdict_text(limit, all));
-        text += fmt::format("    {} discordant pairs ({} base alone, {} variant alone); without pairs {:.0f} "
-                            "realizations of each study ({:.1f} times as many)\n",
-                            all.counts.discordant(), all.counts.base_only, all.counts.variant_only, all.unpaired,
-                            all.saving());
+        text += fmt::format("    {} discordant pairs ({} base alone, {} variant alone); without pairs each study would "
+                            "need {}\n",
+                            all.counts.discordant(), all.counts.base_only, all.counts.variant_only, unpaired_text(all));
         if (limit.cells.size() > 1)
             text += named_text(comparison, limit, true) + named_text(comparison, limit, false);
     }
@@ -181,6 +180,12 @@ std::string verdict_text(const LimitComparison& limit, const PlaceComparison& pl
 std::string difference_text(const PlaceComparison& place)
 {
     return fmt::format("{:+.4f} [{:+.4f}, {:+.4f}]", place.difference, place.lower, place.upper);
+}
+
+std::string unpaired_text(const PlaceComparison& place)
+{
+    return std::isfinite(place.unpaired) ? fmt::format("{:.0f} ({:.1f} times as many)", place.unpaired, place.saving())
+                                         : std::string("a number that is not known");
 }
 
 std::string inputs_text(const VariantComparison& variant)

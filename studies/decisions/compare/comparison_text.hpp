@@ -18,6 +18,8 @@ Table comparison_rows(const Comparison& comparison);
 std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place);
 /// "-0.043 [-0.060, -0.027]"
 std::string difference_text(const PlaceComparison& place);
+/// "5954 (5.2 times as many)", or that it is not known.
+std::string unpaired_text(const PlaceComparison& place);
 /// "friction: same numbers; drum_offset: same quantiles".
 std::string inputs_text(const VariantComparison& variant);
 /// What names of cells mean: "Benjamini-Hochberg, false names at most 5 %".

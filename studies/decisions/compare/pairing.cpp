@@ -84,7 +84,9 @@ void take(PlaceComparison& place, const PairedDifference& found)
 double unpaired_of(const PlaceComparison& place, const PairedDifference& found, double base_effect,
                    double variant_effect)
 {
-    if (place.counts.pairs() == 0 || !std::isfinite(found.quantile))
+    // without a discordant pair the design effect of groups is not known
+    const bool unknown = found.design_effect > 1 && place.counts.discordant() == 0;
+    if (place.counts.pairs() == 0 || !std::isfinite(found.quantile) || unknown)
         return std::nan("");
     return unpaired_realizations(place.base.probability, place.variant.probability, found.half_width(), found.quantile,
                                  base_effect, variant_effect);

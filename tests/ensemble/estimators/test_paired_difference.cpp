@@ -73,7 +73,8 @@ TEST(PairedDifference, HasTheLimitsOfThePublishedExample)
 
 TEST(PairedDifference, ExchangingTheStudiesReflectsTheInterval)
 {
-    const PairedDifference one = paired_difference(counts(60, 9, 2), 0.9), other = paired_difference(counts(60, 2, 9), 0.9);
+    const PairedDifference one = paired_difference(counts(60, 9, 2), 0.9),
+                           other = paired_difference(counts(60, 2, 9), 0.9);
     EXPECT_NEAR(one.lower, -other.upper, 1e-12);
     EXPECT_NEAR(one.upper, -other.lower, 1e-12);
 }
@@ -144,6 +145,43 @@ TEST(PairedDifference, UnpairedNumberIsThatOfTheVariances)
     EXPECT_NEAR(unpaired_realizations(0, 0, none.half_width(), none.quantile), 200, 1);
 }
 
+/// By summation over all counts of discordant pairs, also of interventions that act in one direction alone.
+TEST(PairedDifference, ExactCoverageStaysNearTheLevel)
+{
+    double least = 1, least_many = 1, most_many = 0, mean_many = 0, number = 0;
+    for (const int n : {16, 64}) {
+        std::vector<PairedDifference> limits;
+        for (int b = 0; b <= n; ++b)
+            for (int c = 0; b + c <= n; ++c)
+                limits.push_back(paired_difference(
+                    counts(static_cast<std::uint64_t>(n), static_cast<std::uint64_t>(b), static_cast<std::uint64_t>(c)),
+                    0.95));
+        for (const double q : {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9})
+            for (const double part : {0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.999}) {
+                const double up = q * part, down = q * (1 - part), d = up - down;
+                double covered = 0;
+                std::size_t at = 0;
+                for (int b = 0; b <= n; ++b)
+                    for (int c = 0; b + c <= n; ++c, ++at)
+                        if (limits[at].lower <= d && d <= limits[at].upper)
+                            covered += std::exp(std::lgamma(n + 1) - std::lgamma(b + 1) - std::lgamma(c + 1) -
+                                                std::lgamma(n - b - c + 1) + b * std::log(up) + c * std::log(down) +
+                                                (n - b - c) * std::log(1 - q));
+                least = std::min(least, covered);
+                if (n * q >= 8) {
+                    least_many = std::min(least_many, covered);
+                    most_many = std::max(most_many, covered);
+                    mean_many += covered;
+                    number += 1;
+                }
+            }
+    }
+    EXPECT_GT(least, 0.93);
+    EXPECT_GT(least_many, 0.93);
+    EXPECT_LT(most_many, 0.98);
+    EXPECT_NEAR(mean_many / number, 0.952, 0.003);
+}
+
 constexpr int repeats = 10000;
 
 /// The share of the repeats whose interval holds the truth.
@@ -170,12 +208,13 @@ TEST(PairedDifferenceStatistics, IntervalsOfPairsCover)
                     const PairedTruth truth{base, base + change, correlation};
                     if (truth.both() > std::min(truth.base, truth.variant))
                         continue;
-                    const double covered = coverage(
-                        truth.difference(), [&] { return paired_difference(truth.draw(n, random), 0.95); });
+                    const double covered =
+                        coverage(truth.difference(), [&] { return paired_difference(truth.draw(n, random), 0.95); });
                     const double expected = static_cast<double>(n) * truth.discordant();
                     EXPECT_GE(covered, 0.94) << n << " " << base << " " << change << " " << correlation;
                     if (expected >= 8) {
-                        EXPECT_LE(covered, expected >= 20 ? 0.96 : 0.97) << n << " " << base << " " << change << " " << correlation;
+                        EXPECT_LE(covered, expected >= 20 ? 0.96 : 0.97)
+                            << n << " " << base << " " << change << " " << correlation;
                     }
                 }
 }
@@ -188,9 +227,8 @@ TEST(PairedDifferenceStatistics, IntervalsOfGroupsCover)
     for (const std::size_t groups : {20, 40})
         for (const std::size_t pairs : {4, 10})
             for (const GroupedTruth& truth : truths) {
-                const double covered = coverage(truth.difference(), [&] {
-                    return grouped_difference(truth.draw(groups, pairs, random), 0.95);
-                });
+                const double covered = coverage(
+                    truth.difference(), [&] { return grouped_difference(truth.draw(groups, pairs, random), 0.95); });
                 EXPECT_GE(covered, 0.94) << groups << " " << pairs << " " << truth.mean << " " << truth.shift;
                 EXPECT_LE(covered, 0.97) << groups << " " << pairs << " " << truth.mean << " " << truth.shift;
             }

@@ -113,7 +113,11 @@ Repeats searches(std::size_t d, const std::function<double(const SearchPlace&)>&
                  std::size_t points, int repeats)
 {
     Repeats found;
-    const std::vector<SearchPlace> candidates = candidate_places(d);
+    std::vector<SearchPlace> candidates = candidate_places(d);
+    if (d == 2) // every other row and column: a fourth of the time
+        std::erase_if(candidates, [](const SearchPlace& place) {
+            return std::llround(40 * place[0]) % 2 != 0 || std::llround(40 * place[1]) % 2 != 0;
+        });
     for (int repeat = 0; repeat < repeats; ++repeat) {
         Realizations realizations(300, 0.5, static_cast<std::uint64_t>(repeat) + 1);
         std::vector<SearchPlace> places = first_places(d);
