@@ -147,8 +147,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
     if (kind == StudyKind::fragility)
         check_fragility_source(keys, e);
     if (has_axes(kind)) {
-        refuse_of_other_studies(keys, kind,
-                                "Remove it: frequency and PGA are given by the axes of [surface].");
+        refuse_of_other_studies(keys, kind, "Remove it: frequency and PGA are given by the axes of [surface].");
     }
     if (e.kind == ExcitationKind::none) {
         e.duration_s = keys.read(excitation_keys::duration);

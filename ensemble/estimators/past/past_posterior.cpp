@@ -33,6 +33,9 @@ PastPosterior past_posterior(const PastLikelihood& likelihood, const PriorDensit
         return in / all;
     };
     PastPosterior result;
+    result.evidence = past_estimate(likelihood, [&](std::span<const double> cells) {
+        return std::inner_product(cells.begin(), cells.end(), mass.begin(), 0.0);
+    });
     for (std::size_t e = 0; e < axes.events; ++e)
         result.events.push_back(past_estimate(
             likelihood, [&](auto cells) { return share(cells, [&](std::size_t c) { return c / of_one == e; }); }));

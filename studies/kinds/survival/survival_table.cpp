@@ -87,6 +87,7 @@ Table survival_table(const Survival& s)
         table.add("posterior", s.posterior->cells, cells);
         table.add("events_probability", intervals(s.posterior->events), {s.axes.events});
         table.add("frequency_probability", intervals(s.posterior->frequency), {s.axes.frequency_hz.size()});
+        set(table, "evidence", s.posterior->evidence);
         set(table, "pga_median_m_s2", s.posterior->intensity_median);
         set(table, "pga_credible_from_m_s2", s.posterior->intensity_lower);
         set(table, "pga_credible_to_m_s2", s.posterior->intensity_upper);

@@ -81,6 +81,9 @@ std::string posterior_words(const PastPosterior& p, const PastAxes& axes, double
         p.best / axes.cells_of_one() + 1, p.best < axes.cells_of_one() ? "" : "s", axes.frequency_hz[cell / ni],
         axes.intensity[cell % ni], percent_words(p.best_probability), estimate_words(p.intensity_median), 100 * level,
         estimate_words(p.intensity_lower), estimate_words(p.intensity_upper));
+    text +=
+        fmt::format("  evidence (mean likelihood under the prior; its ratio compares studies of other motions): {}\n",
+                    estimate_words(p.evidence));
     if (p.frequency.size() > 1) {
         text += "  probability of the frequencies:";
         for (std::size_t f = 0; f < p.frequency.size(); ++f)

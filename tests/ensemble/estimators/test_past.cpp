@@ -220,6 +220,21 @@ TEST(Past, ThePosteriorFindsThePastThatMadeTheState)
     const PastLikelihood likelihood = past_likelihood(axes, exact_counts(axes, bump), 1, PastUse::means);
     const PastPosterior p = past_posterior(likelihood, flat(), 0.95);
     EXPECT_EQ(p.best, axes.cells_of_one() + axes.intensity.size() + 4);
+    // the mean over a fine grid of the same piecewise linear function
+    double mean = 0, cells = 0;
+    const std::vector<double> f_weights = frequency_weights(axes.frequency_hz);
+    for (std::size_t events = 1; events <= 3; ++events)
+        for (std::size_t k = 0; k < 3; ++k)
+            for (int i = 0; i < 8000; ++i) {
+                const double at = (i + 0.5) / 1000;
+                const auto below = static_cast<std::size_t>(at);
+                const double t = at - static_cast<double>(below), f = axes.frequency_hz[k];
+                mean += f_weights[k] * std::lerp(bump(events, f, axes.intensity[below]),
+                                                 bump(events, f, axes.intensity[below + 1]), t);
+                cells += f_weights[k];
+            }
+    EXPECT_NEAR(p.evidence.value, mean / cells, 1e-6);
+    EXPECT_LT(p.evidence.lower, p.evidence.upper);
     // a state that is left by shaking about 4 m/s2 excludes what is weaker as what is stronger
     const Exclusion e = exclusion(likelihood, 2, flat(), 0.95);
     EXPECT_NEAR(e.weaker.value * e.by_likelihood.value, 16, 1e-3);
