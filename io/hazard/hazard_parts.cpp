@@ -100,8 +100,8 @@ std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& 
     if (given.empty()) {
         if (sites.size() > 1)
             throw InputError(file, 0,
-                             fmt::format("has hazard curves of {} sites: {}.\n  Choose one: --site LON,LAT or --site "
-                                         "NUMBER.",
+                             fmt::format("has hazard curves of {} sites: {}.\n  Choose one by --site (of a study: "
+                                         "survival.hazard.site): LON,LAT or its number.",
                                          sites.size(), list()));
         return 0;
     }

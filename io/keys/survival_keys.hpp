@@ -89,9 +89,11 @@ inline const ListKey rates{"rate_per_year",
                            "annual rate at which each of them is exceeded, descending",
                            {.absent = "give k0_per_year or a file"}};
 inline const TextKey file{"file",
-                          "a hazard curve as a CSV file with the columns pga_m_s2 and rate_per_year; a path relative "
-                          "to the study file",
+                          "a hazard curve of PGA: a CSV file with the columns pga_m_s2 (or pga_g) and "
+                          "annual_frequency, or one of OpenQuake (CSV, NRML); a path relative to the study file",
                           {.absent = "give k0_per_year or the points"}};
+inline const TextKey site{
+    "site", "of several in the file: \"LON,LAT\", or its number from 0", {.absent = "the file has one"}};
 inline const NumberKey sigma_ln{"sigma_ln",
                                 sigma_ln_range,
                                 "prior of the factor on all rates: lognormal with median 1 and this standard "
@@ -99,7 +101,7 @@ inline const NumberKey sigma_ln{"sigma_ln",
                                 {.example = "1.0"}};
 inline const TableKey hazard{"hazard",
                              "the rates of shaking at the site, which are updated by `stands_for_years`",
-                             {&k0, &k, &intensities, &rates, &file, &sigma_ln},
+                             {&k0, &k, &intensities, &rates, &file, &site, &sigma_ln},
                              {.absent = "no rates"}};
 
 inline const TableKey table{"survival",

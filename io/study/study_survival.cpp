@@ -1,7 +1,6 @@
 #include "io/study/study_survival.hpp"
 
-#include "ensemble/model/input_error.hpp"
-#include "io/files/csv_fields.hpp"
+#include "io/hazard/hazard_file.hpp"
 #include "io/keys/survival_keys.hpp"
 #include "io/keys/words.hpp"
 
@@ -15,8 +14,6 @@ namespace stylobate {
 namespace {
 
 namespace keys_of = survival_keys;
-
-constexpr std::uint64_t largest_curve = 1 << 20; ///< of a file [bytes]
 
 void check_count(const KeyReader& keys, const ListKey& key, std::size_t found, std::size_t wanted, const char* of)
 {
@@ -83,36 +80,6 @@ ObservedState read_observed(const KeyReader& keys, const StructureSpec& structur
     return observed;
 }
 
-/// The points of a CSV file: columns pga_m_s2 and rate_per_year, in any order and among others.
-void read_curve(const std::filesystem::path& path, HazardSpec& hazard)
-{
-    const std::string text = csv_content(path, largest_curve), name = path.string();
-    std::size_t intensity = 0, rate = 0;
-    bool header = false;
-    for_each_csv_line(text, [&](const CsvLine& line) {
-        if (!header) {
-            header = true;
-            intensity = rate = line.fields.size();
-            for (std::size_t i = 0; i < line.fields.size(); ++i) {
-                intensity = line.fields[i] == "pga_m_s2" ? i : intensity;
-                rate = line.fields[i] == "rate_per_year" ? i : rate;
-            }
-            if (intensity == line.fields.size() || rate == line.fields.size())
-                throw InputError(name, line.number,
-                                 "is no hazard curve: its first line has no columns pga_m_s2 and rate_per_year.\n  "
-                                 "Name them so; accelerations are in m/s2.");
-            return;
-        }
-        hazard.intensity_m_s2.push_back(csv_number(name, line, intensity, "pga_m_s2"));
-        hazard.rate_per_year.push_back(csv_number(name, line, rate, "rate_per_year"));
-        for (const auto& [value, range] : {std::pair{hazard.intensity_m_s2.back(), &keys_of::intensities.range},
-                                           std::pair{hazard.rate_per_year.back(), &keys_of::rates.range}})
-            if (!range->contains(value))
-                throw InputError(name, line.number,
-                                 fmt::format("{:g} is outside {}. {}", value, range->text(), range->hint));
-    });
-}
-
 void check_curve(const KeyReader& keys, const HazardSpec& hazard, const char* key)
 {
     const std::vector<double>&a = hazard.intensity_m_s2, &h = hazard.rate_per_year;
@@ -127,7 +94,7 @@ void check_curve(const KeyReader& keys, const HazardSpec& hazard, const char* ke
                         "Intensities ascend, and the rates at which they are exceeded descend.");
 }
 
-HazardSpec read_hazard(const KeyReader& keys, const std::filesystem::path& beside)
+HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside)
 {
     HazardSpec hazard;
     const std::string named = keys.read_or(keys_of::file, {});
@@ -139,6 +106,8 @@ HazardSpec read_hazard(const KeyReader& keys, const std::filesystem::path& besid
     if (keys.has(keys_of::k) != power)
         power ? keys.missing(keys_of::k.name, "It is the slope of the hazard curve, mostly 1 to 4.")
               : keys.refuse(keys_of::k.name, "is not used beside points of a curve", "Remove it.");
+    if (keys.has(keys_of::site) && !file)
+        keys.refuse(keys_of::site.name, "is not used without a file", "Remove it.");
     if (keys.has(keys_of::rates) != points)
         points ? keys.missing(keys_of::rates.name, "Give the rate of each of intensity_m_s2.")
                : keys.refuse(keys_of::rates.name, "is not used without intensity_m_s2", "Remove it.");
@@ -154,7 +123,9 @@ HazardSpec read_hazard(const KeyReader& keys, const std::filesystem::path& besid
         std::error_code error;
         if (path.is_relative() && std::filesystem::exists(beside / path, error))
             path = beside / path;
-        read_curve(path, hazard);
+        const HazardModel curve = read_hazard({path.string()}, "pga_m_s2", keys.read_or(keys_of::site, {}));
+        hazard.intensity_m_s2 = curve.intensity;
+        hazard.rate_per_year = curve.frequency;
         check_curve(keys, hazard, keys_of::file.name.c_str());
     }
     hazard.sigma_ln = keys.read(keys_of::sigma_ln);
@@ -198,7 +169,7 @@ SurvivalSpec read_survival(const KeyReader& top, const Study& study, const std::
     survival.monuments = keys.read(keys_of::monuments);
     survival.stands_for_years = keys.maybe(keys_of::stands_for);
     if (keys.has(keys_of::hazard))
-        survival.hazard = read_hazard(keys.table(keys_of::hazard), beside);
+        survival.hazard = read_rates(keys.table(keys_of::hazard), beside);
     if (survival.stands_for_years && !survival.hazard)
         keys.refuse(keys_of::stands_for.name, "updates the rates of survival.hazard, which is missing",
                     "Give hazard = { k0_per_year = ..., k = ..., sigma_ln = ... }, or remove it.");

@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/estimators/sensitivity", {"ensemble/estimators/resampling"}},
     {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/paired", {"ensemble/numerics"}},
-    {"ensemble/estimators/past", {"ensemble/numerics"}},
+    {"ensemble/estimators/past", {"ensemble/estimators/risk", "ensemble/numerics"}},
     {"ensemble/estimators/search", {}},
 
     {"io/files", {}},
@@ -57,7 +57,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"io/motion", {"io/records"}},
     {"io/measured", {"io/files", "io/motion", "io/records"}},
     {"io/keys", {"io/files"}},
-    {"io/study", {"io/files", "io/keys", "io/records"}},
+    {"io/study", {"io/files", "io/hazard", "io/keys", "io/records"}},
     {"io/store", {"io/files", "io/tables"}},
     {"io/sealed", {"io/files", "io/store", "io/tables"}},
     {"io/plots", {"io/files", "io/store", "io/tables"}},

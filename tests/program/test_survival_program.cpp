@@ -187,16 +187,16 @@ TEST_F(SurvivalProgram, BadInputIsRefusedWithItsRange)
     refused({"excitation.start=abrupt"}, {"survival.events", "abrupt"});
     refused({"mechanisms.time_offset={offset_s=0.1}"}, {"survival.events", "time_offset"});
     refused({"twins.forms=true"}, {"[twins]", "survival"});
-    std::ofstream(folder / "curve.csv") << "pga_m_s2,rate_per_year\n1,0.1\n2,x\n";
-    refused({"survival.hazard={file=\"curve.csv\",sigma_ln=1}"}, {"curve.csv:3", "rate_per_year"});
+    std::ofstream(folder / "curve.csv") << "pga_m_s2,annual_frequency\n1,0.1\n2,x\n";
+    refused({"survival.hazard={file=\"curve.csv\",sigma_ln=1}"}, {"curve.csv:3", "annual_frequency"});
     std::ofstream(folder / "other.csv") << "a,b\n1,0.1\n";
-    refused({"survival.hazard={file=\"other.csv\",sigma_ln=1}"}, {"other.csv:1", "pga_m_s2 and rate_per_year"});
+    refused({"survival.hazard={file=\"other.csv\",sigma_ln=1}"}, {"other.csv:1", "intensity measure"});
     expect_refused(words(with(plain_surface, {"survival.events=2"}), "none.h5", "1"), {"survival", "surface"});
 }
 
 TEST_F(SurvivalProgram, AHazardCurveInAFileIsItsPoints)
 {
-    std::ofstream(folder / "curve.csv") << "# a comment\nrate_per_year,name,pga_m_s2\n0.1,a,1\n0.0125,b,2\n";
+    std::ofstream(folder / "curve.csv") << "# a comment\npga_m_s2,annual_frequency\n1,0.1\n2,0.0125\n";
     const std::vector<std::string> base = with(survival, {"survival.events=1", "survival.monuments=0"});
     ASSERT_EQ(run(words(with(base, {"survival.hazard={file=\"curve.csv\",sigma_ln=1}"}), "a.h5", "2")).status, 0);
     ASSERT_EQ(run(words(with(base, {"survival.hazard={intensity_m_s2=[1,2],rate_per_year=[0.1,0.0125],sigma_ln=1}"}),

@@ -30,13 +30,13 @@ double factor_quantile(double exposure, double sigma_ln, double p)
     return std::exp(sigma_ln * (-reach + step * (static_cast<double>(i) - 1 + within)));
 }
 
-HazardUpdate hazard_update(const PastLikelihood& collapse, const RateCurve& rates, double years, double sigma_ln,
+HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& rates, double years, double sigma_ln,
                            double level)
 {
     const PastAxes& axes = collapse.axes;
     const std::vector<double> weights = frequency_weights(axes.frequency_hz);
-    const IntensityIntegral integral(axes.intensity, [&](double a) { return rates.density(a); });
-    const double above = rates.rate(axes.intensity.back());
+    const IntensityIntegral integral(axes.intensity, [&](double a) { return rates.density(std::log(a)); });
+    const double above = rates.frequency(std::log(axes.intensity.back()));
     const auto fragility = [&](std::span<const double> cells) {
         return over_frequencies(cells.subspan(0, axes.cells_of_one()), weights);
     };

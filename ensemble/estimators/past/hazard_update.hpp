@@ -18,7 +18,7 @@
 /// its begin P is taken as 0: where P is not 0 there, L is too small.
 
 #include "ensemble/estimators/past/intensity_integral.hpp"
-#include "ensemble/estimators/past/rate_curve.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 
 namespace stylobate {
 
@@ -36,7 +36,7 @@ struct HazardUpdate {
 double factor_quantile(double exposure, double sigma_ln, double p);
 
 /// @param collapse probability of collapse in the cells of one event, the others are not used
-HazardUpdate hazard_update(const PastLikelihood& collapse, const RateCurve& rates, double years, double sigma_ln,
+HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& rates, double years, double sigma_ln,
                            double level);
 
 } // namespace stylobate

@@ -53,6 +53,12 @@ double HazardCurve::frequency(double x) const
     return piece->k > 0 ? std::exp(piece->c - piece->k * x) : std::exp(piece->c);
 }
 
+double HazardCurve::density(double x) const
+{
+    const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [x](const Piece& p) { return x <= p.to; });
+    return piece->k > 0 ? piece->k * std::exp(piece->c - piece->k * x) : 0;
+}
+
 double HazardCurve::log_intensity(double frequency) const
 {
     const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [frequency](const Piece& p) {

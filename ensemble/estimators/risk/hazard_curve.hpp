@@ -23,6 +23,9 @@ public:
     /// Of exceedance, at x = ln im; infinite at -infinity unless the first two points are equal.
     double frequency(double x) const;
 
+    /// -d lambda / dx: the frequency of events of the intensities dx, over dx; 0 on a level piece.
+    double density(double x) const;
+
     /// ln im that is exceeded so often: the inverse of `frequency`.
     /// @pre frequency > 0, and below that at -infinity
     double log_intensity(double frequency) const;

@@ -1,21 +1,26 @@
 #include "studies/kinds/survival/survival.hpp"
 
-#include "ensemble/estimators/past/rate_curve.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 #include "ensemble/model/structure.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
 namespace stylobate {
 
 namespace {
 
-RateCurve rate_curve(const HazardSpec& hazard)
+HazardCurve hazard_curve(const HazardSpec& hazard)
 {
-    return hazard.k0_per_year > 0 ? RateCurve(hazard.k0_per_year, hazard.k)
-                                  : RateCurve(hazard.intensity_m_s2, hazard.rate_per_year);
+    if (!(hazard.k0_per_year > 0))
+        return HazardCurve(hazard.intensity_m_s2, hazard.rate_per_year);
+    const std::array intensity = {1.0, 10.0}; // two points of the power law
+    const std::array rate = {hazard.k0_per_year, hazard.k0_per_year * std::pow(10, -hazard.k)};
+    return HazardCurve(intensity, rate);
 }
 
 std::uint64_t sum_of(const std::vector<CellCount>& counts, std::uint64_t CellCount::*part)
@@ -110,7 +115,7 @@ PriorDensity prior_density(const SurvivalSpec& spec)
     case PastPrior::uniform:
         return [](double intensity) { return intensity; };
     case PastPrior::hazard:
-        return [curve = rate_curve(*spec.hazard)](double intensity) { return curve.density(intensity); };
+        return [curve = hazard_curve(*spec.hazard)](double intensity) { return curve.density(std::log(intensity)); };
     }
     return [](double) { return 1.0; };
 }
@@ -164,7 +169,7 @@ Survival survival_of(const Study& study, const SurvivalCounts& counts)
         s.sigma_ln = spec.hazard->sigma_ln;
         const PastLikelihood collapse = past_likelihood(s.axes, counts.collapse(), study.seed, PastUse::rates,
                                                         std::uint64_t{1} << 48); // other random numbers
-        s.rates = hazard_update(collapse, rate_curve(*spec.hazard), s.years, s.sigma_ln, spec.level);
+        s.rates = hazard_update(collapse, hazard_curve(*spec.hazard), s.years, s.sigma_ln, spec.level);
     }
     return s;
 }

@@ -56,6 +56,11 @@ TEST(HazardCurve, FrequencyPassesThroughItsPointsAndIsALineBetweenThem)
     EXPECT_NEAR(table.curve.frequency(std::log(std::sqrt(0.4 * 1))), std::sqrt(0.05 * 6e-3), 1e-12);
     EXPECT_DOUBLE_EQ(table.curve.frequency(-infinity), 0.3);
     EXPECT_NEAR(power_law(2e-4, 3).frequency(std::log(0.01)), 2e2, 1e-10);
+    for (const double x : {-3.0, 0.1, 0.9, 3.0}) { // the density is minus the slope, on pieces and beyond the ends
+        const double h = 1e-6;
+        EXPECT_NEAR(table.curve.density(x), (table.curve.frequency(x - h) - table.curve.frequency(x + h)) / (2 * h),
+                    1e-8 * (1 + table.curve.density(x)));
+    }
 }
 
 TEST(HazardCurve, IntensityIsTheInverseOfFrequency)

@@ -5,7 +5,6 @@
 #include "ensemble/estimators/past/final_state.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
-#include "ensemble/estimators/past/rate_curve.hpp"
 #include "ensemble/estimators/past/simulated_monuments.hpp"
 
 #include <gtest/gtest.h>
@@ -49,6 +48,13 @@ std::vector<CellCount> exact_counts(const PastAxes& axes, const Probability& p)
         counts.push_back({n, static_cast<std::uint64_t>(std::llround(probability * static_cast<double>(n)))});
     }
     return counts;
+}
+
+/// The rate k0 a^-k, by two of its points.
+HazardCurve power_law(double k0, double k)
+{
+    const std::vector<double> intensity = {1, 10}, rate = {k0, k0 * std::pow(10, -k)};
+    return HazardCurve(intensity, rate);
 }
 
 PriorDensity flat()
@@ -101,24 +107,18 @@ TEST(Past, AnotherPriorMovesThePosteriorAsQuadratureSays)
     const PastAxes axes{{1.0}, log_axis(0.5, 20, 400), 1};
     const PastLikelihood likelihood = past_likelihood(
         axes, exact_counts(axes, [&](auto, auto, double a) { return 1 - truth.collapse(a); }), 1, PastUse::means);
-    const RateCurve rates(0.02, 2.3);
+    const HazardCurve rates = power_law(0.02, 2.3);
     const auto posterior_mass = [&](double upto, const auto& density) {
         return simpson([&](double x) { return (1 - truth.collapse(std::exp(x))) * density(std::exp(x)); },
                        std::log(0.5), std::log(upto));
     };
     const auto uniform = [](double a) { return a; };
-    const auto by_rates = [&](double a) { return rates.density(a); };
+    const auto by_rates = [&](double a) { return rates.density(std::log(a)); };
     for (const PriorDensity& prior : {PriorDensity(uniform), PriorDensity(by_rates)}) {
         const Exclusion e = exclusion(likelihood, 1, prior, 0.95);
         EXPECT_NEAR(posterior_mass(e.by_posterior.value, prior) / posterior_mass(20, prior), 0.95, 2e-5);
     }
-    EXPECT_NEAR(rates.density(3), 2.3 * 0.02 * std::pow(3, -2.3), 1e-15);
-    const RateCurve points({1, 2, 8}, {0.1, 0.01, 0.0001});
-    EXPECT_NEAR(points.rate(2), 0.01, 1e-15);
-    EXPECT_NEAR(points.rate(4), 0.001, 1e-12);
-    EXPECT_NEAR(points.rate(16), 0.0001 / 10, 1e-12); // the last piece goes on
-    const double h = 1e-6;
-    EXPECT_NEAR(points.density(3), -(points.rate(3 * std::exp(h)) - points.rate(3 * std::exp(-h))) / (2 * h), 1e-8);
+    EXPECT_NEAR(rates.density(std::log(3)), 2.3 * 0.02 * std::pow(3, -2.3), 1e-15);
 }
 
 TEST(Past, NothingIsExcludedWhereTheLikelihoodHasNotFallen)
@@ -187,7 +187,7 @@ TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
     const PastLikelihood collapse = past_likelihood(
         axes, exact_counts(axes, [&](auto, auto, double a) { return truth.collapse(a); }), 1, PastUse::rates);
     const double k0 = 0.05, k = 2.5, years = 2400, sigma = 1.0;
-    const HazardUpdate update = hazard_update(collapse, RateCurve(k0, k), years, sigma, 0.95);
+    const HazardUpdate update = hazard_update(collapse, power_law(k0, k), years, sigma, 0.95);
     // over a itself, not its logarithm
     const double rate =
         simpson([&](double a) { return truth.collapse(a) * k0 * k * std::pow(a, -k - 1); }, 0.5, 60, 200000) +
