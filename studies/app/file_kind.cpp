@@ -229,10 +229,14 @@ std::string describe(const RecognisedFile& file)
 std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name)
 {
     std::vector<FileUse> found;
+    const auto is = [&](std::initializer_list<std::string_view> kinds) {
+        return std::find(kinds.begin(), kinds.end(), file.detail) != kinds.end();
+    };
     for (const Use& use : uses)
-        if (use.kind == file.kind && !(file.detail == "rare" && std::string_view(use.verb) == "replay") &&
-            !(file.detail != "fragility" && std::string_view(use.verb) == "risk") &&
-            (file.detail == "survival" || std::string_view(use.verb) != "past"))
+        if (const std::string_view verb = use.verb; use.kind == file.kind && !(verb == "replay" && is({"rare"})) &&
+                                                    !(verb == "compare" && is({"rare", "sensitivity", "replay"})) &&
+                                                    (verb != "risk" || is({"fragility"})) &&
+                                                    (verb != "past" || is({"survival"})))
             found.push_back({use.verb, fmt::format(fmt::runtime(use.command), name), use.purpose});
     return found;
 }
@@ -251,7 +255,9 @@ void check_kind(const std::string& file, std::string_view verb)
         return;
     std::string instead;
     std::vector<FileUse> others = uses_of(found, file);
-    std::erase_if(others, [](const FileUse& use) { return use.verb == "merge"; }); // few results are shards
+    std::erase_if(others, [&](const FileUse& use) { // few results are shards, or have variants
+        return use.verb == "merge" || (use.verb == "compare" && found.kind == FileKind::results);
+    });
     for (const FileUse& use : others)
         instead += fmt::format("\n  {}: {}", use.command, use.purpose);
     throw InputError(file, 0,

@@ -54,11 +54,8 @@ void WholeRun::open()
 
 bool WholeRun::run(const RunOptions& options, Observer& observer)
 {
-    if (finished_) {
-        ResultReader(results_).for_each_row(
-            [&](const ResultRow& row) { invalid_ += row.outcome.state == State::invalid; });
+    if (finished_)
         return true;
-    }
     open();
     store_->give_to(*kind_);
     const StudyRun ran = run_study(loaded_.experiment(), *kind_, *store_, options, observer);
@@ -70,7 +67,6 @@ bool WholeRun::run(const RunOptions& options, Observer& observer)
         store_->flush();
     }
     store_.reset();
-    invalid_ = ran.progress.invalid;
     return ran.complete;
 }
 
@@ -91,6 +87,13 @@ void WholeRun::for_each_row(const std::function<void(const ResultRow&)>& f) cons
         store_->for_each_row(f);
     else if (std::filesystem::exists(results_))
         ResultReader(results_).for_each_row(f);
+}
+
+std::uint64_t WholeRun::invalid() const
+{
+    std::uint64_t rows = 0;
+    for_each_row([&](const ResultRow& row) { rows += row.outcome.state == State::invalid; });
+    return rows;
 }
 
 std::uint64_t WholeRun::done() const

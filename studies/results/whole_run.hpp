@@ -45,8 +45,10 @@ public:
     void for_each_row(const std::function<void(const ResultRow&)>& f) const;
     /// Realizations that are in the file.
     std::uint64_t done() const;
-    /// Of those that `run` has left: how many are invalid.
-    std::uint64_t invalid() const { return invalid_; }
+    /// How many of these are invalid.
+    std::uint64_t invalid() const;
+    /// What keeps the study from being stepped on a device (`Kind::needs_processor`); empty: nothing does.
+    std::string needs_processor() const { return kind_->needs_processor(); }
 
 private:
     void open();
@@ -56,7 +58,6 @@ private:
     ResultHeader header_;
     std::vector<std::string> warnings_;
     bool found_ = false, finished_ = false;
-    std::uint64_t invalid_ = 0;
     std::unique_ptr<class RunStore> store_;
     std::unique_ptr<Kind> kind_;
 };

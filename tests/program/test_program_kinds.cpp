@@ -50,11 +50,11 @@ struct Sample {
     std::set<std::string> verbs;
 };
 const Sample samples[] = {
-    {"study.toml", "is a study file", "study", {"check", "run"}},
+    {"study.toml", "is a study file", "study", {"check", "compare", "run"}},
     {"results.h5",
      "is the results of a study of kind 'single'",
      "results",
-     {"export", "report", "replay", "verify-file"}},
+     {"compare", "export", "report", "replay", "verify-file"}},
     {"replay.h5", "is one realization that was run again", "results", {"export", "report", "replay", "verify-file"}},
     {"diagnosis.h5", "is a diagnosis", "diagnosis", {"report"}},
     {"calibration.h5", "is a calibration", "calibration", {"report"}},
@@ -109,7 +109,8 @@ TEST_F(Kinds, AVerbSaysWhatAnotherFileIs)
             Words parts = {std::string(sample.file) + ": " + sample.is, "stylobate " + verb + " takes ",
                            std::string("stylobate info ") + sample.file};
             for (const std::string& other : sample.verbs)
-                parts.push_back("stylobate " + other + " " + sample.file);
+                if (other != "compare" || sample.holds == std::string("study")) // few results have variants
+                    parts.push_back("stylobate " + other + " " + sample.file);
             expect_refused(words, parts);
         }
 }

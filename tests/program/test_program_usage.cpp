@@ -220,7 +220,7 @@ TEST_F(Usage, BashCompletesKeysForSetAndTheirValues)
         const std::string path = table + "." + found[1].str();
         const bool in_list =
             std::any_of(lists.begin(), lists.end(), [&](const std::string& list) { return table.starts_with(list); });
-        if (found[2].str().starts_with("list of tables"))
+        if (found[2].str().starts_with("list of tables") || found[2].str().starts_with("table under a name"))
             lists.insert(path);
         else if (!found[2].str().starts_with("table") && !in_list)
             keys.insert(path + "=");

@@ -126,12 +126,14 @@ PairedDifference grouped_difference(std::span<const PairedCounts> groups, double
 PairedDifference stratified_at(std::span<const PairedCounts> strata, double z)
 {
     double cells = 0, d = 0, q = 0, variance = 0, inverse = 0;
+    bool single = false; // a cell with one pair says nothing of its variance
     for (const PairedCounts& cell : strata) {
         const auto n = static_cast<double>(cell.pairs());
         if (n == 0)
             continue;
         cells += 1;
         inverse += 1 / n;
+        single = single || n == 1;
         const double share = static_cast<double>(cell.discordant()) / n;
         const double own = (static_cast<double>(cell.variant_only) - static_cast<double>(cell.base_only)) / n;
         d += own;
@@ -146,7 +148,7 @@ PairedDifference stratified_at(std::span<const PairedCounts> strata, double z)
     // the pairs of equal cells with the same mean of 1 / n; cells that are all or nothing seem to have no variance, and
     // the gain of strata is bounded as a design effect is
     const double pairs = cells * cells / inverse;
-    const double n = variance > 0 ? std::min((q - d * d) / variance, 2 * pairs) : pairs;
+    const double n = variance > 0 && !single ? std::min((q - d * d) / variance, 2 * pairs) : pairs;
     PairedDifference found = score_interval(n, n * (q - d) / 2, n * (q + d) / 2, z);
     found.value = d;
     return found;
@@ -193,6 +195,7 @@ double share_effect(std::span<const PairedCounts> groups, std::uint64_t (PairedC
 double strata_effect(std::span<const PairedCounts> strata, std::uint64_t (PairedCounts::*reached)() const)
 {
     double cells = 0, mean = 0, variance = 0, all = 0;
+    bool single = false;
     for (const PairedCounts& cell : strata) {
         const auto n = static_cast<double>(cell.pairs());
         if (n == 0)
@@ -200,12 +203,13 @@ double strata_effect(std::span<const PairedCounts> strata, std::uint64_t (Paired
         const double share = static_cast<double>((cell.*reached)()) / n;
         cells += 1;
         all += n;
+        single = single || n == 1;
         mean += share;
         variance += share * (1 - share) / std::max(n - 1, 1.0);
     }
     mean /= cells;
     const double without = mean * (1 - mean) / all;
-    return without > 0 ? std::max(variance / (cells * cells) / without, 0.01) : 1.0;
+    return without > 0 && !single ? std::max(variance / (cells * cells) / without, 0.01) : 1.0;
 }
 
 } // namespace stylobate

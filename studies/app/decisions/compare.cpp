@@ -134,6 +134,9 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
         check_adaptive(studies.front()->study(), wanted.files.front(), {*wanted.adaptive, wanted.margin});
     options.run_options(); // refuses an instruction set that is not there
     for (const auto& study : studies)
+        if (const std::string why = study->needs_processor(); options.backend == "cuda" && !why.empty())
+            throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), why));
+    for (const auto& study : studies)
         study->check_drawn();
     const std::vector<std::string> names = names_of(wanted, files);
     std::optional<Comparison> comparison;
@@ -153,7 +156,7 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
     const int status = conclude(options, *comparison, output);
     for (const auto& study : studies)
         if (const std::string message =
-                too_many_invalid(study->study(), study->invalid(), study->header().total, study->results());
+                too_many_invalid(study->study(), study->invalid(), study->done(), study->results());
             !message.empty()) {
             say(fmt::format("stylobate: {}\n", message));
             return exit_invalid;

@@ -144,7 +144,7 @@ Json variant_json(const Comparison& comparison, const VariantComparison& variant
 
 std::string variant_text(const Comparison& comparison, const VariantComparison& variant)
 {
-    std::string text = fmt::format("{}: {} pairs", variant.name, variant.pairs);
+    std::string text = fmt::format("{}: {} {}", variant.name, variant.pairs, variant.pairs == 1 ? "pair" : "pairs");
     if (variant.dropped > 0)
         text += fmt::format(", {} dropped ({} invalid in the base, {} in the variant)", variant.dropped,
                             variant.invalid_base, variant.invalid_variant);
