@@ -1,5 +1,7 @@
 #include "ensemble/model/study.hpp"
 
+#include "ensemble/numerics/double_pair.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -43,12 +45,12 @@ double Axis::value(int i) const
         return from;
     if (i >= count - 1)
         return to;
-    // In long double, so that the value is the nearest double whichever version of pow the machine's library picks:
-    // the axis is part of a study's identity.
-    const long double t = static_cast<long double>(i) / (count - 1);
-    const long double a = from;
-    const long double b = to;
-    return static_cast<double>(spacing == Spacing::log ? a * std::pow(b / a, t) : a + (b - a) * t);
+    // In twice the digits, so that the value is the nearest double on every processor: the axis is part of a study's
+    // identity.
+    const DoublePair t = DoublePair(i) / (count - 1), a = from, b = to;
+    if (spacing != Spacing::log)
+        return (a + (b - a) * t).rounded();
+    return (a * exp_of((log_pair(to) - log_pair(from)) * t)).rounded();
 }
 
 double usual_trajectory_rate_hz(const Study& study)

@@ -1,6 +1,7 @@
 #include "ensemble/sampling/distribution.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/double_pair.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ const char* name(DistributionKind kind)
 
 double log_ratio(double a, double b)
 {
-    return static_cast<double>(std::log(static_cast<long double>(a) / b));
+    return (log_pair(a) - log_pair(b)).rounded();
 }
 
 } // namespace
@@ -100,9 +101,8 @@ double Distribution::value(double u) const
     if (kind_ == DistributionKind::uniform)
         return std::clamp(location_ * (1 - u) + scale_ * u, min_, max_);
     if (kind_ == DistributionKind::log_uniform) {
-        const long double a = std::log(static_cast<long double>(location_));
-        const long double b = std::log(static_cast<long double>(scale_));
-        return std::clamp(static_cast<double>(std::exp(a * (1 - u) + b * u)), min_, max_);
+        const DoublePair exponent = log_pair(location_) * DoublePair(1 - u) + log_pair(scale_) * DoublePair(u);
+        return std::clamp(exp_of(exponent).rounded(), min_, max_);
     }
     if (scale_ == 0)
         return location_;
@@ -113,7 +113,7 @@ double Distribution::value(double u) const
     const double z = below <= above ? quantile(standard, below) : quantile(complement(standard, above));
     const double x = kind_ == DistributionKind::normal
                          ? location_ + scale_ * z
-                         : static_cast<double>(location_ * std::exp(static_cast<long double>(scale_) * z));
+                         : (DoublePair(location_) * exp_of(exact_product(scale_, z))).rounded();
     return std::clamp(x, min_, max_);
 }
 

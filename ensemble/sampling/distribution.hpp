@@ -12,9 +12,8 @@ namespace stylobate {
 /// uniform number in, one value out, non-decreasing.
 ///
 /// The truncated normal is inverted through the nearer tail, so that it keeps its relative accuracy when both limits
-/// lie far out on one side (own derivation). Logarithms and exponentials are those of the C library in long double,
-/// rounded to double once: on machines with a long double of 64 bits or more in the significand the value does not
-/// depend on which version of `exp` the library selects for the processor, except in rare ties.
+/// lie far out on one side (own derivation). Logarithms and exponentials have twice the digits of a double and are
+/// rounded once (`double_pair.hpp`), so that the value does not depend on the processor.
 class Distribution {
 public:
     /// @param nominal value of the quantity without perturbation, in its unit

@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"kernels", {}},
 
     {"ensemble/numerics", {}},
-    {"ensemble/model", {}},
+    {"ensemble/model", {"ensemble/numerics"}},
     {"ensemble/statics", {"ensemble/model"}},
     {"ensemble/motion", {"ensemble/model", "ensemble/numerics", "ensemble/statics"}},
     {"ensemble/sampling", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/statics"}},

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace stylobate {
@@ -22,10 +23,11 @@ constexpr double many_stuck = 0.25;
 /// Thrown through the chains when the user has asked to stop.
 struct Stopped {};
 
-/// The distribution function of the standard normal, within (0, 1). In long double, as distribution.hpp has it.
+/// The distribution function of the standard normal, within (0, 1). Not in long double, which depends on the maker of
+/// the processor (`double_pair.hpp`).
 double probability_of(double z)
 {
-    const auto below = static_cast<double>(std::erfc(-static_cast<long double>(z) / std::sqrt(2.0L)) / 2);
+    const double below = std::erfc(-z / std::numbers::sqrt2) / 2;
     return std::clamp(below, 0x1p-53, 1 - 0x1p-53);
 }
 
