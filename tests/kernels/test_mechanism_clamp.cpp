@@ -132,6 +132,32 @@ TEST(Clamp, HasPlayAndMayActInTensionAlone)
         EXPECT_NEAR(most_apart(compression, sign), gap + beyond, 0.05 * beyond) << compression << ' ' << sign;
 }
 
+TEST(Clamp, AboveTheMiddleItTurnsTheBlocks)
+{
+    // pulled apart with F at their middles, each bed turns by 12 M / (K B3) under the moment of F about the middle
+    const double F = 20, height = 0.03, per_moment = 12 / (1e8 * std::pow(0.2, 3));
+    Realization r = pair_of_blocks(1e6, 1e9, 0, 1);
+    r.blocks[1].reinforcement.clamp_height_m = height;
+    for (Joint& joint : r.joints)
+        joint.extension.face_damping = 1;
+    r.step_s = 0.5 * step_bound(r).dt_s;
+    double left = 0, right = 0;
+    pushed(
+        r, 1,
+        [&](int block, double time) {
+            const double force = F * std::min(1.0, time / 0.5);
+            return Push{block == 1 ? -force / m1 : force / m2, 0, 0};
+        },
+        [&](double, const Snapshot& s) {
+            left = s.theta_rad[1];
+            right = s.theta_rad[2];
+            return true;
+        });
+    // the right block's middle is 0.01 m higher
+    EXPECT_NEAR(left, -F * height * per_moment, 0.03 * F * height * per_moment);
+    EXPECT_NEAR(right, F * (height - 0.01) * per_moment, 0.03 * F * height * per_moment);
+}
+
 TEST(Clamp, IsGoneOnceItHasBroken)
 {
     const ClampForce<double> whole = clamp_force<double>(1e6, 1e6, 50, 0, 0.01, 0.009, 0.0089, 0);
