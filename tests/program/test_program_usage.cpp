@@ -207,7 +207,7 @@ TEST_F(Usage, BashCompletesKeysForSetAndTheirValues)
     EXPECT_EQ(replies("stylobate run a.toml --set contact.friction=0"), Words{});
     // every key of the reference but those in lists of tables, which a setting gives as a whole
     std::istringstream page(printed({"schema", "--markdown"}));
-    const std::regex heading(R"(^#+ `\[(.*)\]`)"), row(R"(^\| `([a-z0-9_]+)` \| ([^|]*) \|)");
+    const std::regex heading(R"(^#+ `\[(.*)\]`)"), row(R"(^\| `([A-Za-z0-9_]+)` \| ([^|]*) \|)");
     Words keys;
     std::set<std::string> lists;
     std::string table;
