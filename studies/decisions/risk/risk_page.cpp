@@ -164,7 +164,11 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
                                                                              s.ratio.limits.lower, s.ratio.limits.upper)
                                                                : std::string("not determined")},
          {"By the fragility", percent_text(s.closed_form, s.closed_form_limits)},
-         {"Threshold", s.threshold_says}});
+         {"Threshold", s.threshold_says},
+         {"With weaker earthquakes too",
+          s.checked == 0 ? std::string("not checked")
+                         : fmt::format("down to {:.3g}, in {} histories: difference {}", s.checked_threshold, s.checked,
+                                       percent(s.check_difference))}});
 }
 
 } // namespace
