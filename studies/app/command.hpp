@@ -106,6 +106,7 @@ struct RiskCommandOptions {
     double most_outside = 0.25;      ///< largest share of a frequency from outside of the ranges of runs and hazard
     std::uint64_t sequences = 0;     ///< simulated histories with the damage carried along
     std::optional<double> threshold; ///< of their earthquakes [SI unit of the measure]; none: by the results
+    std::optional<double> pause_s;   ///< of rest between earthquakes; none: as long as the structure needs
     std::uint64_t seed = 1;          ///< of the histories
 };
 

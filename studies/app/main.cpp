@@ -449,6 +449,8 @@ private:
             ->check(CLI::Range(0LL, 10000000LL));
         risk->add_option("--threshold", risk_.threshold,
                          "their weakest earthquake, in the SI unit of the measure (default: by the results)");
+        risk->add_option("--pause", risk_.pause_s, "seconds of rest between them (default: until the structure rests)")
+            ->check(CLI::Range(0.0, 1000.0));
         risk->add_option("--seed", risk_.seed, "seed of the histories")->check(CLI::Range(0LL, 999999999999LL));
         risk->add_option("-o,--output", risk_.output, "the estimate (HDF5; default: the results' name with _risk.h5)");
         add_force(*risk, options_);

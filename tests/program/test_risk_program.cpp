@@ -82,6 +82,9 @@ TEST_F(RiskProgram, LognormalIsTheClosedFormAndTheFileIsRead)
     EXPECT_TRUE(fs::exists(folder / "f_risk_peak_0.35.svg"));
     expect_refused(Words{"export", "f_risk.h5", "--to", "nrml"}, {"f_risk.h5 is a risk estimate"});
     expect_refused(Words{"replay", "f_risk.h5", "--realization", "0"}, {"is a risk estimate"});
+    const std::string whole = read_bytes(folder / "f_risk.h5");
+    write_bytes(folder / "torn.h5", whole.substr(0, whole.size() / 2));
+    expect_refused(Words{"report", "torn.h5"}, {"torn.h5"});
 }
 
 /// By a table of the same power law: the same numbers, and what lies beyond the table is counted.
@@ -101,7 +104,8 @@ TEST_F(RiskProgram, TableAndThreadsChangeNothing)
                         state_of(b, "collapse", form)["frequency_1_year"]["value"].number,
                     1, 1e-9);
     }
-    const Words sequences = {"--hazard", "k0=1e-3,k=3,measure=pgv", "--sequences", "40", "--years", "30", "-o"};
+    const Words sequences = {
+        "--hazard", "k0=1e-3,k=3,measure=pgv", "--sequences", "40", "--years", "30", "--pause", "5", "-o"};
     const auto bytes = [&](const char* name, const char* threads) {
         Words words = sequences;
         words.insert(words.end(), {name, "--threads", threads});
@@ -134,7 +138,7 @@ TEST_F(RiskProgram, HistoriesWhereNothingMoves)
 {
     // 5 earthquakes in a hundred years, nearly all below 0.03 m/s
     const Ended ended = risk({"--hazard", "k0=5e-53,k=30,measure=pgv", "--sequences", "100", "--threshold", "0.02",
-                              "--most-outside", "1", "--json"});
+                              "--pause", "5", "--most-outside", "1", "--json"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     const JsonValue json = json_of(ended);
     const JsonValue& s = json["sequences"];

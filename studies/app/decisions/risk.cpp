@@ -94,6 +94,7 @@ int risk_command(const CommonOptions& options, const std::string& file, const Ri
         sequences.years = asked.years.back();
         sequences.level = asked.level;
         sequences.threshold = wanted.threshold;
+        sequences.pause_s = wanted.pause_s;
         sequences.seed = wanted.seed;
         Console console(options.quiet);
         const std::optional<SequenceRisk> found = simulate_sequences(results, risk, sequences, run, console);

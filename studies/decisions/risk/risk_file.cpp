@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/hdf5.hpp"
+#include "io/hazard/hazard_parts.hpp"
 #include "io/tables/csv.hpp"
 #include "io/tables/table_hdf5.hpp"
 
@@ -87,9 +88,13 @@ HazardModel hazard_of(const Table& table)
     hazard.intensity = table.numbers(intensity, shape);
     hazard.frequency = table.numbers("annual_frequency", shape);
     for (const Table::Column& column : table.columns())
-        if (column.name.starts_with("fractile_"))
-            hazard.fractiles.push_back({std::stod(column.name.substr(9)), table.numbers(column.name, shape)});
-    return hazard;
+        if (column.name.starts_with("fractile_")) {
+            const auto probability = hazard_number(std::string_view(column.name).substr(9));
+            if (!probability || !(*probability > 0 && *probability < 1))
+                table.refuse("a fractile of its hazard has no probability");
+            hazard.fractiles.push_back({*probability, table.numbers(column.name, shape)});
+        }
+    return checked_hazard({std::move(hazard), {}, {}});
 }
 
 // ---- /states, /disaggregation, /fragility ---------------------------------------------------------------------------
@@ -211,6 +216,9 @@ std::vector<StateRisk> states_of(const Table& states, const Table& parts, const 
     const std::vector<RiskNumber> numbers = numbers_of(parts, "annual_frequency", all);
     for (std::size_t i = 0; i < rows.size(); ++i)
         state(parts, rows[i]).estimate.parts.push_back({from[i], to[i], numbers[i]});
+    for (const StateRisk& s : found)
+        if (s.estimate.parts.size() < 3)
+            parts.refuse("a limit state has no parts");
     const Table::Shape each = points.shape("row");
     const auto& of = points.integers("row", each);
     const auto& intensity = points.numbers("intensity_" + measure, each);
@@ -238,7 +246,8 @@ void sequence_fields(Sequence& s, Count&& count, Real&& real)
     count("runs", s.runs);
     count("steps", s.steps);
     count("checked", s.checked);
-    count("changed", s.changed);
+    count("then_fell", s.then_fell);
+    count("then_stood", s.then_stood);
     real("years", s.years);
     real("level", s.level);
     real("threshold", s.threshold);
@@ -250,7 +259,6 @@ void sequence_fields(Sequence& s, Count&& count, Real&& real)
         real(name + "_upper", l.upper);
     };
     limits("closed_form", s.closed_form_limits);
-    limits("changed_share", s.changed_limits);
     const auto number = [&](const std::string& name, auto& n) {
         real(name, n.value);
         limits(name, n.limits);
@@ -258,6 +266,7 @@ void sequence_fields(Sequence& s, Count&& count, Real&& real)
     number("carried_share", s.carried_share);
     number("fresh_share", s.fresh_share);
     number("difference", s.difference);
+    number("check_difference", s.check_difference);
     number("ratio", s.ratio);
 }
 

@@ -51,8 +51,8 @@ Figure state_figure(const StateRisk& s)
     figure.title = "Fragility";
     figure.y_label = "probability";
     figure.x_log = true;
-    FigureSeries line{s.meaning, SeriesKind::line, {}, {}, {}, {}};
-    FigureSeries points{"", SeriesKind::points, {}, {}, {}, {}};
+    FigureSeries line{s.meaning, SeriesKind::line, {}, {}, {}, {}, s.meaning};
+    FigureSeries points{s.meaning, SeriesKind::points, {}, {}, {}, {}, s.meaning};
     FigureSeries& limits = s.form == FragilityForm::shares ? points : line;
     for (const FragilityPoint& p : s.fragility) {
         line.x.push_back(p.intensity);
@@ -75,16 +75,22 @@ Figure parts_figure(const Risk& risk, const StateRisk& s)
     figure.x_label = describe_measure(risk.hazard.measure);
     figure.y_label = "frequency of each part [1/year]";
     figure.x_log = true;
-    FigureSeries bars{fmt::format("{}, {:g} %", s.state, 100 * risk.level), SeriesKind::points, {}, {}, {}, {}};
+    const std::string name = fmt::format("{}, {:g} %", s.state, 100 * risk.level);
+    FigureSeries steps{name, SeriesKind::line, {}, {}, {}, {}, name}, points = steps;
+    points.kind = SeriesKind::points;
     for (const FrequencyPart& part : s.estimate.parts) {
         if (part.from == 0 || std::isinf(part.to))
             continue;
-        bars.x.push_back(std::sqrt(part.from * part.to));
-        bars.y.push_back(part.frequency.value);
-        bars.low.push_back(part.frequency.total.lower);
-        bars.high.push_back(part.frequency.total.upper);
+        const RiskNumber& f = part.frequency;
+        steps.x.insert(steps.x.end(), {part.from, part.to});
+        steps.y.insert(steps.y.end(), {f.value, f.value});
+        points.x.push_back(std::sqrt(part.from * part.to));
+        points.y.push_back(f.value);
+        // limits of what no run has shown are in the table: they may be far beyond
+        points.low.push_back(f.value > 0 ? f.total.lower : std::nan(""));
+        points.high.push_back(f.value > 0 ? f.total.upper : std::nan(""));
     }
-    figure.series.push_back(std::move(bars));
+    figure.series = {std::move(steps), std::move(points)};
     return figure;
 }
 
@@ -164,7 +170,11 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
                                                                              s.ratio.limits.lower, s.ratio.limits.upper)
                                                                : std::string("not determined")},
          {"By the fragility", percent_text(s.closed_form, s.closed_form_limits)},
-         {"Threshold", s.threshold_says}});
+         {"Threshold", s.threshold_says},
+         {"With weaker earthquakes too",
+          s.checked == 0 ? std::string("not checked")
+                         : fmt::format("down to {:.3g}, in {} histories: difference {}", s.checked_threshold, s.checked,
+                                       percent(s.check_difference))}});
 }
 
 } // namespace

@@ -77,12 +77,15 @@ std::string sequence_text(const SequenceRisk& s)
                               s.ratio.limits.lower, s.ratio.limits.upper)
                 : std::string("  ratio, paired:                     not determined: too few histories with a fall\n");
     text += fmt::format("  by the fragility, new in each:     {}\n", percent_text(s.closed_form, s.closed_form_limits));
-    text += fmt::format("  threshold: {}", s.threshold_says);
+    text += fmt::format("  threshold: {}\n", s.threshold_says);
     if (s.checked > 0)
-        text += fmt::format(
-            " With earthquakes down to {:.3g}, {} of {} histories end otherwise ({}).", s.checked_threshold, s.changed,
-            s.checked, percent_text(static_cast<double>(s.changed) / static_cast<double>(s.checked), s.changed_limits));
-    text += "\n";
+        text +=
+            fmt::format("  with earthquakes down to {:.3g} in {} histories: {} fall that had stood, {} stand that had "
+                        "fallen; difference {}{}\n",
+                        s.checked_threshold, s.checked, s.then_fell, s.then_stood, percent(s.check_difference),
+                        s.check_difference.limits.lower > 0 ? ": weaker earthquakes count, lower the threshold" : "");
+    else
+        text += "  the threshold is not checked: below it there are too many earthquakes\n";
     if (s.invalid > 0)
         text += fmt::format("  {} histories are left out: a realization was invalid\n", s.invalid);
     return text;
@@ -129,7 +132,9 @@ Json json_of(const SequenceRisk& s)
         .member("closed_form", json_of(SequenceNumber{s.closed_form, s.closed_form_limits}))
         .member("checked", s.checked)
         .member("checked_threshold", s.checked_threshold)
-        .member("changed", s.changed);
+        .member("then_fell", s.then_fell)
+        .member("then_stood", s.then_stood)
+        .member("check_difference", json_of(s.check_difference));
 }
 
 Json json_of(const StateRisk& s, const Risk& risk)

@@ -32,10 +32,11 @@ struct SequenceRisk {
     SequenceNumber ratio;      ///< carried over fresh, paired
     double closed_form = 0;    ///< 1 - exp(-lambda years) of the fragility, which meets each earthquake as new
     Limits closed_form_limits;
-    /// The threshold's check: so many histories with weaker earthquakes too, and how many ended otherwise.
-    std::uint64_t checked = 0, changed = 0;
+    /// The threshold's check: so many histories once more with weaker earthquakes too, and how many of them fell then
+    /// and had not before, or the reverse: a history that differs early may end otherwise by chance.
+    std::uint64_t checked = 0, then_fell = 0, then_stood = 0;
     double checked_threshold = 0;
-    Limits changed_limits; ///< of the share
+    SequenceNumber check_difference; ///< of the share that has fallen, with weaker earthquakes minus without, paired
 };
 
 } // namespace stylobate

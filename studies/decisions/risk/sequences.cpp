@@ -2,6 +2,7 @@
 
 #include "ensemble/estimators/risk/paired_shares.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/motion/base_motion.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double harmless_dislocation = 0.001; // of a width
 constexpr double harmless_share = 0.99;
+constexpr double tails_of_rest = 10;
 constexpr double most_events = 100; // expected in a history
 
 struct Event {
@@ -85,7 +87,7 @@ public:
             r.motion_scale = shakings[0].scale;
             return r;
         }
-        Motion motion = in_succession(shakings, study().fragility->pause_s).motion;
+        Motion motion = in_succession(shakings, pause_s(r)).motion;
         motion.predominant_frequency_hz = r.frequency_hz;
         motion.pga_m_s2 = r.pga_m_s2;
         r.motion = std::make_shared<const Motion>(std::move(motion));
@@ -107,6 +109,10 @@ private:
     }
 
     const Study& study() const { return experiment_.study(); }
+    double pause_s(const Realization& r) const
+    {
+        return options_.pause_s.value_or(std::max(study().fragility->pause_s, tails_of_rest * tail_after_shaking(r)));
+    }
     const MotionSet& motions() const { return *experiment_.motions().drawn; }
 
     /// Events with frequencies of exceedance between two.
@@ -190,8 +196,9 @@ void estimate(SequenceRisk& s, const std::vector<Ending>& endings)
     const PairedEstimate difference = paired_difference(counts, s.level), ratio = paired_ratio(counts, s.level);
     s.difference = {difference.value, difference.limits};
     s.ratio = {ratio.value, ratio.limits};
-    const BinomialInterval changed = jeffreys(s.checked, s.changed, s.level);
-    s.changed_limits = {changed.lower, changed.upper};
+    const PairedEstimate check =
+        paired_difference({0, s.then_fell, s.then_stood, s.checked - s.then_fell - s.then_stood}, s.level);
+    s.check_difference = {check.value, check.limits};
 }
 
 const StateRisk& collapse_of(const Risk& risk)
@@ -315,7 +322,8 @@ std::optional<SequenceRisk> simulate_sequences(const Results& results, const Ris
     for (std::uint64_t h = 0; h < options.histories; ++h) {
         if (histories.events(h, s.threshold).size() == 1)
             endings[h].fresh = endings[h].carried;
-        s.changed += rerun[h] && endings[h].check != endings[h].carried;
+        s.then_fell += rerun[h] && endings[h].check && !endings[h].carried;
+        s.then_stood += rerun[h] && !endings[h].check && endings[h].carried;
     }
     estimate(s, endings);
     const RiskNumber expected = probability_over(collapse.estimate.frequency, s.years);

@@ -274,7 +274,7 @@ TEST_F(HazardFile, MutatedFilesAreRefusedOrUsable)
         nrml("statistics=\"mean\" IMT=\"PGA\" investigationTime=\"50\"", curve("1 2", "0.3 0.2 0.1"))};
     std::mt19937_64 random(3);
     int used = 0, refused = 0;
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < 1500; ++i) {
         std::string text = seeds[random() % seeds.size()];
         for (std::uint64_t edits = 1 + random() % 4; edits > 0; --edits) {
             const std::size_t at = random() % text.size();
@@ -310,8 +310,8 @@ TEST_F(HazardFile, MutatedFilesAreRefusedOrUsable)
             ++refused;
         }
     }
-    EXPECT_GT(used, 300);
-    EXPECT_GT(refused, 300);
+    EXPECT_GT(used, 100);
+    EXPECT_GT(refused, 100);
 }
 
 } // namespace
