@@ -60,6 +60,17 @@ double bounded_effect(double between, double independent, const GroupSums& sums)
 
 } // namespace
 
+PairedRatio paired_ratio(const PairedCounts& counts, double level)
+{
+    const auto base = static_cast<double>(counts.base()), variant = static_cast<double>(counts.variant());
+    const double ratio = variant / base;
+    if (!(base > 0 && variant > 0))
+        return {ratio, 0, std::numeric_limits<double>::infinity()};
+    const double reach = std::exp(two_sided_normal(level) *
+                                  std::sqrt((static_cast<double>(counts.discordant()) + 1) / (base * variant)));
+    return {ratio, ratio / reach, ratio * reach};
+}
+
 double two_sided_normal(double level)
 {
     return quantile(boost::math::normal_distribution<double>(), (1 + level) / 2);

@@ -62,6 +62,15 @@ PairedDifference stratified_at(std::span<const PairedCounts> strata, double quan
 /// Quantile of the standard normal distribution for a two-sided level.
 double two_sided_normal(double level);
 
+/// The share of the variant over that of the base, of independent pairs: the normal interval of the logarithm, with its
+/// variance (b + c) / (n_base n_variant), n_base and n_variant the pairs that reached it (delta method), in which one
+/// pair is added to those that differ (own choice: without any that differ the width would be 0). From 0 to infinity
+/// where either share is 0.
+struct PairedRatio {
+    double value = 0, lower = 0, upper = 0;
+};
+PairedRatio paired_ratio(const PairedCounts& counts, double level);
+
 /// How many realizations of each of two studies that are drawn independently have an interval of this half width:
 /// Newcombe's hybrid score interval ("Interval estimation for the difference between independent proportions",
 /// Statistics in Medicine 17 (1998) 873, method 10) of the shares that were found. Without a discordant pair it is as

@@ -1,6 +1,6 @@
 #include "studies/decisions/risk/sequences.hpp"
 
-#include "ensemble/estimators/risk/paired_shares.hpp"
+#include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/numerics/interval.hpp"
@@ -171,7 +171,7 @@ std::vector<Job> jobs_of(const Histories& histories, SequenceRisk& s)
 
 void estimate(SequenceRisk& s, const std::vector<Ending>& endings)
 {
-    PairedCounts counts;
+    PairedCounts counts; // fresh structures are the base
     std::uint64_t valid = 0;
     for (const Ending& e : endings) {
         s.invalid += e.invalid;
@@ -183,9 +183,9 @@ void estimate(SequenceRisk& s, const std::vector<Ending>& endings)
         s.both += e.carried && e.fresh;
     }
     counts.both = s.both;
-    counts.first = s.carried - s.both;
-    counts.second = s.fresh - s.both;
-    counts.neither = valid - s.both - counts.first - counts.second;
+    counts.variant_only = s.carried - s.both;
+    counts.base_only = s.fresh - s.both;
+    counts.neither = valid - s.both - counts.discordant();
     const auto share = [&](std::uint64_t fallen) -> SequenceNumber {
         const BinomialInterval limits = jeffreys(valid, fallen, s.level);
         return {valid ? static_cast<double>(fallen) / static_cast<double>(valid) : std::nan(""),
@@ -193,12 +193,16 @@ void estimate(SequenceRisk& s, const std::vector<Ending>& endings)
     };
     s.carried_share = share(s.carried);
     s.fresh_share = share(s.fresh);
-    const PairedEstimate difference = paired_difference(counts, s.level), ratio = paired_ratio(counts, s.level);
-    s.difference = {difference.value, difference.limits};
-    s.ratio = {ratio.value, ratio.limits};
-    const PairedEstimate check =
-        paired_difference({0, s.then_fell, s.then_stood, s.checked - s.then_fell - s.then_stood}, s.level);
-    s.check_difference = {check.value, check.limits};
+    const auto difference_of = [&](const PairedCounts& of) -> SequenceNumber {
+        if (of.pairs() == 0)
+            return {std::nan(""), {-1, 1}};
+        const PairedDifference d = paired_difference(of, s.level);
+        return {d.value, {d.lower, d.upper}};
+    };
+    s.difference = difference_of(counts);
+    const PairedRatio ratio = paired_ratio(counts, s.level);
+    s.ratio = {ratio.value, {ratio.lower, ratio.upper}};
+    s.check_difference = difference_of({0, s.then_stood, s.then_fell, s.checked - s.then_fell - s.then_stood});
 }
 
 const StateRisk& collapse_of(const Risk& risk)

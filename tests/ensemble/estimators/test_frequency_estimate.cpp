@@ -2,7 +2,6 @@
 
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
-#include "ensemble/estimators/risk/paired_shares.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 
 #include <gtest/gtest.h>
@@ -224,35 +223,6 @@ TEST(FrequencyEstimateStatistics, IntervalsContainTheTruth)
             EXPECT_NEAR(covered.total, 0.9, 0.06);
             EXPECT_GT(covered.shares, 0.84);
         }
-}
-
-/// By enumeration of the counts of 60 trials whose two outcomes are dependent.
-TEST(PairedShares, IntervalsContainTheTruth)
-{
-    const double p11 = 0.15, p10 = 0.12, p01 = 0.05, p00 = 1 - p11 - p10 - p01;
-    const int n = 60;
-    double difference = 0, ratio = 0, all = 0;
-    const auto log_factorial = [](int i) { return std::lgamma(i + 1.0); };
-    for (int a = 0; a <= n; ++a)
-        for (int b = 0; a + b <= n; ++b)
-            for (int c = 0; a + b + c <= n; ++c) {
-                const int d = n - a - b - c;
-                const double p = std::exp(log_factorial(n) - log_factorial(a) - log_factorial(b) - log_factorial(c) -
-                                          log_factorial(d) + a * std::log(p11) + b * std::log(p10) + c * std::log(p01) +
-                                          d * std::log(p00));
-                const auto u = [](int i) { return static_cast<std::uint64_t>(i); };
-                const PairedCounts counts{u(a), u(b), u(c), u(d)};
-                const PairedEstimate found = paired_difference(counts, 0.9), by = paired_ratio(counts, 0.9);
-                all += p;
-                difference += found.limits.lower <= p10 - p01 && p10 - p01 <= found.limits.upper ? p : 0;
-                const double want = (p11 + p10) / (p11 + p01);
-                ratio += by.limits.lower <= want && want <= by.limits.upper ? p : 0;
-            }
-    EXPECT_NEAR(all, 1, 1e-9);
-    EXPECT_NEAR(difference, 0.9, 0.03);
-    EXPECT_NEAR(ratio, 0.9, 0.05);
-    EXPECT_EQ(paired_difference({5, 3, 1, 91}, 0.9).value, 0.02);
-    EXPECT_EQ(paired_ratio({5, 3, 1, 91}, 0.9).value, 8.0 / 6);
 }
 
 } // namespace

@@ -276,5 +276,30 @@ TEST(PairedDifferenceStatistics, IntervalsOfStrataCover)
         }
 }
 
+/// By enumeration of the counts of 60 pairs whose two outcomes are dependent.
+TEST(PairedRatio, IntervalsContainTheTruth)
+{
+    const double p11 = 0.15, p10 = 0.12, p01 = 0.05, p00 = 1 - p11 - p10 - p01;
+    const int n = 60;
+    double ratio = 0, all = 0;
+    const auto log_factorial = [](int i) { return std::lgamma(i + 1.0); };
+    for (int a = 0; a <= n; ++a)
+        for (int b = 0; a + b <= n; ++b)
+            for (int c = 0; a + b + c <= n; ++c) {
+                const int d = n - a - b - c;
+                const double p = std::exp(log_factorial(n) - log_factorial(a) - log_factorial(b) - log_factorial(c) -
+                                          log_factorial(d) + a * std::log(p11) + b * std::log(p10) + c * std::log(p01) +
+                                          d * std::log(p00));
+                const auto u = [](int i) { return static_cast<std::uint64_t>(i); };
+                const PairedRatio found = paired_ratio({u(a), u(b), u(c), u(d)}, 0.9);
+                all += p;
+                const double want = (p11 + p01) / (p11 + p10);
+                ratio += found.lower <= want && want <= found.upper ? p : 0;
+            }
+    EXPECT_NEAR(all, 1, 1e-9);
+    EXPECT_NEAR(ratio, 0.9, 0.05);
+    EXPECT_EQ(paired_ratio({5, 1, 3, 91}, 0.9).value, 8.0 / 6);
+}
+
 } // namespace
 } // namespace stylobate
