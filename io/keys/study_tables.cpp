@@ -32,8 +32,7 @@ const TableKey& study_file_keys()
                                 &excitation_keys::table, &surface_keys::table, &twins_keys::table,
                                 &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table,
                                 &perturbation_table(), &mechanisms_table(), &initial_keys::table, &output_keys::table,
-                                &outcome_keys::table, &run_keys::table, &variants_keys::table,
-                                &optimise_keys::table});
+                                &outcome_keys::table, &run_keys::table, &variants_keys::table, &optimise_keys::table});
     return file;
 }
 
