@@ -54,7 +54,7 @@ enum class KeyType {
     wholes,   ///< a list of whole numbers
     texts,    ///< a list of strings
     table,
-    tables,       ///< a list of tables
+    tables,        ///< a list of tables
     table_or_list, ///< a table, or a list of such tables
     named          ///< tables under names of the user's, all with these keys; without keys, with any
 };

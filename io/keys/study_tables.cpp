@@ -28,13 +28,12 @@ void visit(const TomlKey& table, const std::string& above,
 
 const TableKey& study_file_keys()
 {
-    static const TableKey file("", "a study of Stylobate",
-                               {&study_keys::table, &structure_keys::table, &contact_keys::table,
-                                &excitation_keys::table, &surface_keys::table, &twins_keys::table,
-                                &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table,
-                                 &survival_keys::table, &perturbation_table(), &mechanisms_table(), &initial_keys::table,
-                                 &output_keys::table, &outcome_keys::table, &run_keys::table, &variants_keys::table,
-                                 &optimise_keys::table});
+    static const TableKey file(
+        "", "a study of Stylobate",
+        {&study_keys::table, &structure_keys::table, &contact_keys::table, &excitation_keys::table,
+         &surface_keys::table, &twins_keys::table, &fragility_keys::table, &sensitivity_keys::table, &rare_keys::table,
+         &survival_keys::table, &perturbation_table(), &mechanisms_table(), &initial_keys::table, &output_keys::table,
+         &outcome_keys::table, &run_keys::table, &variants_keys::table, &optimise_keys::table});
     return file;
 }
 

@@ -35,8 +35,8 @@ inline constexpr std::size_t most_searched_keys = 3;
 /// @throws InputError if a name is none, or if a variant is no table
 std::vector<std::string> variant_names(const KeyReader& top);
 
-/// Lays a variant over the study: a key with dots, or any value but a table, replaces what is there; a table under a key
-/// without dots is laid over it key by key.
+/// Lays a variant over the study: a key with dots, or any value but a table, replaces what is there; a table under a
+/// key without dots is laid over it key by key.
 /// @throws InputError if there is no such variant, with those that there are
 void apply_variant(TomlValue& root, const std::string& name, const std::string& file);
 

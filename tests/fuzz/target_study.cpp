@@ -117,7 +117,8 @@ std::string value_of(const TomlKey& key, Random& random, int depth)
     case KeyType::table_or_list:
         if (depth > 3)
             return "{}";
-        if (key.type == KeyType::table || key.type == KeyType::named || (key.type == KeyType::table_or_list && random() % 2 == 0))
+        if (key.type == KeyType::table || key.type == KeyType::named ||
+            (key.type == KeyType::table_or_list && random() % 2 == 0))
             return table_of(key, random, depth);
         return list_of(random, [&] { return table_of(key, random, depth); });
     case KeyType::word:

@@ -54,8 +54,7 @@ struct GroupedTruth {
             const double level = mean + group_sd * normal(random), other = level + shift + shift_sd * normal(random);
             for (std::size_t i = 0; i < pairs; ++i) {
                 const double noise = normal(random);
-                const double twin =
-                    correlation * noise + std::sqrt(1 - correlation * correlation) * normal(random);
+                const double twin = correlation * noise + std::sqrt(1 - correlation * correlation) * normal(random);
                 group.add(level + noise > 0, other + twin > 0);
             }
         }
