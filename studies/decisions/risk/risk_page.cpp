@@ -73,7 +73,7 @@ Figure parts_figure(const Risk& risk, const StateRisk& s)
     Figure figure;
     figure.title = "Disaggregation";
     figure.x_label = describe_measure(risk.hazard.measure);
-    figure.y_label = "frequency of each part [1/year]";
+    figure.y_label = "parts [1/year]";
     figure.x_log = true;
     const std::string name = fmt::format("{}, {:g} %", s.state, 100 * risk.level);
     FigureSeries steps{name, SeriesKind::line, {}, {}, {}, {}, name}, points = steps;
