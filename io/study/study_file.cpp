@@ -22,7 +22,7 @@
 #include "io/study/study_rigid.hpp"
 #include "io/study/study_sensitivity.hpp"
 #include "io/study/study_structure.hpp"
-#include "io/study/study_survival.hpp"
+#include "io/study/decisions/study_survival.hpp"
 #include "io/study/study_twins.hpp"
 
 #include <fmt/format.h>

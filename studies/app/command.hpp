@@ -10,6 +10,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace stylobate {
 
 /// Exit statuses of the command line.
@@ -32,6 +36,14 @@ struct CommonOptions {
     /// @throws InputError as `isa`, or if the backend has no device here
     RunOptions run_options() const;
 };
+
+/// @name Options of a verb, read into those that verbs share.
+/// @{
+void add_set(CLI::App& verb, CommonOptions& options);
+/// @param backends where the verb can compute
+void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"});
+void add_force(CLI::App& verb, CommonOptions& options);
+/// @}
 
 /// Options of `export`; empty, or -1: not given.
 struct ExportOptions {

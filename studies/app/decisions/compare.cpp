@@ -7,7 +7,7 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/app/run_report.hpp"
-#include "studies/decisions/compare/adaptive_comparison.hpp"
+#include "studies/decisions/adaptive/adaptive_comparison.hpp"
 #include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"

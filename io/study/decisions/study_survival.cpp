@@ -1,4 +1,4 @@
-#include "io/study/study_survival.hpp"
+#include "io/study/decisions/study_survival.hpp"
 
 #include "io/hazard/hazard_file.hpp"
 #include "io/keys/survival_keys.hpp"

@@ -1,4 +1,4 @@
-#include "studies/decisions/compare/adaptive_comparison.hpp"
+#include "studies/decisions/adaptive/adaptive_comparison.hpp"
 
 #include "ensemble/estimators/paired/paired_allocation.hpp"
 #include "ensemble/model/input_error.hpp"

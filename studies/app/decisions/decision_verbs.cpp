@@ -1,0 +1,83 @@
+#include "studies/app/decision_verbs.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace stylobate {
+
+void DecisionVerbs::add_compare()
+{
+    auto* compare = app_.add_subcommand(
+        "compare", "what interventions change: studies run under the same draws and the same shaking, differences "
+                   "of all limit states with paired intervals; continues unfinished results");
+    compare
+        ->add_option("STUDY", compare_.files,
+                     "study files, the base first (one alone: its [variants]); or finished results of them")
+        ->required();
+    compare->add_option("-o,--output", compare_.output,
+                        "the comparison (default: the base's name with _comparison.h5); the results of the studies "
+                        "go beside it, under their names");
+    compare->add_option("--level", compare_.level, "confidence of intervals and verdicts")
+        ->check(CLI::Range(0.5, 0.9999))
+        ->capture_default_str();
+    auto* adaptive = compare->add_option("--adaptive", compare_.adaptive,
+                                         "at most so many pairs of each variant of a surface, in rounds, where the "
+                                         "difference is undecided (default: all pairs)");
+    compare
+        ->add_option("--margin", compare_.margin,
+                     "adaptive: a cell is decided, too, where its difference is shown to be smaller than this")
+        ->check(CLI::Range(0.001, 0.5))
+        ->capture_default_str()
+        ->needs(adaptive);
+    compare->add_flag("--search", compare_.search,
+                      "search the values of [optimise] for which the limit state is least probable");
+    add_force(*compare, options_);
+    add_set(*compare, options_);
+    add_common(*compare, options_, {"cpu", "cuda"});
+    compare->callback([this] { status_ = compare_command(options_, compare_); });
+}
+
+void DecisionVerbs::add_past()
+{
+    auto* past = app_.add_subcommand(
+        "past", "what several structures of one site tell of the shaking that all of them have been through");
+    past->add_option("RESULTS", files_, "results of survival studies, of two structures or more")->required();
+    past->add_option("-o,--output", picture_, "picture of their likelihoods: .png, .svg or .pdf (default: none)");
+    add_force(*past, options_);
+    add_common(*past, options_);
+    past->callback([this] { status_ = past_command(options_, files_, picture_); });
+}
+
+void DecisionVerbs::add_risk()
+{
+    auto* risk = app_.add_subcommand(
+        "risk", "how often limit states are reached, and how likely over years: a fragility study over a hazard");
+    risk->add_option("RESULTS", results_, "results of a fragility study (HDF5)")->required();
+    risk->add_option("--hazard", risk_.hazard,
+                     "hazard curve: a table (CSV), OpenQuake's CSV or NRML (several: mean and fractiles), or a "
+                     "power law such as k0=1e-4,k=2.5,measure=pga_g,sigma_ln=0.5")
+        ->required()
+        ->take_all()
+        ->allow_extra_args(false);
+    risk->add_option("--site", risk_.site, "site of several in the hazard: LON,LAT or its number from 0");
+    risk->add_option("--years", risk_.years, "years for the probabilities (default: 50,100)")->delimiter(',');
+    risk->add_option("--level", risk_.level, "level of the intervals")->capture_default_str();
+    risk->add_option("--state", risk_.state, "one limit state of the study (default: all)");
+    risk->add_option("--most-outside", risk_.most_outside,
+                     "largest share of a frequency from outside of the intensities of study or hazard")
+        ->capture_default_str();
+    risk->add_option("--sequences", risk_.sequences,
+                     "also simulate so many histories of the last of --years, with the damage carried along")
+        ->check(CLI::Range(0LL, 10000000LL));
+    risk->add_option("--threshold", risk_.threshold,
+                     "their weakest earthquake, in the SI unit of the measure (default: by the results)");
+    risk->add_option("--pause", risk_.pause_s, "seconds of rest between them (default: until the structure rests)")
+        ->check(CLI::Range(0.0, 1000.0));
+    risk->add_option("--seed", risk_.seed, "seed of the histories")->check(CLI::Range(0LL, 999999999999LL));
+    risk->add_option("-o,--output", risk_.output, "the estimate (HDF5; default: the results' name with _risk.h5)");
+    add_force(*risk, options_);
+    add_set(*risk, options_);
+    add_common(*risk, options_);
+    risk->callback([this] { status_ = risk_command(options_, results_, risk_); });
+}
+
+} // namespace stylobate
