@@ -25,8 +25,9 @@ bool is_sampled(ExcitationKind kind)
 BaseChange distortion_of(const MechanismSpec& spec)
 {
     BaseChange change;
-    for (std::size_t i = 0; i < spec.values.size(); ++i)
-        change.*std::get<double BaseChange::*>(rule_of(spec.mechanism).parameters[i].member) = spec.values[i];
+    const auto& parameters = rule_of(spec.mechanism).parameters; // fewer than there is room for values
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        change.*std::get<double BaseChange::*>(parameters[i].member) = spec.values[i];
     return change;
 }
 

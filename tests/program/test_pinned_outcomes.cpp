@@ -138,6 +138,7 @@ const std::vector<ReducedStudy>& reduced_studies()
         surface("small_scale_column_adaptive", 1, 4, 4, 12,
                 {"surface.adaptive={budget=60,minimum=4,half_width=0.05,borrow=true}"}),
         surface("small_scale_monolith", 1, 4, 4, 12),
+        surface("small_scale_strengthened", 1, 4, 4, 12),
         surface("strengthening_dowels", 1, 3, 4, 12),
         surface("strengthening_tendon", 1, 3, 4, 12),
         surface("synthetic_earthquake", 1, 4, 4, 12),

@@ -11,17 +11,17 @@ namespace stylobate {
 namespace {
 
 /// A quantity, and which of the inputs it is.
-struct Quantity {
+struct DrawnQuantity {
     std::string name;
     std::vector<std::size_t> inputs;
 };
 
-std::vector<Quantity> quantities_of(const std::vector<std::string>& inputs)
+std::vector<DrawnQuantity> quantities_of(const std::vector<std::string>& inputs)
 {
-    std::vector<Quantity> all;
+    std::vector<DrawnQuantity> all;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const std::string name = inputs[i].substr(0, inputs[i].find('['));
-        auto at = std::ranges::find(all, name, &Quantity::name);
+        auto at = std::ranges::find(all, name, &DrawnQuantity::name);
         if (at == all.end())
             at = all.insert(all.end(), {name, {}});
         at->inputs.push_back(i);
@@ -39,7 +39,7 @@ std::vector<InputDependence> input_dependences(const ResultReader& rows, const S
     if (layout.groups > 0)
         return all;
     const std::uint64_t of_each_cell = std::max<std::uint64_t>(2, most_dependence_pairs / layout.cells);
-    const std::vector<Quantity> quantities = quantities_of(rows.header().input_names);
+    const std::vector<DrawnQuantity> quantities = quantities_of(rows.header().input_names);
     std::vector<PairedTrial> trials;
     std::vector<std::vector<double>> values(quantities.size());
     rows.for_each_row([&](const ResultRow& row) {
