@@ -97,7 +97,7 @@ void check_curve(const KeyReader& keys, const HazardSpec& hazard, const char* ke
 HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside)
 {
     HazardSpec hazard;
-    const std::string named = keys.read_or(keys_of::file, {});
+    const std::string named = keys.read_or(keys_of::file, {}), site = keys.read_or(keys_of::site, {});
     const bool power = keys.has(keys_of::k0), points = keys.has(keys_of::intensities), file = !named.empty();
     if (power + points + file != 1)
         keys.refuse_all(fmt::format("survival.hazard has {} hazard curves, not one: give k0_per_year and k, or "
@@ -106,7 +106,7 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
     if (keys.has(keys_of::k) != power)
         power ? keys.missing(keys_of::k.name, "It is the slope of the hazard curve, mostly 1 to 4.")
               : keys.refuse(keys_of::k.name, "is not used beside points of a curve", "Remove it.");
-    if (keys.has(keys_of::site) && !file)
+    if (!site.empty() && !file)
         keys.refuse(keys_of::site.name, "is not used without a file", "Remove it.");
     if (keys.has(keys_of::rates) != points)
         points ? keys.missing(keys_of::rates.name, "Give the rate of each of intensity_m_s2.")
@@ -123,7 +123,7 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
         std::error_code error;
         if (path.is_relative() && std::filesystem::exists(beside / path, error))
             path = beside / path;
-        const HazardModel curve = read_hazard({path.string()}, "pga_m_s2", keys.read_or(keys_of::site, {}));
+        const HazardModel curve = read_hazard({path.string()}, "pga_m_s2", site);
         hazard.intensity_m_s2 = curve.intensity;
         hazard.rate_per_year = curve.frequency;
         check_curve(keys, hazard, keys_of::file.name.c_str());

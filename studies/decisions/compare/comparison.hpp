@@ -41,7 +41,7 @@ struct PlaceComparison {
 
 struct LimitComparison {
     std::string name;     ///< "collapse", "peak_0.35"
-    std::string describe; ///< "a block falls"
+    std::string describe; ///< "rocking without collapse"
     bool damage = true;   ///< whether more of it is worse
     std::vector<PlaceComparison> cells;
     PlaceComparison overall;

@@ -61,7 +61,7 @@ std::string answer_text(const Comparison& c, const VariantComparison& variant)
         return fmt::format("With {} nothing can be said: no pair of realizations is valid in both studies.",
                            variant.name);
     std::string text =
-        fmt::format("With {} the probability that {} is {:.3f} instead of {:.3f} {}: a difference of {} at {:g} %. ",
+        fmt::format("With {} the probability of {} is {:.3f} instead of {:.3f} {}: a difference of {} at {:g} %. ",
                     variant.name, limit.describe, all.variant.probability, all.base.probability, over_all(c),
                     difference_text(all), 100 * c.level);
     switch (limit.verdict(all)) {

@@ -9,7 +9,7 @@
 
 namespace stylobate {
 
-/// "With dowels the probability that a block falls is 0.231 instead of 0.274 over the 64 cells of the study: a
+/// "With dowels the probability of collapse is 0.231 instead of 0.274 over the 64 cells of the study: a
 /// difference of -0.043 [-0.060, -0.027] at 95 %. It helps." Of the first limit state.
 std::string answer_text(const Comparison& comparison, const VariantComparison& variant);
 
