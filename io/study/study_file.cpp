@@ -13,6 +13,7 @@
 #include "io/keys/structure_keys.hpp"
 #include "io/keys/study_tables.hpp"
 #include "io/keys/survival_keys.hpp"
+#include "io/study/decisions/study_survival.hpp"
 #include "io/study/study_accuracy.hpp"
 #include "io/study/study_axis.hpp"
 #include "io/study/study_excitation.hpp"
@@ -22,7 +23,6 @@
 #include "io/study/study_rigid.hpp"
 #include "io/study/study_sensitivity.hpp"
 #include "io/study/study_structure.hpp"
-#include "io/study/decisions/study_survival.hpp"
 #include "io/study/study_twins.hpp"
 
 #include <fmt/format.h>
