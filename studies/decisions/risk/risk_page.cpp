@@ -1,5 +1,6 @@
 #include "studies/decisions/risk/risk_page.hpp"
 
+#include "studies/decisions/risk/risk_answer.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/report/html_figure.hpp"
 
@@ -190,6 +191,9 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string&
                   fmt::format("Fragility of {}, hazard {}{}. Made by stylobate {}.", risk.fragility_file,
                               risk.hazard.source, risk.hazard.site.empty() ? "" : " at " + risk.hazard.site,
                               risk.code_version));
+    page.section("The answer");
+    page.box(risk.principal().determined ? "good" : "warn", risk.principal().meaning, risk_answer(risk));
+    page.paragraph(risk_grounds(risk));
     add_result(risk, page);
     add_parts(risk, page);
     if (risk.sequences)

@@ -1,0 +1,74 @@
+/// What a risk estimate comes to in sentences.
+
+#include "studies/decisions/risk/risk_answer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace stylobate {
+namespace {
+
+RiskNumber number(double value, double lower, double upper, double fragility_part)
+{
+    RiskNumber n;
+    n.value = value;
+    n.total = n.fragility = n.hazard = {lower, upper};
+    n.fragility_part = fragility_part;
+    return n;
+}
+
+/// A fall once in a thousand years, from intensities 1 to 4.
+Risk risk(double fragility_part)
+{
+    Risk r;
+    r.level = 0.9;
+    r.years = {50, 100};
+    r.hazard.measure = "pgv_m_s";
+    r.hazard.fractiles = {{0.05, {}}, {0.95, {}}};
+    StateRisk s;
+    s.state = "collapse";
+    s.meaning = "a block falls";
+    s.estimate.frequency = number(1e-3, 5e-4, 2e-3, fragility_part);
+    for (const auto& [from, to, share] :
+         {std::tuple{0.0, 1.0, 0.05}, std::tuple{1.0, 2.0, 0.6}, std::tuple{2.0, 4.0, 0.3},
+          std::tuple{4.0, std::numeric_limits<double>::infinity(), 0.05}})
+        s.estimate.parts.push_back({from, to, number(1e-3 * share, 0, 1, 0.5)});
+    r.states.push_back(s);
+    return r;
+}
+
+TEST(RiskAnswer, IsOneSentenceWithItsInterval)
+{
+    // 1 - exp(-0.1), of 0.05 and of 0.2
+    EXPECT_EQ(risk_answer(risk(0.2)),
+              "In 100 years the limit state 'a block falls' is reached with a probability of 9.52 "
+              "% (4.88 to 18.1; 90 % interval), on average once in 1000 years.");
+    Risk open = risk(0.2);
+    open.states.front().determined = false;
+    open.states.front().estimate.bounds = {1e-4, 0.02};
+    open.states.front().note = "Too much comes from above.";
+    EXPECT_EQ(risk_answer(open),
+              "How often the limit state 'a block falls' is reached is not determined: between 0.0001 "
+              "and 0.02 times a year. Too much comes from above.");
+    EXPECT_EQ(risk_grounds(open), "");
+}
+
+TEST(RiskAnswer, SaysWhereItComesFromAndWhatWouldNarrowIt)
+{
+    const std::string by_hazard = risk_grounds(risk(0.2)), by_fragility = risk_grounds(risk(0.7));
+    EXPECT_NE(by_hazard.find("from 1 to 4"), std::string::npos) << by_hazard;
+    EXPECT_NE(
+        by_hazard.find("80 % of the interval's width comes from the hazard, 20 % from the fragility. A better hazard"),
+        std::string::npos)
+        << by_hazard;
+    EXPECT_NE(by_fragility.find("More motions in the study would narrow it"), std::string::npos);
+    Risk certain = risk(1);
+    certain.hazard.fractiles.clear();
+    EXPECT_NE(risk_grounds(certain).find("of the fragility alone"), std::string::npos);
+}
+
+} // namespace
+} // namespace stylobate
