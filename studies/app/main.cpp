@@ -129,7 +129,6 @@ public:
         app_.get_formatter()->column_width(help_column);
         add_run();
         add_merge();
-        decisions_.add_past();
         add_check();
         decisions_.add_compare();
         add_replay();
@@ -138,6 +137,7 @@ public:
         add_calibrate();
         add_diagnose();
         decisions_.add_risk();
+        decisions_.add_past();
         add_export();
         add_report();
         add_new();

@@ -116,10 +116,9 @@ TEST_F(Faults, StudiesThatAreNone)
 TEST_F(Faults, WrongCommandLines)
 {
     write_results({"-o", "out.h5"});
-    expect_refused(
-        Words{},
-        {"command",
-         "run, merge, check, replay, verify-file, record, calibrate, diagnose, export, report, new, schema, info"});
+    expect_refused(Words{}, {"command", "run, merge, check, compare, replay, verify-file, record, calibrate, diagnose, "
+                                        "risk, past, export, report, new, "
+                                        "schema, info"});
     expect_refused({"rum", column_study}, {"'rum'", "Did you mean run"});
     expect_refused({"simulate"}, {"'simulate'"});
     expect_refused({"run"}, {"STUDY", "stylobate run --help"});
