@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
-#include <chrono>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -108,31 +108,76 @@ TEST(Deal, ARankThatIsSlowGetsLess)
     EXPECT_LE(by_slow, 3 * Deal::portion(count, 3));
 }
 
-/// What waits to be taken has a bound: a portion is asked for behind what has come of the one before, and rank 0 reads
-/// in order.
+/// Rank 0 as another one sees it, with a look at each portion before it is sent.
+class WatchedFirst : public Ranks {
+public:
+    WatchedFirst(Ranks& ranks, std::string given, std::function<void(int to, std::size_t numbers)> portion)
+        : ranks_(ranks), given_(std::move(given)), portion_(std::move(portion))
+    {
+    }
+    std::map<int, std::size_t> received; ///< from each rank, of what has come of numbers
+
+    int rank() const override { return ranks_.rank(); }
+    int size() const override { return ranks_.size(); }
+    int local_rank() const override { return ranks_.local_rank(); }
+    int local_size() const override { return ranks_.local_size(); }
+    int sharing() const override { return ranks_.sharing(); }
+    void send(int to, std::string content) override
+    {
+        if (content.size() > sizeof(std::uint64_t)) // a letter, and the numbers
+            portion_(to, content.size() / sizeof(std::uint64_t));
+        ranks_.send(to, std::move(content));
+    }
+    std::optional<Message> receive() override
+    {
+        std::optional<Message> message = ranks_.receive();
+        if (message && message->content.ends_with(given_))
+            ++received[message->from];
+        return message;
+    }
+    void await_sent() override { ranks_.await_sent(); }
+    std::string of_first(const std::string& mine) override { return ranks_.of_first(mine); }
+    std::vector<std::string> of_all(const std::string& mine) override { return ranks_.of_all(mine); }
+    void abort(int status) override { ranks_.abort(status); }
+
+private:
+    Ranks& ranks_;
+    const std::string given_;
+    const std::function<void(int, std::size_t)> portion_;
+};
+
+/// What waits to be taken has a bound: when a rank gets a portion, rank 0 has taken all that came of the numbers
+/// before, but of those that the rank still has in hand.
 TEST(Deal, RanksWaitForARankZeroThatFallsBehind)
 {
     constexpr std::uint64_t count = 20'000, ahead = 2;
     std::uint64_t next = 0;
-    std::atomic<std::int64_t> waiting = 0;
-    std::int64_t most = 0;
-    std::uint64_t taken = 0;
+    std::size_t taken = 0, portions = 0;
+    std::map<int, std::size_t> dealt;
     ThreadRanks(3).run([&](Ranks& ranks) {
-        Deal deal(ranks, stock_of(count, next), ahead, [&](std::string_view) {
-            most = std::max(most, waiting.load());
-            --waiting;
-            ++taken;
-            std::this_thread::sleep_for(std::chrono::microseconds(20)); // far longer than the others need for one
-        });
-        if (!ranks.leads()) // rank 0 makes none itself
-            while (deal.next()) {
-                ++waiting;
-                deal.give("x");
-            }
+        if (ranks.leads()) {
+            WatchedFirst* watched = nullptr;
+            WatchedFirst first(ranks, "given", [&](int to, std::size_t numbers) {
+                std::size_t received = 0;
+                for (const auto& [from, some] : watched->received)
+                    received += some;
+                EXPECT_EQ(taken, received) << "something waits on rank 0";
+                EXPECT_LE(dealt[to] - watched->received[to], ahead + 1) << "and one that is being run";
+                dealt[to] += numbers;
+                ++portions;
+            });
+            watched = &first;
+            Deal deal(first, stock_of(count, next), ahead, [&](std::string_view) { ++taken; });
+            EXPECT_TRUE(deal.finish()); // rank 0 runs none itself
+            return;
+        }
+        Deal deal(ranks, stock_of(count, next), ahead, [](std::string_view) {});
+        while (deal.next())
+            deal.give("given");
         EXPECT_TRUE(deal.finish());
     });
     EXPECT_EQ(taken, count);
-    EXPECT_LE(most, static_cast<std::int64_t>(2 * 2 * (Deal::portion(count, 3) + ahead)));
+    EXPECT_GT(portions, count / 256);
 }
 
 TEST(Deal, AnyRankStopsAllOfThem)
