@@ -11,12 +11,7 @@ set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 seeds=${1:-4}
 repeats=${2:-20}
-build=${STYLOBATE_BUILD:-build/release}
-if [[ -z ${STYLOBATE_BUILD:-} ]]; then
-    scripts/install_packages.sh
-    cmake --preset release >/dev/null
-    cmake --build "$build" --target stylobate stylobate_adaptive --parallel "$(nproc)"
-fi
+. scripts/built.sh stylobate stylobate_adaptive
 study=studies/inputs/small_scale_column_adaptive.toml
 out=results/adaptive
 mkdir -p "$out"

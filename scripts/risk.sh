@@ -7,12 +7,7 @@ set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 root=$PWD
-build=${STYLOBATE_BUILD:-build/release}
-if [[ -z ${STYLOBATE_BUILD:-} ]]; then
-    scripts/install_packages.sh
-    cmake --preset release >/dev/null
-    cmake --build "$build" --target stylobate --parallel "$(nproc)"
-fi
+. scripts/built.sh stylobate
 stylobate=$(realpath "$build/studies/stylobate")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

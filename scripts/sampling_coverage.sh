@@ -6,12 +6,7 @@
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
-build=${STYLOBATE_BUILD:-build/release}
-if [[ -z ${STYLOBATE_BUILD:-} ]]; then
-    scripts/install_packages.sh
-    cmake --preset release >/dev/null
-    cmake --build "$build" --target stylobate_sampling_coverage --parallel "$(nproc)"
-fi
+. scripts/built.sh stylobate_sampling_coverage
 
 "$build/bench/stylobate_sampling_coverage" --repeats "${1:-2000}" |
     scripts/into_page.sh sampling_coverage.sh docs/sensitivity.md

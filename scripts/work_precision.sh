@@ -6,12 +6,7 @@
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
-build=${STYLOBATE_BUILD:-build/release}
-if [[ -z ${STYLOBATE_BUILD:-} ]]; then
-    scripts/install_packages.sh
-    cmake --preset release >/dev/null
-    cmake --build "$build" --target work_precision --parallel "$(nproc)"
-fi
+. scripts/built.sh work_precision
 
 "$build/bench/work_precision/work_precision" --picture docs/images/work_precision.png "$@" |
     scripts/into_page.sh work_precision.sh docs/work_precision.md

@@ -1,64 +1,26 @@
 #include "io/sealed/table_file.hpp"
 
-#include "ensemble/model/input_error.hpp"
-#include "io/files/atomic_file.hpp"
-#include "io/files/file_handle.hpp"
-#include "io/files/hdf5.hpp"
-#include "io/store/result_seal.hpp"
 #include "io/tables/table_hdf5.hpp"
-
-#include <fmt/format.h>
-
-#include <system_error>
 
 namespace stylobate {
 
-void write_table_file(const std::filesystem::path& file, const TableFormat& format, const std::string& code_version,
+void write_table_file(const std::filesystem::path& file, const SealedFormat& format, const std::string& code_version,
                       const std::vector<Table>& tables)
 {
-    AtomicFile target(file);
-    try {
-        const std::uint64_t block = seal_bytes(0);
-        hdf5::Handle made = hdf5::create_file(target.temporary(), block);
-        hdf5::write_text(made.id(), "format", format.format);
-        hdf5::write_number(made.id(), "format_version", H5T_STD_U32LE, format.version);
-        hdf5::write_text(made.id(), "kind", format.kind);
-        hdf5::write_text(made.id(), "code_version", code_version);
+    write_sealed_file(file, format, code_version, [&](hid_t root) {
         for (const Table& table : tables)
-            write_table(made.id(), table);
-        made.close();
-        FileHandle handle = FileHandle::open(target.temporary(), true);
-        write_seal(handle, block, {});
-    } catch (const hdf5::Error& error) {
-        throw InputError(file.string(), 0, std::string("cannot be written: ") + error.what());
-    } catch (const std::system_error& error) {
-        throw InputError(file.string(), 0, "cannot be written: " + error.code().message());
-    }
-    target.commit();
+            write_table(root, table);
+    });
 }
 
-std::vector<Table> read_table_file(const std::filesystem::path& file, const TableFormat& format)
+std::vector<Table> read_table_file(const std::filesystem::path& file, const SealedFormat& format)
 {
-    const FileHandle handle = FileHandle::open(file, false);
-    check_seal(handle, file.string());
-    try {
-        const hdf5::Handle open = hdf5::open_file(file, false);
-        if (hdf5::read_text(open.id(), "format") != format.format)
-            throw InputError(file.string(), 0, fmt::format("contains no {}", format.kind));
-        const std::uint64_t version = hdf5::read_number(open.id(), "format_version");
-        if (version < format.oldest_version || version > format.version)
-            throw InputError(file.string(), 0,
-                             fmt::format("is a {} of format version {}; this program reads versions {} to {}. Make it "
-                                         "anew.",
-                                         format.kind, version, format.oldest_version, format.version));
-        std::vector<Table> tables;
-        for (const std::string& name : hdf5::names_in(open.id()))
-            tables.push_back(read_table(open.id(), name, file.string()));
-        return tables;
-    } catch (const hdf5::Error& error) {
-        throw InputError(file.string(), 0,
-                         fmt::format("is a damaged {}: {}. Make it anew.", format.kind, error.what()));
-    }
+    std::vector<Table> tables;
+    read_sealed_file(file, format, [&](hid_t root, std::uint64_t) {
+        for (const std::string& name : hdf5::names_in(root))
+            tables.push_back(read_table(root, name, file.string()));
+    });
+    return tables;
 }
 
 } // namespace stylobate

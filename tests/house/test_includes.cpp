@@ -46,7 +46,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/estimators/risk", {"ensemble/estimators/fragility", "ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/sensitivity", {"ensemble/estimators/resampling"}},
     {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
-    {"ensemble/estimators/paired", {"ensemble/numerics"}},
+    {"ensemble/estimators/paired", {"ensemble/estimators/surface", "ensemble/numerics"}},
     {"ensemble/estimators/past", {"ensemble/estimators/risk", "ensemble/numerics"}},
     {"ensemble/estimators/search", {}},
 

@@ -248,6 +248,8 @@ protected:
     Ended run(const ProgramRun& program) const { return run_program(program, folder); }
     Ended run(const Words& arguments) const { return run_program({.arguments = arguments}, folder); }
 
+    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
+
     /// What a run prints after the line with its time.
     static std::string without_first_line(const std::string& text)
     {
@@ -408,6 +410,17 @@ inline std::vector<std::string> short_surface(int realizations_per_cell)
             "surface.frequency_hz={from=4.0,to=8.0,count=4}",
             "surface.pga_m_s2={from=4.0,to=25.0,count=4}"};
 }
+
+/// The program run on the small-scale column with other settings.
+class ColumnProgram : public Program {
+protected:
+    static ProgramRun words(const std::vector<std::string>& settings, const std::string& results, const char* threads,
+                            const std::string& simd = "auto")
+    {
+        return {.arguments =
+                    run_words(column_study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};
+    }
+};
 
 /// 2 x 2 cells of 2 realizations on softer joints; some stand and some collapse.
 inline const std::vector<std::string> eight_realizations = {

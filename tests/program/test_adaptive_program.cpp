@@ -15,16 +15,7 @@ const std::vector<std::string> small = short_surface(300);
 
 const std::vector<std::string> adaptive = with(small, {"surface.adaptive={budget=4000,half_width=0.1}"});
 
-class AdaptiveProgram : public Program {
-protected:
-    ProgramRun words(const std::vector<std::string>& settings, const std::string& results, const char* threads,
-                     const std::string& simd = "auto") const
-    {
-        return {.arguments =
-                    run_words(column_study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};
-    }
-    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
-};
+class AdaptiveProgram : public ColumnProgram {};
 
 TEST_F(AdaptiveProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {

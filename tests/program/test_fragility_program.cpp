@@ -29,7 +29,6 @@ protected:
         return {.arguments =
                     run_words(study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};
     }
-    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
 };
 
 TEST_F(FragilityProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)

@@ -119,7 +119,6 @@ protected:
         return run(
             run_words(sensitivity_study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"}));
     }
-    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
 };
 
 TEST_F(Sensitivity, ThreadsInstructionSetsAndInterruptionsChangeNoByte)

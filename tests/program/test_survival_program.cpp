@@ -18,16 +18,7 @@ const std::vector<std::string> survival =
                          "survival.observed={tolerance_m=0.001}", "survival.stands_for_years=100",
                          "survival.hazard={k0_per_year=0.1,k=2,sigma_ln=1}"});
 
-class SurvivalProgram : public Program {
-protected:
-    ProgramRun words(const std::vector<std::string>& settings, const std::string& results, const char* threads,
-                     const std::string& simd = "auto") const
-    {
-        return {.arguments =
-                    run_words(column_study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};
-    }
-    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
-};
+class SurvivalProgram : public ColumnProgram {};
 
 TEST_F(SurvivalProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {

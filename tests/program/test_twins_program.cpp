@@ -16,16 +16,7 @@ constexpr std::uint64_t originals = 16 * realizations;
 const std::vector<std::string> small_twins = short_surface(realizations);
 const std::vector<std::string> twins = with(small_twins, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2"});
 
-class TwinsProgram : public Program {
-protected:
-    ProgramRun words(const std::vector<std::string>& settings, const std::string& results, const char* threads,
-                     const std::string& simd = "auto") const
-    {
-        return {.arguments =
-                    run_words(column_study, settings, {"-o", results, "--threads", threads, "--simd", simd, "--json"})};
-    }
-    std::string bytes(const std::string& name) const { return read_bytes(folder / name); }
-};
+class TwinsProgram : public ColumnProgram {};
 
 TEST_F(TwinsProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {

@@ -1,7 +1,9 @@
 #include "ensemble/estimators/paired/paired_allocation.hpp"
 
+#include "ensemble/estimators/surface/widest_first.hpp"
+
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace stylobate {
 
@@ -35,18 +37,8 @@ const std::vector<std::uint64_t>& PairedAllocation::next(std::span<const PairedC
     for (std::size_t cell = 0; cell < asked_.size(); ++cell)
         if (asked_[cell] < looks_.pairs().back() && !decided(counts[cell]))
             open.emplace_back(interval(counts[cell]).half_width(), cell);
-    std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::uint64_t left = budget_.pairs - std::accumulate(asked_.begin(), asked_.end(), std::uint64_t{0});
-    bool more = false;
-    for (const auto& [width, cell] : open) {
-        const std::uint64_t add = looks_.after(asked_[cell]) - asked_[cell];
-        if (add > left)
-            break;
-        asked_[cell] += add;
-        left -= add;
-        more = true;
-    }
-    rounds_ += more;
+    rounds_ += proceed_widest_first(
+        std::move(open), budget_.pairs, [this](std::uint64_t asked) { return looks_.after(asked); }, asked_);
     return asked_;
 }
 

@@ -1,9 +1,11 @@
 #include "ensemble/estimators/surface/adaptive.hpp"
 
+#include "ensemble/estimators/surface/widest_first.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace stylobate {
 
@@ -48,25 +50,13 @@ const std::vector<std::uint64_t>& AdaptiveAllocation::next(const SurfaceTrials& 
         return asked_;
     }
     const std::vector<CellEstimate> estimates = estimate(data);
-    const auto width = [&](std::size_t cell) {
-        return estimates[cell].interval.upper - estimates[cell].interval.lower;
-    };
-    std::vector<std::size_t> wide;
+    std::vector<std::pair<double, std::size_t>> wide;
     for (std::size_t cell = 0; cell < asked_.size(); ++cell)
-        if (!analyses_.narrow(estimates[cell].interval) && asked_[cell] < analyses_.trials().back())
-            wide.push_back(cell);
-    std::stable_sort(wide.begin(), wide.end(), [&](std::size_t a, std::size_t b) { return width(a) > width(b); });
-    std::uint64_t left = spec_.budget - std::accumulate(asked_.begin(), asked_.end(), std::uint64_t{0});
-    bool more = false;
-    for (const std::size_t cell : wide) {
-        const std::uint64_t add = analyses_.after(asked_[cell]) - asked_[cell];
-        if (add > left)
-            break;
-        asked_[cell] += add;
-        left -= add;
-        more = true;
-    }
-    rounds_ += more;
+        if (const auto& interval = estimates[cell].interval;
+            !analyses_.narrow(interval) && asked_[cell] < analyses_.trials().back())
+            wide.emplace_back(interval.upper - interval.lower, cell);
+    rounds_ += proceed_widest_first(
+        std::move(wide), spec_.budget, [this](std::uint64_t asked) { return analyses_.after(asked); }, asked_);
     return asked_;
 }
 

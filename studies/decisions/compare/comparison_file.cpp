@@ -10,7 +10,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr TableFormat format{"stylobate-comparison", "comparison", 1, 1};
+constexpr SealedFormat format{"stylobate-comparison", "comparison", 1, 1, "compare again"};
 constexpr char variant_table[] = "variant_"; ///< and its number
 
 Table general_table(const Comparison& c)
