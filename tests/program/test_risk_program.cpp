@@ -154,7 +154,7 @@ TEST_F(RiskProgram, Refusals)
 {
     const std::string law = "k0=1e-3,k=3,measure=pgv";
     expect_refused(Words{"risk", "f.h5", "--hazard", "k0=1e-3,k=3,measure=pga_g"},
-                   {"the hazard is of pga_m_s2, the fragility of pgv_m_s"});
+                   {"the hazard is of pga_m_s2, the study of pgv_m_s"});
     expect_refused(Words{"risk", "f.h5", "--hazard", "nothing.csv"}, {"nothing.csv"});
     expect_refused(Words{"risk", "f.h5", "--hazard", law, "--state", "colapse"},
                    {"--state colapse", "Did you mean collapse"});
@@ -167,6 +167,17 @@ TEST_F(RiskProgram, Refusals)
     expect_refused(Words{"risk", "f.h5", "--hazard", law, "--sequences", "10", "--threshold", "0.001"},
                    {"--threshold 0.001: a history of 100 years would have"});
     expect_refused(Words{"risk", risk_study, "--hazard", law}, {"is a study file"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", law, "--sequences", "10", "--threshold", "inf"},
+                   {"--threshold inf: is not above 0 and finite", "pgv_m_s"});
+    // a hazard that is of far stronger earthquakes than the study: the hazard's range is the fault
+    write_bytes(folder / "far.csv", "pgv_m_s,annual_frequency\n20,1e-5\n30,1e-6\n");
+    expect_refused(Words{"risk", "f.h5", "--hazard", "far.csv", "--state", "collapse"},
+                   {"intensities outside of the hazard's points", "Give the hazard over a wider range"});
+    for (const char* option : {"--threshold", "--pause", "--seed"}) // of histories that are not asked for
+        expect_refused(Words{"risk", "f.h5", "--hazard", law, option, "3"}, {option, "--sequences"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", "far.csv", "-o", "far.csv", "--force"},
+                   {"-o far.csv: is the input file"});
+    EXPECT_EQ(read_bytes(folder / "far.csv").substr(0, 7), "pgv_m_s");
     ASSERT_EQ(risk({"--hazard", law}).status, 0);
     expect_refused(Words{"risk", "f.h5", "--hazard", law}, {"f_risk.h5", "--force"});
 }
