@@ -160,6 +160,21 @@ TEST(HazardQuantile, FractilesOfALognormalHazardGiveItsOtherQuantiles)
                 << z;
 }
 
+/// Fractiles that part towards strong shaking: continued far enough, the upper one would rise.
+TEST(HazardQuantile, WhatWouldRiseStaysLevel)
+{
+    HazardModel hazard;
+    hazard.intensity = {1, 2, 4};
+    hazard.frequency = {1e-2, 5e-3, 2e-3};
+    hazard.fractiles = {{0.16, {9e-3, 1e-3, 1e-4}}, {0.84, {1.1e-2, 9e-3, 8e-3}}};
+    const HazardCurve high = quantile_curve(hazard, 0.999);
+    const double first = high.frequency(0);
+    EXPECT_GT(first, 1.1e-2);
+    for (const double im : {1.5, 2.0, 3.0, 4.0})
+        EXPECT_NEAR(high.frequency(std::log(im)), first, 1e-9 * first);
+    EXPECT_LT(high.frequency(std::log(8.0)), high.frequency(std::log(4.0)));
+}
+
 TEST(RiskNumber, CombinedIsTheRootOfTheSumOfSquares)
 {
     const RiskNumber both =

@@ -222,6 +222,22 @@ TEST(Survival, OfAColonnadeTheMirrorImageHasTheOtherColumnsState)
     }
 }
 
+/// Densities over the logarithm of the PGA.
+TEST(Survival, PriorsAreDensitiesOverTheLogarithm)
+{
+    const auto ratio = [](const std::string& prior, const std::string& hazard) {
+        const PriorDensity density = prior_density(*made_study("prior = \"" + prior + "\"\n" + hazard).survival);
+        return density(4) / density(2);
+    };
+    EXPECT_EQ(ratio("log_uniform", ""), 1);
+    EXPECT_EQ(ratio("uniform", ""), 2);
+    EXPECT_NEAR(ratio("hazard", "hazard = { k0_per_year = 0.1, k = 2.5, sigma_ln = 1 }"), std::pow(2, -2.5), 1e-12);
+    // points: k is 1 up to 3 m/s2 and 3 beyond
+    EXPECT_NEAR(ratio("hazard", "hazard = { intensity_m_s2 = [1.5, 3, 6], rate_per_year = [0.1, 0.05, 0.00625], "
+                                "sigma_ln = 1 }"),
+                3 * 0.05 * std::pow(4.0 / 3, -3) / (0.1 * 1.5 / 2), 1e-12);
+}
+
 TEST(Survival, WhereNothingWasMeasuredAllThatStandAgree)
 {
     const Study study = made_study("");
