@@ -67,6 +67,22 @@ TEST(FrequencyEstimate, LognormalIsCornellsClosedFormOfTheFittedCurve)
     }
 }
 
+/// A best estimate that is the mean of the hazard lies above the median, and the interval does not move with it.
+TEST(FrequencyEstimate, TheIntervalIsAroundTheMedianOfTheHazard)
+{
+    const FragilityData data = data_of({});
+    const HazardModel median = power_law(1e-3, 2.5, 0.4);
+    HazardModel mean = median;
+    for (double& f : mean.frequency)
+        f *= 1.3;
+    const RiskNumber a = lognormal_frequency(data, median).frequency, b = lognormal_frequency(data, mean).frequency;
+    EXPECT_NEAR(b.value / a.value, 1.3, 1e-12);
+    EXPECT_NEAR(b.total.lower / a.total.lower, 1, 1e-9);
+    EXPECT_NEAR(b.total.upper / a.total.upper, 1, 1e-9);
+    EXPECT_NEAR(b.hazard.upper / a.hazard.upper, 1, 1e-9);
+    EXPECT_NEAR(b.fragility_part, a.fragility_part, 1e-9);
+}
+
 TEST(FrequencyEstimate, SharesAreTheSumOverTheStripesAndNearTheCurve)
 {
     FragilityTruth truth;

@@ -189,6 +189,18 @@ TEST(RiskNumber, CombinedIsTheRootOfTheSumOfSquares)
     EXPECT_EQ(none.total.lower, 0);
     EXPECT_NEAR(none.total.upper, 6e-5, 1e-18);
 
+    // a mean hazard, above the median of its fractiles: the interval is around the median
+    const HazardSpread mean{0.3, 0.8, 1.6};
+    const double middle = 0.8e-3;
+    const RiskNumber above = combined(1e-3, {1e-3 / std::exp(0.3), 1e-3 * std::exp(0.4)}, mean);
+    EXPECT_NEAR(above.total.lower, middle * std::exp(-std::hypot(0.3, std::log(0.8 / 0.3))), 1e-15);
+    EXPECT_NEAR(above.total.upper, middle * std::exp(std::hypot(0.4, std::log(2.0))), 1e-15);
+    // without a lower limit of the fragility the part is that of the upper half
+    const RiskNumber open = combined(1e-3, {0, 1e-3 * std::exp(0.4)}, mean);
+    EXPECT_EQ(open.total.lower, 0);
+    EXPECT_NEAR(open.fragility_part, 0.16 / (0.16 + std::log(2.0) * std::log(2.0)), 1e-12);
+    EXPECT_TRUE(std::isnan(combined(1e-3, {0, infinity}, mean).fragility_part));
+
     const RiskNumber certain = combined(1e-3, {5e-4, 2e-3}, std::nullopt);
     EXPECT_EQ(certain.total.upper, 2e-3);
     EXPECT_EQ(certain.fragility_part, 1);
