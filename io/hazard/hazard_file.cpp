@@ -23,7 +23,7 @@ RawHazard read_one(const std::string& given, const std::string& site)
     std::error_code ignored;
     if (given.find('=') != std::string::npos && !std::filesystem::exists(given, ignored)) {
         if (!site.empty())
-            throw InputError(fmt::format("--site {}: a power law is of one site; omit --site.", site));
+            throw InputError(fmt::format("--site {}: a power law is of one site; omit it.", site));
         return power_law_hazard(given);
     }
     const std::string text = csv_content(given, most_bytes);
@@ -33,7 +33,7 @@ RawHazard read_one(const std::string& given, const std::string& site)
     if (is_openquake_hazard(text))
         return openquake_hazard(given, text, site);
     if (!site.empty())
-        throw InputError(fmt::format("--site {}: {} is a table of one site; omit --site.", site, given));
+        throw InputError(fmt::format("--site {}: {} is a table of one site; omit it.", site, given));
     return csv_hazard(given, text);
 }
 
@@ -73,13 +73,20 @@ HazardModel read_hazard(const std::vector<std::string>& given, const std::string
     if (given.empty())
         throw InputError("--hazard is missing.\n  Give a file with a hazard curve, or k0=1e-4,k=2.5,measure=pga_g.");
     RawHazard raw = read_one(given.front(), site);
-    for (std::size_t i = 1; i < given.size(); ++i)
-        join(raw, read_one(given[i], site));
+    if (given.size() > 1)
+        check_decrease(raw);
+    for (std::size_t i = 1; i < given.size(); ++i) {
+        RawHazard more = read_one(given[i], site);
+        check_decrease(more);
+        join(raw, std::move(more));
+    }
     if (raw.hazard.measure != measure)
-        throw InputError(fmt::format("{}: the hazard is of {}, the fragility of {}.\n  Give a hazard of that measure, "
-                                     "or run the fragility study by the hazard's (fragility.intensity.measure).",
+        throw InputError(fmt::format("{}: the hazard is of {}, the study of {}.\n  Give a hazard of that measure; a "
+                                     "fragility study can be run by another one too (fragility.intensity.measure).",
                                      raw.hazard.source, raw.hazard.measure, measure));
-    return checked_hazard(std::move(raw));
+    HazardModel hazard = checked_hazard(std::move(raw));
+    hazard.source = fmt::format("{}", fmt::join(given, ", "));
+    return hazard;
 }
 
 } // namespace stylobate

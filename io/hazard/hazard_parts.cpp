@@ -23,6 +23,11 @@ std::string point_name(const RawHazard& raw, std::size_t point)
     throw InputError(raw.hazard.source, point < raw.lines.size() ? raw.lines[point] : 0, text);
 }
 
+std::string intensities(std::size_t count)
+{
+    return count == 1 ? "1 intensity" : fmt::format("{} intensities", count);
+}
+
 /// Points at the ends where a curve is 0 or infinite tell nothing that a frequency could be computed from.
 void drop_ends(RawHazard& raw)
 {
@@ -36,7 +41,7 @@ void drop_ends(RawHazard& raw)
     std::size_t begin = 0, end = hazard.intensity.size();
     while (begin < end && !all(begin, [](double f) { return std::isfinite(f); }))
         ++begin;
-    while (end > begin && !all(end - 1, [](double f) { return f > 0; }))
+    while (end > begin && !all(end - 1, [](double f) { return f != 0; }))
         --end;
     const auto cut = [&](auto& values) {
         if (values.empty())
@@ -45,17 +50,26 @@ void drop_ends(RawHazard& raw)
         values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(begin));
     };
     if (begin > 0)
-        hazard.says.push_back(fmt::format("{} intensities at the lower end are left out: their probability of "
-                                          "exceedance is 1, which has no finite frequency.",
-                                          begin));
+        hazard.says.push_back(fmt::format("Left out at the lower end of the hazard: {} with a probability of "
+                                          "exceedance of 1, which has no finite frequency.",
+                                          intensities(begin)));
     if (end < hazard.intensity.size())
-        hazard.says.push_back(fmt::format("{} intensities at the upper end are left out: their frequency is 0.",
-                                          hazard.intensity.size() - end));
+        hazard.says.push_back(fmt::format("Left out at the upper end of the hazard: {} with a frequency of 0{}.",
+                                          intensities(hazard.intensity.size() - end),
+                                          curves.size() > 1 ? ", of the best estimate or of a fractile" : ""));
     for (auto* curve : curves)
         cut(*curve);
     cut(hazard.intensity);
     cut(raw.lines);
     cut(raw.names);
+}
+
+std::string increase_text(const std::string& name, const RawHazard& raw, const std::vector<double>& curve,
+                          std::size_t point)
+{
+    return fmt::format("{} = {:.6g} at {} is above {:.6g} at the weaker one before it: a hazard curve decreases.\n  "
+                       "Give frequencies of exceedance, in the order of the intensities.",
+                       name, curve[point], point_name(raw, point), curve[point - 1]);
 }
 
 void check_curve(const RawHazard& raw, const std::vector<double>& curve, const std::string& name)
@@ -66,11 +80,7 @@ void check_curve(const RawHazard& raw, const std::vector<double>& curve, const s
                    fmt::format("{} = {} at {} is not above 0 and finite.\n  Give the annual frequency of exceedance.",
                                name, curve[i], point_name(raw, i)));
         if (i > 0 && curve[i] > curve[i - 1])
-            refuse(
-                raw, i,
-                fmt::format("{} = {:.6g} at {} is above {:.6g} at the weaker one before it: a hazard curve decreases."
-                            "\n  Give frequencies of exceedance, in the order of the intensities.",
-                            name, curve[i], point_name(raw, i), curve[i - 1]));
+            refuse(raw, i, increase_text(name, raw, curve, i));
     }
     const std::size_t n = curve.size();
     if (!(curve[n - 1] < curve[n - 2]))
@@ -128,6 +138,18 @@ std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& 
     return static_cast<std::size_t>(nearest - sites.begin());
 }
 
+void check_decrease(const RawHazard& raw)
+{
+    const auto check = [&](const std::vector<double>& curve) {
+        for (std::size_t i = 1; i < curve.size(); ++i)
+            if (curve[i] > curve[i - 1])
+                refuse(raw, i, increase_text("annual frequency", raw, curve, i));
+    };
+    check(raw.hazard.frequency);
+    for (const HazardFractile& f : raw.hazard.fractiles)
+        check(f.frequency);
+}
+
 double annual_frequency(const std::string& file, long line, const std::string& what, double poe, double years)
 {
     if (!(poe >= 0 && poe <= 1))
@@ -180,14 +202,13 @@ HazardModel checked_hazard(RawHazard raw)
             refuse(raw, i,
                    fmt::format("{} is not above {}: intensities ascend from above 0.\n  Sort the lines by their "
                                "intensity, each once.",
-                               point_name(raw, i),
-                               i == 0 ? "0" : fmt::format("{:.6g} before it", hazard.intensity[i - 1])));
+                               point_name(raw, i), i == 0 ? "0" : point_name(raw, i - 1) + " before it"));
     drop_ends(raw);
     if (hazard.intensity.size() < 2)
         throw InputError(hazard.source, 0,
-                         fmt::format("has {} intensities with a frequency above 0; a hazard curve needs two.\n  Give "
-                                     "more of them.",
-                                     hazard.intensity.size()));
+                         fmt::format("has {} with a finite frequency above 0; a hazard curve needs two.\n  Give more "
+                                     "of them.",
+                                     intensities(hazard.intensity.size())));
     check_curve(raw, hazard.frequency, "annual frequency");
     for (std::size_t f = 0; f < fractiles.size(); ++f) {
         check_curve(raw, fractiles[f].frequency, fmt::format("fractile {:g}", fractiles[f].probability));

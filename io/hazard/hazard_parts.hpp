@@ -43,6 +43,10 @@ RawHazard nrml_hazard(const std::string& file, const std::string& text, const st
 bool is_openquake_hazard(std::string_view text);
 /// @}
 
+/// Where a curve increases, with the line of its own file: of several files only the first one's lines are kept.
+/// @throws InputError
+void check_decrease(const RawHazard& raw);
+
 /// Without points that have no frequency above 0 that is finite, at the ends.
 /// @throws InputError for whatever is wrong with its numbers
 HazardModel checked_hazard(RawHazard raw);

@@ -13,7 +13,7 @@ namespace stylobate {
 namespace {
 
 constexpr double width = 900;
-constexpr double left = 74;
+constexpr double left = 86; ///< room for six digits and the label of the axis
 constexpr double right = 884;
 constexpr double letter = 7.1;             ///< a letter's mean width at the font's size [px]
 constexpr std::size_t most_samples = 1600; ///< of a line
@@ -97,6 +97,23 @@ struct Axis {
         return tics;
     }
 };
+
+/// "0.25", "2.5e-4": of more than six letters the shorter one, as they would reach the label of the axis.
+std::string tick_text(double value)
+{
+    constexpr std::size_t room = 6;
+    std::string text = fmt::format("{:.6g}", value), power = fmt::format("{:.5e}", value);
+    if (text.size() <= room)
+        return text;
+    const std::size_t e = power.find('e');
+    const int exponent = std::stoi(power.substr(e + 1));
+    power.resize(e);
+    power.erase(power.find_last_not_of('0') + 1);
+    if (power.ends_with('.'))
+        power.pop_back();
+    power += fmt::format("e{}", exponent);
+    return power.size() < text.size() ? power : text;
+}
 
 bool has_ends(const FigureSeries& s)
 {
@@ -354,7 +371,7 @@ private:
         std::string out;
         for (const double tic : y_.tics()) {
             out += svg_rule(left, y_.px(tic), right, y_.px(tic), "grid");
-            out += svg_text(left - 8, y_.px(tic) + 4.5, "end", fmt::format("{:.6g}", tic));
+            out += svg_text(left - 8, y_.px(tic) + 4.5, "end", tick_text(tic));
         }
         below_ = 30;
         if (figure_.x_ticks.empty()) {

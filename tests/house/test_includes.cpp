@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/estimators/sensitivity", {"ensemble/estimators/resampling"}},
     {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/paired", {"ensemble/estimators/surface", "ensemble/numerics"}},
-    {"ensemble/estimators/past", {"ensemble/estimators/risk", "ensemble/numerics"}},
+    {"ensemble/estimators/past", {"ensemble/estimators/risk", "ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/search", {}},
 
     {"io/files", {}},
@@ -148,7 +148,8 @@ const std::regex public_include(R"re([a-z_]+|stylobate/[a-z_]+\.hpp)re");
 
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
-const std::set<std::string> headers_for_io = {"ensemble/estimators/risk/hazard.hpp", "ensemble/sampling/plausible.hpp"};
+const std::set<std::string> headers_for_io = {"ensemble/estimators/past/mirror_image.hpp",
+                                              "ensemble/estimators/risk/hazard.hpp", "ensemble/sampling/plausible.hpp"};
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
 const std::map<std::string, std::set<std::string>> library_folders = {

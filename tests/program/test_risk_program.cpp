@@ -3,7 +3,10 @@
 
 #include "tests/program/program.hpp"
 
+#include "io/store/result_store.hpp"
+
 #include <cmath>
+#include <sstream>
 
 namespace stylobate {
 namespace {
@@ -72,6 +75,15 @@ TEST_F(RiskProgram, LognormalIsTheClosedFormAndTheFileIsRead)
     EXPECT_EQ(info.status, 0) << info.err;
     EXPECT_NE(info.out.find("a risk estimate"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("stylobate export f_risk.h5 --to png"), std::string::npos) << info.out;
+    // all numbers are those of the file
+    std::istringstream lines(
+        risk({"--hazard", "k0=1e-3,k=3,measure=pgv,sigma_ln=0.4", "-o", "f_risk.h5", "--force"}).out);
+    int shown = 0;
+    for (std::string line; std::getline(lines, line); ++shown)
+        if (line != "f_risk.h5") {
+            EXPECT_NE(info.out.find(line), std::string::npos) << line << "\nis not in\n" << info.out;
+        }
+    EXPECT_GT(shown, 15);
     const Ended page = run(Words{"report", "f_risk.h5"});
     EXPECT_EQ(page.status, 0) << page.err;
     EXPECT_NE(read_bytes(folder / "f_risk.html").find("Contributing intensities"), std::string::npos);
@@ -150,11 +162,65 @@ TEST_F(RiskProgram, HistoriesWhereNothingMoves)
     EXPECT_GT(s["difference"]["upper"].number, 0);
 }
 
+/// Histories of seven earthquakes, of which any can topple the column: those that are new in each agree with the
+/// fragility, and no earthquake of those that are carried along is lost.
+TEST_F(RiskProgram, HistoriesOfSeveralEarthquakesAgreeWithTheFragility)
+{
+    const Ended ended = risk({"--hazard", "k0=0.03,k=3,measure=pgv", "--sequences", "60", "--threshold", "0.5",
+                              "--years", "30", "--pause", "5", "--state", "collapse", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    const JsonValue& s = json["sequences"];
+    EXPECT_NEAR(s["events"].number, 60 * 7.2, 4 * std::sqrt(60 * 7.2)); // 1 in 16,000 by chance
+    const double expected = s["closed_form"]["value"].number, fresh = s["fresh"]["value"].number;
+    EXPECT_GT(expected, 0.4);
+    EXPECT_LT(expected, 0.8);
+    // the curve is fitted to 20 motions: its limits, and four standard errors of the histories
+    EXPECT_GT(fresh, s["closed_form"]["lower"].number - 4 * 0.064);
+    EXPECT_LT(fresh, s["closed_form"]["upper"].number + 4 * 0.064);
+    EXPECT_GT(fresh, 0.35);
+    // after so short a pause the next one finds the column still rocking
+    EXPECT_GT(s["carried"]["value"].number, fresh - 0.1);
+    EXPECT_GT(s["histories_with_two_events"].number, 54);
+}
+
+TEST_F(RiskProgram, TheThresholdIsTheStrongestHarmlessStripe)
+{
+    const std::uint64_t stripes = 6;
+    std::vector<int> trials(stripes), moved(stripes), fallen(stripes);
+    for (const ResultRow& row : ResultReader(folder / "f.h5").rows()) {
+        const std::size_t j = row.cell % stripes;
+        ++trials[j];
+        moved[j] += row.outcome.residual_dislocation > 0.001;
+        fallen[j] += row.outcome.state == State::collapsed;
+    }
+    std::size_t harmless = 0;
+    while (harmless < stripes && fallen[harmless] == 0 && 100 * moved[harmless] <= trials[harmless])
+        ++harmless;
+    const double want = 0.3 * std::pow(2.5 / 0.3, harmless > 0 ? static_cast<double>(harmless - 1) / 5 : 0);
+    const Ended ended = risk(
+        {"--hazard", "k0=1e-3,k=3,measure=pgv", "--sequences", "5", "--pause", "5", "--state", "collapse", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    EXPECT_NEAR(json_of(ended)["sequences"]["threshold"].number, want, 1e-9);
+}
+
+/// Where the frequency of the collapse is not determined, the histories have nothing to be compared with.
+TEST_F(RiskProgram, NothingIsComparedWithWhatIsNotDetermined)
+{
+    const Ended ended = risk({"--hazard", "k0=1e-3,k=1.5,measure=pgv", "--sequences", "5", "--pause", "5", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    ASSERT_FALSE(state_of(json, "collapse", "lognormal")["determined"].boolean);
+    EXPECT_NE(ended.out.find("\"closed_form\": {\"value\": null"), std::string::npos) << ended.out;
+    EXPECT_NE(run(Words{"info", "f_risk.h5"}).out.find("by the fragility, new in each:     not determined"),
+              std::string::npos);
+}
+
 TEST_F(RiskProgram, Refusals)
 {
     const std::string law = "k0=1e-3,k=3,measure=pgv";
     expect_refused(Words{"risk", "f.h5", "--hazard", "k0=1e-3,k=3,measure=pga_g"},
-                   {"the hazard is of pga_m_s2, the fragility of pgv_m_s"});
+                   {"the hazard is of pga_m_s2, the study of pgv_m_s"});
     expect_refused(Words{"risk", "f.h5", "--hazard", "nothing.csv"}, {"nothing.csv"});
     expect_refused(Words{"risk", "f.h5", "--hazard", law, "--state", "colapse"},
                    {"--state colapse", "Did you mean collapse"});
@@ -167,6 +233,17 @@ TEST_F(RiskProgram, Refusals)
     expect_refused(Words{"risk", "f.h5", "--hazard", law, "--sequences", "10", "--threshold", "0.001"},
                    {"--threshold 0.001: a history of 100 years would have"});
     expect_refused(Words{"risk", risk_study, "--hazard", law}, {"is a study file"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", law, "--sequences", "10", "--threshold", "inf"},
+                   {"--threshold inf: is not above 0 and finite", "pgv_m_s"});
+    // a hazard that is of far stronger earthquakes than the study: the hazard's range is the fault
+    write_bytes(folder / "far.csv", "pgv_m_s,annual_frequency\n20,1e-5\n30,1e-6\n");
+    expect_refused(Words{"risk", "f.h5", "--hazard", "far.csv", "--state", "collapse"},
+                   {"intensities outside of the hazard's points", "Give the hazard over a wider range"});
+    for (const char* option : {"--threshold", "--pause", "--seed"}) // of histories that are not asked for
+        expect_refused(Words{"risk", "f.h5", "--hazard", law, option, "3"}, {option, "--sequences"});
+    expect_refused(Words{"risk", "f.h5", "--hazard", "far.csv", "-o", "far.csv", "--force"},
+                   {"-o far.csv: is the input file"});
+    EXPECT_EQ(read_bytes(folder / "far.csv").substr(0, 7), "pgv_m_s");
     ASSERT_EQ(risk({"--hazard", law}).status, 0);
     expect_refused(Words{"risk", "f.h5", "--hazard", law}, {"f_risk.h5", "--force"});
 }

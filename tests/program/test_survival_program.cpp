@@ -120,6 +120,7 @@ TEST_F(SurvivalProgram, StructuresOfOneSiteAreCombined)
     EXPECT_EQ(json_of(ended)["together_by_events"].items.size(), 2U);
 
     expect_refused(Words{"past", "a.h5"}, {"two structures"});
+    expect_refused(Words{"past", "a.h5", "b.h5", "./a.h5"}, {"a.h5 is given twice"});
     ASSERT_EQ(run(words(with(survival, {"survival.prior=uniform"}), "c.h5", "2")).status, 0);
     expect_refused(Words{"past", "a.h5", "c.h5"}, {"c.h5", "another prior", "a.h5"});
     ASSERT_EQ(run(words(with(survival, {"surface.pga_m_s2.to=11"}), "d.h5", "2")).status, 0);
@@ -195,6 +196,18 @@ TEST_F(SurvivalProgram, AHazardCurveInAFileIsItsPoints)
                   .status,
               0);
     EXPECT_EQ(bytes("a.h5"), bytes("b.h5")) << "the results do not need the file";
+    // the weakest intensities of a curve may be exceeded equally often, as `risk` takes them
+    std::ofstream(folder / "level.csv") << "pga_m_s2,annual_frequency\n0.5,0.1\n1,0.1\n1.2,0.0125\n";
+    const Ended level = run(words(with(base, {"survival.hazard={file=\"level.csv\",sigma_ln=1}"}), "level.h5", "2"));
+    ASSERT_EQ(level.status, 0) << testing::PrintToString(level);
+    ASSERT_EQ(run({"report", "level.h5"}).status, 0);
+    EXPECT_NE(bytes("level.html").find("outside of the points of the hazard curve, 0.5 to 1.2 m/s2"),
+              std::string::npos);
+    std::ofstream(folder / "pgv.csv") << "pgv_m_s,annual_frequency\n1,0.1\n2,0.0125\n";
+    expect_refused(words(with(base, {"survival.hazard={file=\"pgv.csv\",sigma_ln=1}"}), "none.h5", "1"),
+                   {"pgv.csv", "the hazard is of pgv_m_s, the study of pga_m_s2"});
+    expect_refused(words(with(base, {"survival.hazard={file=\"curve.csv\",site=\"2\",sigma_ln=1}"}), "none.h5", "1"),
+                   {"survival.hazard.site = 2", "is a table of one site"});
     fs::remove(folder / "curve.csv");
     EXPECT_EQ(run({"report", "a.h5"}).status, 0);
 }

@@ -7,13 +7,15 @@ namespace stylobate {
 
 namespace {
 
-StateDistance one_sided(const MeasuredState& measured, std::span<const double> state, double sign)
+/// @param value of a number, as it is seen
+template <class Value>
+StateDistance one_sided(const MeasuredState& measured, Value&& value)
 {
     StateDistance most;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        const double d = std::fabs(sign * state[i] - measured.value[i]) / measured.tolerance[i];
-        if (d > most.value)
-            most = {d, i};
+    for (std::size_t i = 0; i < measured.value.size(); ++i) {
+        const double d = std::fabs(value(i) - measured.value[i]) / measured.tolerance[i];
+        if (d > most.value || i == 0)
+            most = {d, i, value(i)};
     }
     return most;
 }
@@ -22,11 +24,12 @@ StateDistance one_sided(const MeasuredState& measured, std::span<const double> s
 
 StateDistance distance(const MeasuredState& measured, std::span<const double> state)
 {
-    assert(state.size() == measured.value.size() && "a value for each that was measured");
-    const StateDistance as_is = one_sided(measured, state, 1);
+    assert(state.size() >= measured.value.size() && "a value for each that was measured");
+    const StateDistance as_is = one_sided(measured, [&](std::size_t i) { return state[i]; });
     if (!measured.mirrored)
         return as_is;
-    const StateDistance mirrored = one_sided(measured, state, -1);
+    const StateDistance mirrored = one_sided(
+        measured, [&](std::size_t i) { return -state[measured.counterpart.empty() ? i : measured.counterpart[i]]; });
     return mirrored.value < as_is.value ? mirrored : as_is;
 }
 

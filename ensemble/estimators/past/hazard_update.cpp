@@ -2,6 +2,7 @@
 
 #include "ensemble/numerics/quantiles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -31,7 +32,7 @@ double factor_quantile(double exposure, double sigma_ln, double p)
 }
 
 HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& rates, double years, double sigma_ln,
-                           double level)
+                           double level, const std::optional<IntensityRange>& points)
 {
     const PastAxes& axes = collapse.axes;
     const std::vector<double> weights = frequency_weights(axes.frequency_hz);
@@ -51,6 +52,19 @@ HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& ra
         const double all = rate(cells);
         return all > 0 ? fragility(cells).back() * above / all : 0.0;
     });
+    if (points) {
+        const double end = axes.intensity.back();
+        const IntensityIntegral known(axes.intensity, [&](double a) {
+            return a >= points->from && a <= points->to ? rates.density(std::log(a)) : 0.0;
+        });
+        const double known_above = std::max(
+            rates.frequency(std::log(std::max(end, points->from))) - rates.frequency(std::log(points->to)), 0.0);
+        update.beyond_hazard = past_estimate(collapse, [&](auto cells) {
+            const std::vector<double> p = fragility(cells);
+            const double all = rate(cells);
+            return all > 0 ? std::clamp(1 - (known.total(p) + p.back() * known_above) / all, 0.0, 1.0) : 0.0;
+        });
+    }
     update.at_begin = past_estimate(collapse, [&](auto cells) { return fragility(cells).front(); });
     const auto quantile = [&](double p) {
         return past_estimate(collapse, [&](auto cells) { return factor_quantile(rate(cells) * years, sigma_ln, p); });

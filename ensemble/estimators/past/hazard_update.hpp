@@ -20,12 +20,20 @@
 #include "ensemble/estimators/past/intensity_integral.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
 
+#include <optional>
+
 namespace stylobate {
+
+/// Of the points of a hazard curve.
+struct IntensityRange {
+    double from = 0, to = 0;
+};
 
 struct HazardUpdate {
     PastEstimate collapse_rate;              ///< L, per year: of factor 1
     PastEstimate stands;                     ///< exp(-L T)
     PastEstimate beyond;                     ///< part of L that comes from beyond the end of the axis
+    PastEstimate beyond_hazard;              ///< part of L from outside of the hazard's points; 0: it has no range
     PastEstimate at_begin;                   ///< P at the begin of the axis
     PastEstimate factor_median;              ///< posterior of c
     PastEstimate factor_lower, factor_upper; ///< ends of its credible interval, equal tails
@@ -36,7 +44,8 @@ struct HazardUpdate {
 double factor_quantile(double exposure, double sigma_ln, double p);
 
 /// @param collapse probability of collapse in the cells of one event, the others are not used
+/// @param points outside of which the curve is continued; none: a power law at all intensities
 HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& rates, double years, double sigma_ln,
-                           double level);
+                           double level, const std::optional<IntensityRange>& points = {});
 
 } // namespace stylobate

@@ -42,9 +42,10 @@ MonumentTest test_monuments(const PastAxes& axes, const std::vector<std::uint64_
                             std::span<const double> prior, std::size_t monuments, std::uint64_t seed)
 {
     MonumentTest test;
-    const std::size_t width = measured.value.size(), ni = axes.intensity.size(), of_one = axes.cells_of_one();
+    const std::size_t ni = axes.intensity.size(), of_one = axes.cells_of_one();
     if (standing.cell.empty())
         return test;
+    const std::size_t width = standing.value.size() / standing.cell.size();
     const double count = prior_count(axes, PastUse::means);
     // a realization that stands has the prior of its cell over the trials of its cell
     std::vector<double> sums;
@@ -55,7 +56,7 @@ MonumentTest test_monuments(const PastAxes& axes, const std::vector<std::uint64_
         const std::size_t itself = chosen(sums, draw(0));
         const std::size_t truth = standing.cell[itself];
         MeasuredState seen = measured;
-        for (std::size_t k = 0; k < width; ++k)
+        for (std::size_t k = 0; k < seen.value.size(); ++k)
             seen.value[k] = standing.value[itself * width + k] + measured.tolerance[k] * (2 * draw(4 + k) - 1);
         std::vector<double> posterior(axes.cells(), 0);
         bool judged = false;

@@ -21,7 +21,7 @@ namespace stylobate {
 /// The realizations that stand.
 struct StandingStates {
     std::vector<std::size_t> cell; ///< of each
-    std::vector<double> value;     ///< (realizations x measured values)
+    std::vector<double> value;     ///< (realizations x values) of the states
 };
 
 struct MonumentTest {

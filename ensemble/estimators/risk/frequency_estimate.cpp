@@ -278,9 +278,9 @@ private:
             found.upper += monotone_[j + 1] * (events[j] - events[j + 1]);
         }
         if (monotone_[0] > 0) {
-            const double least =
-                hazard_.unbounded ? no_end : curves_.best.frequency(std::log(hazard_.intensity.front()));
-            found.upper += monotone_[0] * std::max(least - events[0], 0.0);
+            // at least from where the line of the estimate reaches 0
+            const double from = std::min(std::log(hazard_.intensity.front()), 2 * nodes_[0] - nodes_[1]);
+            found.upper += hazard_.unbounded ? no_end : monotone_[0] * (curves_.best.frequency(from) - events[0]);
         }
         return found;
     }

@@ -44,7 +44,8 @@ struct FrequencyEstimate {
     /// What any non-decreasing curve would give: lognormal, that agrees with the fitted one within the range of the
     /// runs (0 or the fitted curve below it, the last value or 1 above it); shares, that passes through those of the
     /// stripes (their monotone ones): steps, and 1 above the last one. Of the best estimate of the hazard. The upper
-    /// one is infinite where a share at the first stripe is not 0 and the hazard has no least intensity.
+    /// one is infinite where a share at the first stripe is not 0 and the hazard has no least intensity; else weaker
+    /// events count from the hazard's first point on, or from where the estimate's line reaches 0.
     Limits bounds;
     /// Of shares: the upper limit (of a central interval) of what comes from intensities up to the last stripe of those
     /// at the lower end at which no run reached the state, by the bounded mean [1/year]. It is not part of the interval

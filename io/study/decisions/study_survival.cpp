@@ -1,5 +1,7 @@
 #include "io/study/decisions/study_survival.hpp"
 
+#include "ensemble/estimators/past/mirror_image.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "io/hazard/hazard_file.hpp"
 #include "io/keys/survival_keys.hpp"
 #include "io/keys/words.hpp"
@@ -77,6 +79,9 @@ ObservedState read_observed(const KeyReader& keys, const StructureSpec& structur
             "Give the tolerance of the measured displacements; without joint_offset_m the structure is as new. "
             "Where only its standing is known, omit `observed`.");
     observed.mirrored = keys.read(keys_of::mirrored);
+    if (observed.mirrored && !mirror_image(layout))
+        keys.refuse(keys_of::mirrored.name, "needs a structure that is its own mirror image",
+                    "Remove it: what shaking of the other sense leaves of it is no mirror image.");
     return observed;
 }
 
@@ -87,11 +92,11 @@ void check_curve(const KeyReader& keys, const HazardSpec& hazard, const char* ke
         keys.refuse(key, fmt::format("gives {} intensities and {} rates", a.size(), h.size()),
                     "A hazard curve has as many of both, two at least.");
     for (std::size_t i = 1; i < a.size(); ++i)
-        if (!(a[i] > a[i - 1]) || !(h[i] < h[i - 1]))
+        if (!(a[i] > a[i - 1]) || h[i] > h[i - 1] || (i + 1 == a.size() && h[i] == h[i - 1]))
             keys.refuse(key,
                         fmt::format("is no hazard curve: point {} has {:g} m/s2 at {:g} per year after {:g} at {:g}",
                                     i + 1, a[i], h[i], a[i - 1], h[i - 1]),
-                        "Intensities ascend, and the rates at which they are exceeded descend.");
+                        "Intensities ascend, and the rates at which they are exceeded descend; the last two differ.");
 }
 
 HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside)
@@ -123,10 +128,14 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
         std::error_code error;
         if (path.is_relative() && std::filesystem::exists(beside / path, error))
             path = beside / path;
-        const HazardModel curve = read_hazard({path.string()}, "pga_m_s2", site);
-        hazard.intensity_m_s2 = curve.intensity;
-        hazard.rate_per_year = curve.frequency;
-        check_curve(keys, hazard, keys_of::file.name.c_str());
+        try {
+            const HazardModel curve = read_hazard({path.string()}, "pga_m_s2", site);
+            hazard.intensity_m_s2 = curve.intensity;
+            hazard.rate_per_year = curve.frequency;
+        } catch (const InputError& error) {
+            const std::string what = error.what();
+            throw what.starts_with("--site ") ? InputError("survival.hazard.site = " + what.substr(7)) : error;
+        }
     }
     hazard.sigma_ln = keys.read(keys_of::sigma_ln);
     return hazard;

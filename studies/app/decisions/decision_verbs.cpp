@@ -65,14 +65,19 @@ void DecisionVerbs::add_risk()
     risk->add_option("--most-outside", risk_.most_outside,
                      "largest share of a frequency from outside of the intensities of study or hazard")
         ->capture_default_str();
-    risk->add_option("--sequences", risk_.sequences,
-                     "also simulate so many histories of the last of --years, with the damage carried along")
-        ->check(CLI::Range(0LL, 10000000LL));
+    auto* sequences =
+        risk->add_option("--sequences", risk_.sequences,
+                         "also simulate so many histories of the last of --years, with the damage carried along")
+            ->check(CLI::Range(0LL, 10000000LL));
     risk->add_option("--threshold", risk_.threshold,
-                     "their weakest earthquake, in the SI unit of the measure (default: by the results)");
+                     "their weakest earthquake, in the SI unit of the measure (default: by the results)")
+        ->needs(sequences);
     risk->add_option("--pause", risk_.pause_s, "seconds of rest between them (default: until the structure rests)")
-        ->check(CLI::Range(0.0, 1000.0));
-    risk->add_option("--seed", risk_.seed, "seed of the histories")->check(CLI::Range(0LL, 999999999999LL));
+        ->check(CLI::Range(0.0, 1000.0))
+        ->needs(sequences);
+    risk->add_option("--seed", risk_.seed, "seed of the histories")
+        ->check(CLI::Range(0LL, 999999999999LL))
+        ->needs(sequences);
     risk->add_option("-o,--output", risk_.output, "the estimate (HDF5; default: the results' name with _risk.h5)");
     add_force(*risk, options_);
     add_set(*risk, options_);

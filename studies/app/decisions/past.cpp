@@ -11,6 +11,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 namespace stylobate {
 
 namespace {
@@ -33,6 +36,14 @@ StructurePast past_of(const std::string& file)
 
 int past_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& picture)
 {
+    std::error_code none;
+    for (std::size_t k = 0; k < files.size(); ++k)
+        for (std::size_t other = 0; other < k; ++other)
+            if (std::filesystem::equivalent(files[k], files[other], none))
+                throw InputError(
+                    fmt::format("{} is given twice, and would count as two structures.\n  Give the results "
+                                "of each structure once.",
+                                files[k]));
     std::vector<StructurePast> structures;
     for (const std::string& file : files)
         structures.push_back(past_of(file));
@@ -43,7 +54,12 @@ int past_command(const CommonOptions& options, const std::vector<std::string>& f
             check_output(file, picture, options.force);
         plot_curves(combined_figure(combined), "Shaking that several structures exclude", picture);
     }
-    fmt::print("{}", options.json ? combined_json(combined).text() + "\n" : combined_text(combined));
+    if (options.json)
+        fmt::print(
+            "{}\n",
+            (picture.empty() ? combined_json(combined) : combined_json(combined).member("written", picture)).text());
+    else
+        fmt::print("{}{}", combined_text(combined), picture.empty() || options.quiet ? "" : picture + "\n");
     return exit_done;
 }
 

@@ -68,6 +68,8 @@ int risk_command(const CommonOptions& options, const std::string& file, const Ri
     check_kind(file, "risk");
     const std::string output = wanted.output.empty() ? beside(file, "_risk.h5").string() : wanted.output;
     check_output(file, output, options.force);
+    for (const std::string& hazard : wanted.hazard)
+        check_not_input(hazard, output);
     const RiskOptions asked = checked(wanted);
     const RunOptions run = options.run_options();
     const Results results(file, options.set);

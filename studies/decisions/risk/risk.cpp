@@ -48,7 +48,7 @@ void judge(StateRisk& risk, double most_outside)
         risk.note = fmt::format("{:.0f} % of the frequency would come from {}, more than {:g} %. {}", 100 * share,
                                 where, 100 * most_outside, remedy);
     };
-    if (outside > most_outside)
+    if (outside > most_outside && outside >= e.beyond_hazard)
         refuse(outside, "intensities outside of the range of the runs",
                fmt::format("Run the study with {} intensities.", e.below > e.above ? "weaker" : "stronger"));
     else if (e.beyond_hazard > most_outside)

@@ -12,6 +12,9 @@ namespace stylobate {
 
 namespace {
 
+/// A part of the squared width without which the interval is less than 14 % narrower.
+constexpr double small_part = 0.25;
+
 /// The intensities between which the middle 80 % of a frequency lie, by whole parts.
 std::pair<double, double> middle_of(const FrequencyEstimate& estimate)
 {
@@ -36,12 +39,14 @@ std::string risk_answer(const Risk& risk)
 {
     const StateRisk& s = risk.principal();
     if (!s.determined)
-        return fmt::format(
-            "How often the limit state '{}' is reached is not determined: between {:.2g} and {:.2g} times "
-            "a year. {}",
-            s.meaning, s.estimate.bounds.lower, s.estimate.bounds.upper, s.note);
+        return fmt::format("How often the limit state '{}' is reached is not determined: {} times a year. {}",
+                           s.meaning, bounds_text(s.estimate.bounds), s.note);
     const double years = risk.years.back();
     const RiskNumber p = probability_over(s.estimate.frequency, years);
+    if (!(s.estimate.frequency.value > 0))
+        return fmt::format("No run of the study reached the limit state '{}'. Its probability in {:g} years is at most "
+                           "{:.3g} % ({:g} % interval from 0).",
+                           s.meaning, years, 100 * p.total.upper, 100 * risk.level);
     return fmt::format(
         "In {:g} years the limit state '{}' is reached with a probability of {:.3g} % ({:.3g} to {:.3g}; "
         "{:g} % interval), on average once in {:.4g} years.",
@@ -55,18 +60,25 @@ std::string risk_grounds(const Risk& risk)
     if (!s.determined || !(s.estimate.frequency.value > 0))
         return {};
     const auto [low, high] = middle_of(s.estimate);
-    std::string text = fmt::format(
-        "Most of it (the middle 80 %) comes from these intensities, {}: {}{}. ", describe_measure(risk.hazard.measure),
-        low > 0 ? fmt::format("from {:.3g} ", low) : "", std::isinf(high) ? "on" : fmt::format("to {:.3g}", high));
+    std::string text = fmt::format("Most of it (the middle 80 %) comes from these intensities, {}: {}. ",
+                                   describe_measure(risk.hazard.measure),
+                                   low > 0 && std::isinf(high) ? fmt::format("from {:.3g} on", low)
+                                   : low > 0                   ? fmt::format("from {:.3g} to {:.3g}", low, high)
+                                   : std::isinf(high)          ? std::string("all")
+                                                               : fmt::format("up to {:.3g}", high));
     const double part = s.estimate.frequency.fragility_part;
     if (risk.hazard.fractiles.empty())
         return text + "The interval is that of the fragility alone, since the hazard states no uncertainty.";
     if (!std::isfinite(part))
-        return text + "What makes the interval wide cannot be told.";
-    text += fmt::format("{:.0f} % of the interval's width comes from the hazard, {:.0f} % from the fragility. ",
+        return text + "The interval has no finite width, so its parts are not known; more motions in the study may "
+                      "give one.";
+    text += fmt::format("{:.0f} % of the interval's squared width comes from the hazard, {:.0f} % from the fragility. ",
                         100 * (1 - part), 100 * part);
-    return text + (part < 0.5 ? "A better hazard curve would narrow it; more motions hardly would."
-                              : "More motions in the study would narrow it; a better hazard curve hardly would.");
+    if (part > 1 - small_part)
+        return text + "More motions in the study would narrow it; a better hazard curve hardly would.";
+    if (part < small_part)
+        return text + "A better hazard curve would narrow it; more motions hardly would.";
+    return text + "A better hazard curve and more motions in the study would both narrow it.";
 }
 
 } // namespace stylobate

@@ -116,8 +116,8 @@ void add_result(const Risk& risk, HtmlPage& page)
             const double part = s->estimate.frequency.fragility_part;
             row.emplace_back(std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part));
         } else {
-            row.emplace_back(fmt::format("not determined; {:.2g} to {:.2g} for any curve that rises",
-                                         s->estimate.bounds.lower, s->estimate.bounds.upper));
+            row.emplace_back(
+                fmt::format("not determined; {} for any curve that rises", bounds_text(s->estimate.bounds)));
             row.resize(table.head.size());
         }
         table.rows.push_back(std::move(row));
@@ -147,9 +147,9 @@ void add_parts(const Risk& risk, HtmlPage& page)
                               frequency_text(part.frequency)});
     page.table(table);
     page.note(fmt::format("From outside of the range of the runs: {:.2g} % below, {:.2g} % above. From outside of the "
-                          "hazard's points: {:.2g} %. Any curve that rises would give {:.2g} to {:.2g} a year.",
+                          "hazard's points: {:.2g} %. Any curve that rises would give {} a year.",
                           100 * s.estimate.below, 100 * s.estimate.above, 100 * s.estimate.beyond_hazard,
-                          s.estimate.bounds.lower, s.estimate.bounds.upper));
+                          bounds_text(s.estimate.bounds)));
     if (s.estimate.unseen > 0)
         page.note(
             fmt::format("At the weakest intensities no run reached the state. With so many motions, {:.2g} a year "
@@ -170,7 +170,8 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
          {"Ratio, paired", std::isfinite(s.ratio.limits.upper) ? fmt::format("{:.3g} ({:.3g} to {:.3g})", s.ratio.value,
                                                                              s.ratio.limits.lower, s.ratio.limits.upper)
                                                                : std::string("not determined")},
-         {"By the fragility", percent_text(s.closed_form, s.closed_form_limits)},
+         {"By the fragility", std::isnan(s.closed_form) ? std::string("not determined")
+                                                        : percent_text(s.closed_form, s.closed_form_limits)},
          {"Threshold", s.threshold_says},
          {"With weaker earthquakes too",
           s.checked == 0 ? std::string("not checked")

@@ -96,13 +96,12 @@ void plot_risk(const Risk& risk, const std::string& name, const std::string& tit
                                              "pointtype 7 pointsize 1\n",
                                              colours[1]);
     // boxes from 0: x, y, x from, x to, y from, y to
-    script +=
-        part(2, "parts [1/year]",
-             fmt::format("set yrange [0:{}]\nset ytics auto\nset format y '%.1e'\nset format x '%g'\nset xlabel {} "
-                         "offset 0,-0.2\nplot $parts using 1:2:5:6:(0):2 with boxxyerror fillcolor rgb '{}' "
-                         "fillstyle solid 0.5 noborder, $parts using 1:2:3:4 with yerrorbars linecolor rgb "
-                         "'#333333' linewidth 0.9 pointtype 7 pointsize 0.6\n",
-                         1.05 * most, gnuplot_text(describe_measure(risk.hazard.measure)), colours[2]));
+    script += part(2, "parts [1/year]",
+                   fmt::format("set yrange [0:{}]\nset ytics auto\nset format y '%g'\nset format x '%g'\nset xlabel {} "
+                               "offset 0,-0.2\nplot $parts using 1:2:5:6:(0):2 with boxxyerror fillcolor rgb '{}' "
+                               "fillstyle solid 0.5 noborder, $parts using 1:2:3:4 with yerrorbars linecolor rgb "
+                               "'#333333' linewidth 0.9 pointtype 7 pointsize 0.6\n",
+                               1.05 * most, gnuplot_text(describe_measure(risk.hazard.measure)), colours[2]));
     script += "unset multiplot\n";
     run_gnuplot(script, PictureSize{}, picture);
 }

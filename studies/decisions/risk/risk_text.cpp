@@ -23,8 +23,8 @@ std::string table_text(const Risk& risk)
     for (const StateRisk* s : risk.chosen()) {
         text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form));
         if (!s->determined) {
-            text += fmt::format("not determined; between {:.2g} and {:.2g} a year for any curve that rises\n",
-                                s->estimate.bounds.lower, s->estimate.bounds.upper);
+            text +=
+                fmt::format("not determined; {} a year for any curve that rises\n", bounds_text(s->estimate.bounds));
             continue;
         }
         text += fmt::format("{:<34}", frequency_text(s->estimate.frequency));
@@ -52,10 +52,10 @@ std::string parts_text(const Risk& risk)
     text += fmt::format("  from outside of the range of the runs: {:.2g} % below, {:.2g} % above; from outside of the "
                         "hazard's points: {:.2g} %\n",
                         100 * e.below, 100 * e.above, 100 * e.beyond_hazard);
-    text += fmt::format("  any curve that rises, {}: {:.2g} to {:.2g} a year\n",
+    text += fmt::format("  any curve that rises, {}: {} a year\n",
                         s.form == FragilityForm::lognormal ? "and agrees with the fitted one within that range"
                                                            : "through the shares of the stripes",
-                        e.bounds.lower, e.bounds.upper);
+                        bounds_text(e.bounds));
     if (e.unseen > 0)
         text += fmt::format("  from intensities at which no run reached it: none seen, {:.2g} a year not excluded; not "
                             "in the intervals\n",
@@ -76,7 +76,9 @@ std::string sequence_text(const SequenceRisk& s)
                 ? fmt::format("  ratio, paired:                     {:.3g} ({:.3g} to {:.3g})\n", s.ratio.value,
                               s.ratio.limits.lower, s.ratio.limits.upper)
                 : std::string("  ratio, paired:                     not determined: too few histories with a fall\n");
-    text += fmt::format("  by the fragility, new in each:     {}\n", percent_text(s.closed_form, s.closed_form_limits));
+    text +=
+        fmt::format("  by the fragility, new in each:     {}\n",
+                    std::isnan(s.closed_form) ? "not determined" : percent_text(s.closed_form, s.closed_form_limits));
     text += fmt::format("  threshold: {}\n", s.threshold_says);
     if (s.checked > 0)
         text +=
@@ -174,6 +176,12 @@ Json json_of(const StateRisk& s, const Risk& risk)
 std::string percent_text(double value, const Limits& limits)
 {
     return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * value, 100 * limits.lower, 100 * limits.upper);
+}
+
+std::string bounds_text(const Limits& bounds)
+{
+    return std::isfinite(bounds.upper) ? fmt::format("{:.2g} to {:.2g}", bounds.lower, bounds.upper)
+                                       : fmt::format("at least {:.2g}", bounds.lower);
 }
 
 std::string frequency_text(const RiskNumber& number)

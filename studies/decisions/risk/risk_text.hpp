@@ -18,6 +18,9 @@ Json risk_json(const Risk& risk);
 /// "0.31 % (0.22 to 0.45)" of a probability or a share.
 std::string percent_text(double value, const Limits& limits);
 
+/// "9e-05 to 0.02", or "at least 9e-05" where there is no upper one.
+std::string bounds_text(const Limits& bounds);
+
 /// "3.1e-05 (2.1e-05 to 4.4e-05)".
 std::string frequency_text(const RiskNumber& number);
 

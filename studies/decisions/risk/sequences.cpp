@@ -32,7 +32,8 @@ std::uint64_t poisson(double mean, double u)
 {
     double p = std::exp(-mean), below = p;
     std::uint64_t n = 0;
-    while (u > below && n < 10000) {
+    // the sum may stay below a u next to 1 by rounding
+    while (u > below && (static_cast<double>(n) < mean || p > 1e-18)) {
         p *= mean / static_cast<double>(++n);
         below += p;
     }
@@ -272,8 +273,11 @@ std::optional<SequenceRisk> simulate_sequences(const Results& results, const Ris
     const Threshold threshold =
         options.threshold ? Threshold{*options.threshold, fmt::format("{:.3g}, as given.", *options.threshold)}
                           : harmless_intensity(results);
-    if (!(threshold.intensity > 0))
-        throw InputError(fmt::format("--threshold {}: is not above 0.", threshold.intensity));
+    if (!(threshold.intensity > 0) || !std::isfinite(threshold.intensity))
+        throw InputError(
+            fmt::format("--threshold {}: is not above 0 and finite.\n  Give an intensity in the SI unit of "
+                        "the study's measure, {}.",
+                        threshold.intensity, risk.hazard.measure));
     s.threshold = threshold.intensity;
     s.threshold_says = threshold.says;
     s.checked_threshold = threshold.intensity / 2;
@@ -331,8 +335,9 @@ std::optional<SequenceRisk> simulate_sequences(const Results& results, const Ris
     }
     estimate(s, endings);
     const RiskNumber expected = probability_over(collapse.estimate.frequency, s.years);
-    s.closed_form = expected.value;
-    s.closed_form_limits = expected.fragility;
+    const double unknown = std::nan("");
+    s.closed_form = collapse.determined ? expected.value : unknown;
+    s.closed_form_limits = collapse.determined ? expected.fragility : Limits{unknown, unknown};
     return s;
 }
 

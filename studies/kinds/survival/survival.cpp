@@ -1,7 +1,7 @@
 #include "studies/kinds/survival/survival.hpp"
 
+#include "ensemble/estimators/past/mirror_image.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
-#include "ensemble/model/structure.hpp"
 
 #include <fmt/format.h>
 
@@ -40,21 +40,37 @@ SurvivalCounts::SurvivalCounts(const Study& study, const ResultHeader& header)
     const ObservedState& observed = *study.survival->observed;
     measured_.mirrored = observed.mirrored;
     for (std::size_t i = 0; i < observed.joints.size(); ++i) {
-        joints_.push_back(static_cast<std::size_t>(observed.joints[i]));
+        const auto joint = static_cast<std::size_t>(observed.joints[i]);
+        places_.push_back({false, joint});
         measured_.value.push_back(observed.offset_m[i]);
         measured_.tolerance.push_back(observed.tolerance_m);
-        names_.push_back(fmt::format("displacement of {} [m]", joints_.back() < header.bed_names.size()
-                                                                   ? header.bed_names[joints_.back()]
-                                                                   : "a joint"));
+        names_.push_back(fmt::format("displacement of {} [m]",
+                                     joint < header.bed_names.size() ? header.bed_names[joint] : "a joint"));
     }
     const Layout layout = lay_out(study.structure);
     for (std::size_t i = 0, free = 0; i < layout.blocks.size() && !observed.rotation_rad.empty(); ++i) {
         if (layout.blocks[i].fixed)
             continue;
-        blocks_.push_back(i);
+        places_.push_back({true, i});
         measured_.value.push_back(observed.rotation_rad[free++]);
         measured_.tolerance.push_back(observed.tolerance_rad);
         names_.push_back(fmt::format("rotation of {} [rad]", layout.blocks[i].name));
+    }
+    if (observed.mirrored)
+        find_counterparts(layout);
+}
+
+void SurvivalCounts::find_counterparts(const Layout& layout)
+{
+    const std::optional<MirrorImage> image = mirror_image(layout);
+    if (!image) // refused where the study is read
+        return;
+    for (std::size_t i = 0; i < measured_.value.size(); ++i) {
+        const Place here = places_[i], there{here.rotation, (here.rotation ? image->blocks : image->beds)[here.number]};
+        const auto at = std::find(places_.begin(), places_.end(), there);
+        measured_.counterpart.push_back(static_cast<std::size_t>(at - places_.begin()));
+        if (at == places_.end())
+            places_.push_back(there);
     }
 }
 
@@ -71,16 +87,14 @@ void SurvivalCounts::add(const ResultRow& row)
         return;
     }
     Standing state{row.index, cell, {}};
-    for (const std::size_t joint : joints_)
-        state.value.push_back(o.bed_offset_m.at(joint));
-    for (const std::size_t block : blocks_)
-        state.value.push_back(o.rotation_rad.at(block));
+    for (const Place& place : places_)
+        state.value.push_back((place.rotation ? o.rotation_rad : o.bed_offset_m).at(place.number));
     const StateDistance found = distance(measured_, state.value);
     agree_[cell].successes += found.agrees();
     const bool nearer = !nearest_ || found.value < nearest_->distance ||
                         (found.value == nearest_->distance && row.index < nearest_->index);
     if (nearer && !state.value.empty())
-        nearest_ = NearestState{row.index, found.value, cell, found.worst, state.value[found.worst]};
+        nearest_ = NearestState{row.index, found.value, cell, found.worst, found.found};
     if (!state.value.empty())
         standing_.push_back(std::move(state));
 }
@@ -169,7 +183,9 @@ Survival survival_of(const Study& study, const SurvivalCounts& counts)
         s.sigma_ln = spec.hazard->sigma_ln;
         const PastLikelihood collapse = past_likelihood(s.axes, counts.collapse(), study.seed, PastUse::rates,
                                                         std::uint64_t{1} << 48); // other random numbers
-        s.rates = hazard_update(collapse, hazard_curve(*spec.hazard), s.years, s.sigma_ln, spec.level);
+        if (!(spec.hazard->k0_per_year > 0))
+            s.hazard_points = {spec.hazard->intensity_m_s2.front(), spec.hazard->intensity_m_s2.back()};
+        s.rates = hazard_update(collapse, hazard_curve(*spec.hazard), s.years, s.sigma_ln, spec.level, s.hazard_points);
     }
     return s;
 }

@@ -23,7 +23,7 @@ struct NearestState {
     double distance = 0;     ///< in tolerances
     std::size_t cell = 0;
     std::size_t worst = 0; ///< the value that differs most, of `Survival::measured`
-    double found = 0;      ///< that value
+    double found = 0;      ///< that value, of the mirror image where that is nearer
 };
 
 /// Counts, in any order of the rows.
@@ -50,11 +50,19 @@ private:
         std::size_t cell = 0;
         std::vector<double> value;
     };
+    /// A value of a final state.
+    struct Place {
+        bool rotation = false;  ///< of a block, else the displacement of a joint
+        std::size_t number = 0; ///< of the block or joint
+        friend bool operator==(const Place&, const Place&) = default;
+    };
+    void find_counterparts(const Layout& layout);
+
     const Study& study_;
     PastAxes axes_;
     MeasuredState measured_;
     std::vector<std::string> names_;
-    std::vector<std::size_t> joints_, blocks_; ///< whose values were measured
+    std::vector<Place> places_; ///< that were measured, and then their counterparts that were not
     std::vector<CellCount> agree_, collapse_;
     std::vector<Standing> standing_;
     std::optional<NearestState> nearest_;
@@ -79,6 +87,7 @@ struct Survival {
     // with a hazard and a time
     std::optional<HazardUpdate> rates;
     double years = 0, sigma_ln = 0;
+    std::optional<IntensityRange> hazard_points; ///< none: a power law
 
     /// Whether anything can be said of the past.
     bool judged() const { return agree > 0; }

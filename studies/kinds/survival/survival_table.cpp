@@ -107,6 +107,7 @@ Table survival_table(const Survival& s)
         set(table, "collapse_rate_per_year", s.rates->collapse_rate);
         set(table, "stands_probability", s.rates->stands);
         set(table, "rate_share_beyond_axis", s.rates->beyond);
+        set(table, "rate_share_beyond_hazard", s.rates->beyond_hazard);
         set(table, "collapse_at_begin_of_axis", s.rates->at_begin);
         set(table, "factor_median", s.rates->factor_median);
         set(table, "factor_credible_from", s.rates->factor_lower);

@@ -137,6 +137,11 @@ std::vector<std::string> rates_words(const Survival& s)
         lines.push_back(fmt::format("{} of the rate of collapse comes from PGA beyond {:.3g} m/s2, where the "
                                     "probability is taken as at the end of the axis: extend the axis",
                                     percent_words(r.beyond), s.axes.intensity.back()));
+    if (s.hazard_points && r.beyond_hazard.upper > 0.1)
+        lines.push_back(fmt::format("{} of the rate of collapse comes from PGA outside of the points of the hazard "
+                                    "curve, {:.3g} to {:.3g} m/s2, where its power laws are continued: give it over a "
+                                    "wider range",
+                                    percent_words(r.beyond_hazard), s.hazard_points->from, s.hazard_points->to));
     if (r.at_begin.value > 0)
         lines.push_back(fmt::format("at the begin of the axis {} collapse already, and weaker shaking is counted as "
                                     "harmless: the rate is too small; begin the axis lower",

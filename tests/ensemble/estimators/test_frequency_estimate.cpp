@@ -67,6 +67,22 @@ TEST(FrequencyEstimate, LognormalIsCornellsClosedFormOfTheFittedCurve)
     }
 }
 
+/// A best estimate that is the mean of the hazard lies above the median, and the interval does not move with it.
+TEST(FrequencyEstimate, TheIntervalIsAroundTheMedianOfTheHazard)
+{
+    const FragilityData data = data_of({});
+    const HazardModel median = power_law(1e-3, 2.5, 0.4);
+    HazardModel mean = median;
+    for (double& f : mean.frequency)
+        f *= 1.3;
+    const RiskNumber a = lognormal_frequency(data, median).frequency, b = lognormal_frequency(data, mean).frequency;
+    EXPECT_NEAR(b.value / a.value, 1.3, 1e-12);
+    EXPECT_NEAR(b.total.lower / a.total.lower, 1, 1e-9);
+    EXPECT_NEAR(b.total.upper / a.total.upper, 1, 1e-9);
+    EXPECT_NEAR(b.hazard.upper / a.hazard.upper, 1, 1e-9);
+    EXPECT_NEAR(b.fragility_part, a.fragility_part, 1e-9);
+}
+
 TEST(FrequencyEstimate, SharesAreTheSumOverTheStripesAndNearTheCurve)
 {
     FragilityTruth truth;
@@ -150,6 +166,20 @@ TEST(FrequencyEstimate, OutsideIsCountedAndBounded)
     ASSERT_GT(shares.stripes[0].share, 0);
     EXPECT_TRUE(std::isinf(share_frequency(data, shares, power_law(1e-3, 2)).bounds.upper));
     EXPECT_TRUE(std::isfinite(share_frequency(data, shares, hazard).bounds.upper));
+    // of a table that begins within the range of the runs the bounds contain the estimate too
+    for (const double first : {0.2, 0.7, 0.95}) {
+        hazard.intensity = {first, 30};
+        hazard.frequency = {1e-3 * std::pow(first, -2), 1e-3 * std::pow(30, -2)};
+        StripeShares flat = shares_of(data); // damaged alike at all stripes: within them the bounds meet
+        for (StripeShare& stripe : flat.stripes)
+            stripe.monotone = stripe.share = 0.4;
+        FragilityData even = data;
+        for (FragilityRow& row : even.rows)
+            row.reached = 0.4 * row.trials;
+        const FrequencyEstimate all = share_frequency(even, flat, hazard);
+        EXPECT_GE(all.bounds.upper, all.frequency.value) << first;
+        EXPECT_LE(all.bounds.lower, all.frequency.value) << first;
+    }
 }
 
 TEST(FrequencyEstimate, NoDamageHasAnUpperLimit)

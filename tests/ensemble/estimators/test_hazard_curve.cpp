@@ -160,6 +160,21 @@ TEST(HazardQuantile, FractilesOfALognormalHazardGiveItsOtherQuantiles)
                 << z;
 }
 
+/// Fractiles that part towards strong shaking: continued far enough, the upper one would rise.
+TEST(HazardQuantile, WhatWouldRiseStaysLevel)
+{
+    HazardModel hazard;
+    hazard.intensity = {1, 2, 4};
+    hazard.frequency = {1e-2, 5e-3, 2e-3};
+    hazard.fractiles = {{0.16, {9e-3, 1e-3, 1e-4}}, {0.84, {1.1e-2, 9e-3, 8e-3}}};
+    const HazardCurve high = quantile_curve(hazard, 0.999);
+    const double first = high.frequency(0);
+    EXPECT_GT(first, 1.1e-2);
+    for (const double im : {1.5, 2.0, 3.0, 4.0})
+        EXPECT_NEAR(high.frequency(std::log(im)), first, 1e-9 * first);
+    EXPECT_LT(high.frequency(std::log(8.0)), high.frequency(std::log(4.0)));
+}
+
 TEST(RiskNumber, CombinedIsTheRootOfTheSumOfSquares)
 {
     const RiskNumber both =
@@ -173,6 +188,18 @@ TEST(RiskNumber, CombinedIsTheRootOfTheSumOfSquares)
     const RiskNumber none = combined(0, {0, 2e-5}, HazardSpread{0.5, 1, 3});
     EXPECT_EQ(none.total.lower, 0);
     EXPECT_NEAR(none.total.upper, 6e-5, 1e-18);
+
+    // a mean hazard, above the median of its fractiles: the interval is around the median
+    const HazardSpread mean{0.3, 0.8, 1.6};
+    const double middle = 0.8e-3;
+    const RiskNumber above = combined(1e-3, {1e-3 / std::exp(0.3), 1e-3 * std::exp(0.4)}, mean);
+    EXPECT_NEAR(above.total.lower, middle * std::exp(-std::hypot(0.3, std::log(0.8 / 0.3))), 1e-15);
+    EXPECT_NEAR(above.total.upper, middle * std::exp(std::hypot(0.4, std::log(2.0))), 1e-15);
+    // without a lower limit of the fragility the part is that of the upper half
+    const RiskNumber open = combined(1e-3, {0, 1e-3 * std::exp(0.4)}, mean);
+    EXPECT_EQ(open.total.lower, 0);
+    EXPECT_NEAR(open.fragility_part, 0.16 / (0.16 + std::log(2.0) * std::log(2.0)), 1e-12);
+    EXPECT_TRUE(std::isnan(combined(1e-3, {0, infinity}, mean).fragility_part));
 
     const RiskNumber certain = combined(1e-3, {5e-4, 2e-3}, std::nullopt);
     EXPECT_EQ(certain.total.upper, 2e-3);

@@ -4,6 +4,7 @@
 #include "ensemble/estimators/past/exclusion.hpp"
 #include "ensemble/estimators/past/final_state.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
+#include "ensemble/estimators/past/mirror_image.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
 #include "ensemble/estimators/past/simulated_monuments.hpp"
 
@@ -205,6 +206,18 @@ TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
     EXPECT_NEAR(update.prior_upper, std::exp(1.959964), 1e-5);
     // without exposure the posterior is the prior
     EXPECT_NEAR(factor_quantile(0, 0.7, 0.975), std::exp(0.7 * 1.959963984540054), 1e-4);
+    EXPECT_EQ(update.beyond_hazard.upper, 0) << "a power law has no range";
+    // of a curve whose points are within the axis, and of one whose last point is beyond its end
+    for (const auto& [from, to] : {std::pair{2.0, 20.0}, std::pair{1.0, 100.0}}) {
+        double known = simpson([&](double a) { return truth.collapse(a) * k0 * k * std::pow(a, -k - 1); }, from,
+                               std::min(to, 60.0), 200000);
+        if (to > 60)
+            known += truth.collapse(60) * k0 * (std::pow(60, -k) - std::pow(to, -k));
+        const HazardUpdate cut =
+            hazard_update(collapse, power_law(k0, k), years, sigma, 0.95, IntensityRange{from, to});
+        EXPECT_NEAR(cut.beyond_hazard.value, 1 - known / rate, 3e-3);
+        EXPECT_EQ(cut.collapse_rate.value, update.collapse_rate.value);
+    }
     // beyond the axis
     EXPECT_NEAR(update.beyond.value, truth.collapse(60) * k0 * std::pow(60, -k) / rate, 1e-5);
 }
@@ -265,6 +278,52 @@ TEST(Past, AStateAgreesWithinItsTolerancesOrMirrored)
     measured.mirrored = true;
     EXPECT_TRUE(distance(measured, std::vector<double>{0, -0.004, -0.007}).agrees());
     EXPECT_TRUE(distance(MeasuredState{}, {}).agrees()); // nothing was measured
+
+    // a nearest state is reported as it was compared
+    const StateDistance mirror = distance(measured, std::vector<double>{0, -0.004, -0.0085});
+    EXPECT_EQ(mirror.worst, 2U);
+    EXPECT_EQ(mirror.found, 0.0085);
+}
+
+/// Two columns, of the left of which the first joint was measured: the mirror image has that of the right one there.
+TEST(Past, InTheMirrorImageOfAColonnadeTheColumnsChangePlaces)
+{
+    MeasuredState measured{{0.004, 0}, {0.001, 0.001}, true, {2, 3}};
+    EXPECT_TRUE(distance(measured, std::vector<double>{0.004, 0, 0.1, 0.1}).agrees());
+    EXPECT_TRUE(distance(measured, std::vector<double>{0.1, 0.1, -0.004, 0}).agrees());
+    EXPECT_FALSE(distance(measured, std::vector<double>{-0.004, 0, 0.1, 0.1}).agrees());
+    EXPECT_FALSE(distance(measured, std::vector<double>{0.1, 0.1, 0.004, 0}).agrees());
+}
+
+TEST(Past, MirrorImage)
+{
+    StructureSpec s = equal_column(3, 1, 1, 0.8, 1, 2000);
+    s.columns[0].drums[1].offset_m = 0.01;
+    const std::optional<MirrorImage> alone = mirror_image(lay_out(s));
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(alone->blocks, (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(alone->beds, (std::vector<std::size_t>{0, 1}));
+
+    s.kind = StructureKind::colonnade;
+    s.columns[0].x_m = -2;
+    s.columns.push_back(s.columns[0]);
+    s.columns[1].x_m = 2;
+    s.epistyles.push_back({0, 1, 0, 5, 0.5, 3000});
+    const std::optional<MirrorImage> two = mirror_image(lay_out(s));
+    ASSERT_TRUE(two);
+    EXPECT_EQ(two->blocks, (std::vector<std::size_t>{3, 4, 5, 0, 1, 2, 6}));
+    EXPECT_EQ(two->beds, (std::vector<std::size_t>{2, 3, 0, 1, 5, 4}));
+
+    // three columns at unequal distances, or one of other drums: another structure from behind
+    StructureSpec uneven = s;
+    uneven.epistyles.clear();
+    EXPECT_TRUE(mirror_image(lay_out(uneven)));
+    uneven.columns.push_back(s.columns[0]);
+    uneven.columns[2].x_m = 5;
+    EXPECT_FALSE(mirror_image(lay_out(uneven)));
+    uneven.columns.pop_back();
+    uneven.columns[1].drums[2].mass_kg *= 1.01;
+    EXPECT_FALSE(mirror_image(lay_out(uneven)));
 }
 
 TEST(PastStatistics, TheIntervalOfAnExclusionContainsTheTruth)

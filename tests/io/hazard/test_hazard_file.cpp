@@ -86,7 +86,7 @@ TEST_F(HazardFile, PowerLawRefusals)
              {"k0=1,q=2", "--hazard k0=1,q=2: 'q' is no part of a power law."}})
         expect_begins(refusal({given}), what);
     expect_begins(refusal({"k0=1e-4,k=2,measure=pgv"}),
-                  "k0=1e-4,k=2,measure=pgv: the hazard is of pgv_m_s, the fragility of pga_m_s2.");
+                  "k0=1e-4,k=2,measure=pgv: the hazard is of pgv_m_s, the study of pga_m_s2.");
 }
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
@@ -106,7 +106,8 @@ TEST_F(HazardFile, TableWithFractilesAndUnits)
     EXPECT_EQ(hazard.fractiles[2].frequency[2], 4e-4);
     EXPECT_FALSE(hazard.unbounded);
     ASSERT_EQ(hazard.says.size(), 1U);
-    EXPECT_EQ(hazard.says[0], "1 intensities at the upper end are left out: their frequency is 0.");
+    EXPECT_EQ(hazard.says[0], "Left out at the upper end of the hazard: 1 intensity with a frequency of 0, of the best "
+                              "estimate or of a fractile.");
 
     // for want of a mean
     const HazardModel median = read_hazard(
@@ -119,16 +120,18 @@ TEST_F(HazardFile, TableRefusals)
 {
     for (const auto& [text, what] : std::initializer_list<std::pair<const char*, const char*>>{
              {"pga_g,annual_frequency\n0.1,1e-3\n0.2,2e-3\n",
-              "hazard.csv:3: annual frequency = 0.002 at intensity 1.96133 is above 0.001 at the weaker one before it"},
+              "hazard.csv:3: annual frequency = 0.002 at pga_g = 0.2 is above 0.001 at the weaker one before it"},
              {"pga_g,annual_frequency\n0.1,1e-3\n0.2,1e-3\n",
-              "hazard.csv:3: annual frequency = 0.001 at intensity 1.96133 is that of the intensity before it"},
+              "hazard.csv:3: annual frequency = 0.001 at pga_g = 0.2 is that of the intensity before it"},
              {"pga_g,annual_frequency\n0.2,1e-3\n0.1,1e-2\n",
-              "hazard.csv:3: intensity 0.980665 is not above 1.96133 before it"},
-             {"pga_g,annual_frequency\n0,1e-3\n0.1,1e-2\n", "hazard.csv:2: intensity 0 is not above 0"},
-             {"pga_g,annual_frequency\n0.1,1e-3\n", "hazard.csv: has 1 intensities with a frequency above 0"},
+              "hazard.csv:3: pga_g = 0.1 is not above pga_g = 0.2 before it"},
+             {"pga_g,annual_frequency\n0,1e-3\n0.1,1e-2\n", "hazard.csv:2: pga_g = 0 is not above 0"},
+             {"pga_g,annual_frequency\n0.1,1e-3\n", "hazard.csv: has 1 intensity with a finite frequency above 0"},
              {"pga_ft,annual_frequency\n0.1,1e-3\n",
               "hazard.csv:1: the first column 'pga_ft' is no intensity measure with its unit."},
              {"pga_g,frequency\n0.1,1e-3\n", "hazard.csv:1: the column 'frequency' is not known."},
+             {"pga_g,anual_frequency\n0.1,1e-3\n",
+              "hazard.csv:1: the column 'anual_frequency' is not known. Did you mean annual_frequency?"},
              {"pga_g\n0.1\n", "hazard.csv:1: has no column after the intensity."},
              {"pga_g,annual_frequency\n0.1,1e-3\n0.2,much\n",
               "hazard.csv:3: annual_frequency = \"much\" is not a number."},
@@ -137,13 +140,17 @@ TEST_F(HazardFile, TableRefusals)
              {"pga_g,annual_frequency,low\n0.1,1e-3,5e-4\n0.2,1e-4,5e-5\n",
               "hazard.csv: has one fractile (0.05) alone, which bounds one side."},
              {"pga_g,annual_frequency,low,high\n0.1,1e-3,2e-3,1e-3\n0.2,1e-4,5e-5,2e-4\n",
-              "hazard.csv:2: fractile 0.95 = 0.001 at intensity 0.980665 is below fractile 0.05 = 0.002."},
+              "hazard.csv:2: fractile 0.95 = 0.001 at pga_g = 0.1 is below fractile 0.05 = 0.002."},
+             {"pga_g,annual_frequency\n", "hazard.csv: has no line below its header."},
+             // a sign that slipped in is no end of the curve
+             {"pga_g,annual_frequency\n0.1,1e-3\n0.2,1e-4\n0.3,-1e-5\n",
+              "hazard.csv:4: annual frequency = -1e-05 at pga_g = 0.3 is not above 0 and finite."},
              {"", "hazard.csv: is empty."}})
         expect_begins(csv_refusal(text), what);
     expect_begins(csv_refusal("pgv_m_s,annual_frequency\n0.1,1e-3\n0.2,1e-4\n"),
-                  "hazard.csv: the hazard is of pgv_m_s, the fragility of pga_m_s2.");
+                  "hazard.csv: the hazard is of pgv_m_s, the study of pga_m_s2.");
     expect_begins(refusal({file("pga_g,annual_frequency\n0.1,1e-3\n0.2,1e-4\n")}, "sa_1s_m_s2"),
-                  "hazard.csv: the hazard is of pga_m_s2, the fragility of sa_1s_m_s2.");
+                  "hazard.csv: the hazard is of pga_m_s2, the study of sa_1s_m_s2.");
     EXPECT_NE(refusal({"no_such_file.csv"}).find("no_such_file.csv"), std::string::npos);
 }
 
@@ -182,6 +189,10 @@ TEST_F(HazardFile, OpenQuakeFractilesInFilesOfTheirOwn)
     EXPECT_EQ(hazard.fractiles[0].probability, 0.16);
     EXPECT_NEAR(hazard.fractiles[0].frequency[1], -std::log(0.8) / 50, 1e-15);
     EXPECT_NEAR(hazard.frequency[1], -std::log(0.7) / 50, 1e-15);
+    EXPECT_EQ(hazard.source, high + ", " + mean + ", " + low);
+    // a fault is reported of the file that has it
+    const std::string rises = file(openquake("quantile-0.5", "8.0E-01,2.0E-01,3.0E-01"), "rises.csv");
+    expect_begins(refusal({mean, rises}), "rises.csv:3: annual frequency = 0.0071335 at poe-0.5000000 is above");
     expect_begins(refusal({mean, mean}), "mean.csv: has a mean, as mean.csv.");
     expect_begins(refusal({low, high}), "low.csv: has no best estimate.");
     expect_begins(refusal({mean, "k0=1e-4,k=2,measure=pga"}),
@@ -245,7 +256,7 @@ TEST_F(HazardFile, Nrml)
     };
     const std::string low = quantile("0.1", "0.8 0.2 0.001"), high = quantile("0.9", "0.95 0.4 0.004");
     EXPECT_EQ(read_hazard({mean, low, high}, "sa_0.5s_m_s2").fractiles.size(), 2U);
-    expect_begins(refusal({mean}), "mean.xml: the hazard is of sa_0.5s_m_s2, the fragility of pga_m_s2.");
+    expect_begins(refusal({mean}), "mean.xml: the hazard is of sa_0.5s_m_s2, the study of pga_m_s2.");
 }
 
 TEST_F(HazardFile, NrmlRefusals)

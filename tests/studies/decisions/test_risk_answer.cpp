@@ -50,24 +50,57 @@ TEST(RiskAnswer, IsOneSentenceWithItsInterval)
     open.states.front().determined = false;
     open.states.front().estimate.bounds = {1e-4, 0.02};
     open.states.front().note = "Too much comes from above.";
-    EXPECT_EQ(risk_answer(open),
-              "How often the limit state 'a block falls' is reached is not determined: between 0.0001 "
-              "and 0.02 times a year. Too much comes from above.");
+    EXPECT_EQ(risk_answer(open), "How often the limit state 'a block falls' is reached is not determined: 0.0001 to "
+                                 "0.02 times a year. Too much comes from above.");
     EXPECT_EQ(risk_grounds(open), "");
+    open.states.front().estimate.bounds.upper = std::numeric_limits<double>::infinity();
+    EXPECT_NE(risk_answer(open).find("is not determined: at least 0.0001 times a year."), std::string::npos)
+        << risk_answer(open);
+}
+
+TEST(RiskAnswer, OfNoFallIsItsUpperLimit)
+{
+    Risk none = risk(0.2);
+    none.states.front().estimate.frequency = number(0, 0, 1e-3, std::nan(""));
+    EXPECT_EQ(risk_answer(none), "No run of the study reached the limit state 'a block falls'. Its probability in 100 "
+                                 "years is at most 9.52 % (90 % interval from 0).");
+    EXPECT_EQ(risk_grounds(none), "");
 }
 
 TEST(RiskAnswer, SaysWhereItComesFromAndWhatWouldNarrowIt)
 {
-    const std::string by_hazard = risk_grounds(risk(0.2)), by_fragility = risk_grounds(risk(0.7));
+    const std::string by_hazard = risk_grounds(risk(0.2)), by_fragility = risk_grounds(risk(0.8)),
+                      by_both = risk_grounds(risk(0.4));
     EXPECT_NE(by_hazard.find("from 1 to 4"), std::string::npos) << by_hazard;
     EXPECT_NE(
-        by_hazard.find("80 % of the interval's width comes from the hazard, 20 % from the fragility. A better hazard"),
+        by_hazard.find(
+            "80 % of the interval's squared width comes from the hazard, 20 % from the fragility. A better hazard"),
         std::string::npos)
         << by_hazard;
-    EXPECT_NE(by_fragility.find("More motions in the study would narrow it"), std::string::npos);
+    EXPECT_NE(by_hazard.find("more motions hardly would"), std::string::npos) << by_hazard;
+    EXPECT_NE(by_fragility.find("More motions in the study would narrow it; a better hazard curve hardly"),
+              std::string::npos);
+    EXPECT_NE(by_both.find("would both narrow it"), std::string::npos) << by_both;
+    EXPECT_NE(risk_grounds(risk(std::nan(""))).find("no finite width"), std::string::npos);
     Risk certain = risk(1);
     certain.hazard.fractiles.clear();
     EXPECT_NE(risk_grounds(certain).find("of the fragility alone"), std::string::npos);
+}
+
+TEST(RiskAnswer, NamesTheMiddleOfTheIntensities)
+{
+    const auto where = [](const std::vector<double>& shares) {
+        Risk r = risk(0.2);
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            r.states.front().estimate.parts[i].frequency.value = 1e-3 * shares[i];
+        const std::string text = risk_grounds(r);
+        const std::size_t colon = text.find(": ") + 2;
+        return text.substr(colon, text.find(". ", colon) - colon);
+    };
+    EXPECT_EQ(where({0.05, 0.6, 0.3, 0.05}), "from 1 to 4");
+    EXPECT_EQ(where({0.2, 0.5, 0.3, 0}), "up to 4");
+    EXPECT_EQ(where({0.05, 0.05, 0.7, 0.2}), "from 2 on");
+    EXPECT_EQ(where({0.2, 0.3, 0.3, 0.2}), "all");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 /// Survival studies: several events in succession, the final state of a realization, and the counts of the rows.
 
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
@@ -165,6 +166,76 @@ TEST(Survival, CountsAreThoseOfTheRowsInAnyOrder)
     for (const ResultRow& row : rows)
         shuffled.add(row);
     EXPECT_EQ(survival_json(survival_of(study, shuffled)).text(), json);
+}
+
+/// Two columns of one drum and an epistyle: joints are those of both drums and both seats.
+std::string colonnade(const std::string& columns, const std::string& survival)
+{
+    return "[study]\nkind = \"survival\"\nrealizations = 2\n"
+           "[structure]\nkind = \"colonnade\"\n" +
+           columns +
+           "\nblocks = 1\ndrum_width_m = "
+           "0.06\ndrum_height_m = 0.1\ndrum_mass_kg = 0.75\ndepth_m = 0.06\nepistyle_height_m = 0.06\n"
+           "epistyle_mass_kg = 1.14\n[contact]\nnormal_stiffness_n_m2 = 1e8\nfriction = 0.68\n[excitation]\nkind = "
+           "\"full_sine\"\n[surface]\n"
+           "frequency_hz = { from = 1, to = 2, count = 2 }\npga_m_s2 = { from = 3, to = 5, count = 3 }\n[survival]\n" +
+           survival + "\n";
+}
+
+TEST(Survival, OfAColonnadeTheMirrorImageHasTheOtherColumnsState)
+{
+    const std::string observed = "observed = { joints = [0], joint_offset_m = [0.003], rotation_rad = [0, 0.1, 0], "
+                                 "tolerance_m = 0.001, rotation_tolerance_rad = 0.01, mirrored = true }";
+    const Study study = parse_study(colonnade("columns = 2\ncolumn_spacing_m = 0.09", observed), "colonnade");
+    ResultHeader header = header_of(study);
+    header.bed_names = {"left", "right", "left seat", "right seat"};
+    SurvivalCounts counts(study, header);
+    const auto agrees = [&](std::vector<double> offset, std::vector<double> rotation) {
+        const auto sum = [&] {
+            std::uint64_t all = 0;
+            for (const CellCount& cell : counts.agree())
+                all += cell.successes;
+            return all;
+        };
+        const std::uint64_t before = sum();
+        ResultRow row;
+        row.outcome.state = State::slid;
+        row.outcome.bed_offset_m = std::move(offset);
+        row.outcome.rotation_rad = std::move(rotation);
+        counts.add(row);
+        return sum() > before;
+    };
+    EXPECT_TRUE(agrees({0.003, 0.5, 0.5, 0.5}, {0, 0.1, 0}));
+    EXPECT_TRUE(agrees({0.5, -0.003, 0.5, 0.5}, {-0.1, 0, 0})) << "from behind";
+    EXPECT_FALSE(agrees({-0.003, 0.5, 0.5, 0.5}, {0, -0.1, 0})) << "the columns do not change places";
+    EXPECT_FALSE(agrees({0.5, 0.003, 0.5, 0.5}, {-0.1, 0, 0}));
+    // the states that the simulated monuments are of hold both
+    EXPECT_EQ(counts.standing().value.size(), 4U * 5) << "one joint of each column, and three blocks";
+    try {
+        parse_study(colonnade("column_list = [ { x_m = -0.045 }, { x_m = 0.045, drum_width_m = 0.05 } ]", observed),
+                    "uneven");
+        ADD_FAILURE() << "was read";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("mirrored = true needs a structure that is its own mirror image"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+/// Densities over the logarithm of the PGA.
+TEST(Survival, PriorsAreDensitiesOverTheLogarithm)
+{
+    const auto ratio = [](const std::string& prior, const std::string& hazard) {
+        const PriorDensity density = prior_density(*made_study("prior = \"" + prior + "\"\n" + hazard).survival);
+        return density(4) / density(2);
+    };
+    EXPECT_EQ(ratio("log_uniform", ""), 1);
+    EXPECT_EQ(ratio("uniform", ""), 2);
+    EXPECT_NEAR(ratio("hazard", "hazard = { k0_per_year = 0.1, k = 2.5, sigma_ln = 1 }"), std::pow(2, -2.5), 1e-12);
+    // points: k is 1 up to 3 m/s2 and 3 beyond
+    EXPECT_NEAR(ratio("hazard", "hazard = { intensity_m_s2 = [1.5, 3, 6], rate_per_year = [0.1, 0.05, 0.00625], "
+                                "sigma_ln = 1 }"),
+                3 * 0.05 * std::pow(4.0 / 3, -3) / (0.1 * 1.5 / 2), 1e-12);
 }
 
 TEST(Survival, WhereNothingWasMeasuredAllThatStandAgree)
