@@ -129,10 +129,10 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     active_ = 0;
 }
 
-/// Which blocks the clamps join: the same in all realizations of a study.
 void LaneSet::list_clamps(const Realization& pattern)
 {
-    int* const clamped = bed_lists_.data() + (bed_lists_.size() - pattern.blocks.size());
+    // of the kernel's blocks: a fixed block that nothing touches is none of them
+    int* const clamped = bed_lists_.data() + (bed_lists_.size() - order_.size());
     for (std::size_t i = 0; i < pattern.blocks.size(); ++i)
         if (const int right = pattern.blocks[i].reinforcement.clamp_to; right >= 0)
             clamped[place_of_[i]] = place_of_[static_cast<std::size_t>(right)];

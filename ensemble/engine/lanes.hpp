@@ -171,8 +171,9 @@ private:
     /// Makes the tables of the base's motion of the next chunk.
     void fill_tables();
     /// Tables of the vertical motion and of the base's rotation for the next chunk.
-    void list_clamps(const Realization& pattern);
     void fill_extension(int lane);
+    /// Which blocks the clamps join: the same in all realizations of a study.
+    void list_clamps(const Realization& pattern);
     /// Displacement of a (kernel's) block's geometric centre.
     BlockMotion centre(int k, int lane) const;
     /// Where the blocks are, and when they were inside their limits last: into `Place::moved` and `Place::inside`.

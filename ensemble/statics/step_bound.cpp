@@ -416,29 +416,40 @@ Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& j
             v.K(v.first[b], v.first[b]) += e.tie_n_m;
             v.C(v.first[b], v.first[b]) += e.tie_n_s_m;
             v.C(v.first[b] + 2, v.first[b] + 2) += e.tie_n_m_s;
-            v.K(v.first[b] + 1, v.first[b] + 1) += blocks[b].reinforcement.tendon_n_m;
         }
-    for (std::size_t b = 0; b < blocks.size(); ++b) { // clamps, beside what play they have
-        const BlockReinforcement& clamp = blocks[b].reinforcement;
-        if (clamp.clamp_to < 0)
+    return v;
+}
+
+/// Tendons and clamps about the reference stack, without the play of clamps.
+void add_held(const std::vector<Block>& blocks, Vibration& v)
+{
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const BlockReinforcement& held = blocks[b].reinforcement;
+        const auto add = [&](double k, const Eigen::VectorXd& stretch) { v.K += k * stretch * stretch.transpose(); };
+        Eigen::VectorXd stretch = Eigen::VectorXd::Zero(v.K.rows());
+        if (v.first[b] >= 0 && held.tendon_n_m > 0) {
+            stretch.segment<3>(v.first[b]) = Eigen::Vector3d(0, 1, -blocks[b].extension.eccentricity_m);
+            add(held.tendon_n_m, stretch);
+        }
+        if (held.clamp_to < 0)
             continue;
-        const auto right = static_cast<std::size_t>(clamp.clamp_to);
-        Eigen::VectorXd stretch = Eigen::VectorXd::Zero(size);
+        const auto right = static_cast<std::size_t>(held.clamp_to);
+        stretch.setZero();
         if (v.first[b] >= 0)
-            stretch.segment<3>(v.first[b]) = Eigen::Vector3d(-1, 0, clamp.clamp_height_m);
+            stretch.segment<3>(v.first[b]) = Eigen::Vector3d(-1, 0, held.clamp_height_m);
         if (v.first[right] >= 0)
             stretch.segment<3>(v.first[right]) =
-                Eigen::Vector3d(1, 0, blocks[right].y_m - blocks[b].y_m - clamp.clamp_height_m);
-        v.K += clamp.clamp_n_m * stretch * stretch.transpose();
+                Eigen::Vector3d(1, 0, blocks[right].y_m - blocks[b].y_m - held.clamp_height_m);
+        add(held.clamp_n_m, stretch);
     }
-    return v;
 }
 
 LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
                            const std::vector<FullContact>& contacts, double gravity_m_s2)
 {
     const std::size_t beds = contacts.size();
-    const Vibration v = assemble(blocks, joints, contacts);
+    Vibration v = assemble(blocks, joints, contacts);
+    add_held(blocks, v);
     const std::vector<Eigen::Index>& first = v.first;
     const Eigen::MatrixXd &C = v.C, &opening = v.opening;
     const Eigen::VectorXd& root_mass = v.root_mass;
@@ -515,7 +526,10 @@ StepBound structure_step_bound(const Realization& r, StepBound bound)
         contacts.push_back(is_extended(r) ? extended_contact(r, j, stiffest_load(r, joint))
                                           : full_contact(r.blocks, joint));
     }
-    const Vibration v = assemble(r.blocks, r.joints, contacts);
+    Vibration v = assemble(r.blocks, r.joints, contacts);
+    for (std::size_t b = 0; b < r.blocks.size(); ++b) // they turn: each end in both directions; a clamp has two of them
+        if (v.first[b] >= 0)
+            v.K.block<3, 3>(v.first[b], v.first[b]) += 2 * held_stiffness(r, static_cast<int>(b));
     const Eigen::SparseMatrix<double> K = v.K.sparseView(), C = v.C.sparseView();
     Eigen::SparseMatrix<double> M(K.rows(), K.cols());
     M.setIdentity();

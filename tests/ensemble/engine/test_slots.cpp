@@ -276,7 +276,6 @@ TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
     same_in_slots(colonnade(settings));
 }
 
-/// A slot that breaks is set aside for the reason that a lane is, and its neighbours keep their bits.
 /// What strengthens a structure has rows and a list of blocks of its own.
 TEST(Slots, ReinforcementsHaveTheBitsOfTheLanes)
 {
@@ -290,6 +289,7 @@ TEST(Slots, ReinforcementsHaveTheBitsOfTheLanes)
                              "mechanisms.tendon={ stiffness_n_m = 1e4, prestress_n = 3 }"}));
 }
 
+/// A slot that breaks is set aside for the reason that a lane is, and its neighbours keep their bits.
 TEST(Slots, ABrokenRealizationIsSetAside)
 {
     const Study study = column({});

@@ -3,7 +3,7 @@
 #include "ensemble/statics/step_bound.hpp"
 #include "kernels/mechanisms/clamp.hpp"
 #include "kernels/mechanisms/pull_out.hpp"
-#include "tests/kernels/reinforced_runs.hpp"
+#include "tests/kernels/reinforced/reinforced_runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ TEST(Clamp, YieldsAndTheWorkIsDissipated)
 
     // a blow, after which the clamp brings both to the velocity of their common centre: what it takes is the loss
     const Realization r = pair_of_blocks(k, yield, 0, 1);
-    double momentum = 0;
+    double momentum = 0, apart = 0, most = 0;
     const auto outcome = pushed(
         r, 0.5,
         [&](int block, double at) {
@@ -95,8 +95,14 @@ TEST(Clamp, YieldsAndTheWorkIsDissipated)
             momentum += m2 * 30 * chunk_steps * r.step_s;
             return Push{30, 0, 0};
         },
-        [](double, const Snapshot&) { return true; });
+        [&](double, const Snapshot& s) {
+            apart = s.x_m[2] - s.x_m[1];
+            most = std::max(most, apart);
+            return true;
+        });
     ASSERT_TRUE(outcome);
+    EXPECT_GT(most, 1e-3);
+    EXPECT_GT(apart, 0.99 * most); // what has yielded stays
     const double kinetic = momentum * momentum / (2 * (m1 + m2)), work = outcome->energy_base_work_j;
     EXPECT_LT(std::fabs(outcome->energy_residual), 1e-3);
     EXPECT_NEAR(outcome->energy_kinetic_j, kinetic, 0.01 * kinetic);
@@ -169,6 +175,33 @@ TEST(Clamp, IsGoneOnceItHasBroken)
     EXPECT_EQ(clamp_force<double>(1e6, 1e6, 50, 0, 0.01, 0, 0, broken.broken).force, 0);
 }
 
+TEST(Clamp, HoldsNothingWhenTheBlocksComeBackAfterItHasBroken)
+{
+    // a blow to the right, then one back: the left block moves on as it was when the clamp broke
+    Realization r = pair_of_blocks(1e6, 40, 0, 1);
+    r.blocks[1].reinforcement.clamp_break_m = 0.002;
+    std::vector<double> x;
+    double chunk = 0;
+    int back = 0;
+    pushed(
+        r, 0.3,
+        [](int block, double time) {
+            return Push{block != 2 ? 0 : time < 0.02 ? 30.0 : time < 0.06 ? -30.0 : 0, 0, 0};
+        },
+        [&](double now, const Snapshot& s) {
+            chunk = now / static_cast<double>(x.size() + 1);
+            x.push_back(s.x_m[1]);
+            const double apart = s.x_m[2] - s.x_m[1];
+            if (now > 0.04 && apart < 0.002) {
+                const std::size_t n = x.size();
+                EXPECT_NEAR((x[n - 1] - 2 * x[n - 2] + x[n - 3]) / (chunk * chunk), 0, 0.1) << now;
+                ++back;
+            }
+            return apart > -0.02;
+        });
+    EXPECT_GT(back, 3);
+}
+
 TEST(PullOut, TheDowelsHoldUntilTheyAreOut)
 {
     // lifted: y'' = a - g - 2 F_a / m while y < length, then y'' = a - g
@@ -195,6 +228,67 @@ TEST(PullOut, TheDowelsHoldUntilTheyAreOut)
         });
     EXPECT_LT(worst, 5e-4); // what the beds give back and the dowels give way before they slip
     EXPECT_GT(y, 0.02);
+}
+
+TEST(PullOut, TheyHoldAgainstTheReturnUntilTheyAreOut)
+{
+    // let go after a lift: y'' = 2 F_a / m - g while they slip back, and -g for ever once they are out
+    const double hold = 12, m = 4;
+    for (const double length : {0.05, 0.002}) {
+        Realization r = single({0.2, 0.05, m}, {1e8, 0.1}, 1, 1);
+        r.joints[0].reinforcement = {
+            .hold_n = hold, .hold_stiffness_n_m = 1e7, .hold_length_m = length, .hold_spread_m = 0.05};
+        r.step_s = 0.5 * step_bound(r).dt_s;
+        std::vector<double> y;
+        double chunk = 0, top = 0;
+        pushed(
+            r, 0.3,
+            [&](int, double time) {
+                return Push{0, time < 0.03 ? 2.5 * gravity : 0, 0};
+            },
+            [&](double now, const Snapshot& s) {
+                chunk = now / static_cast<double>(y.size() + 1);
+                y.push_back(s.y_m[1]);
+                top = std::max(top, y.back());
+                return y.back() > 0.5 * std::min(top, length) || now < 0.03;
+            });
+        ASSERT_GT(top, 0.003);
+        ASSERT_GT(y.size(), 3u);
+        const double last = (y[y.size() - 1] - 2 * y[y.size() - 2] + y[y.size() - 3]) / (chunk * chunk);
+        const double want = (length > top ? 2 * hold / m : 0) - gravity;
+        EXPECT_NEAR(last, want, 0.05 * gravity) << length;
+    }
+    EXPECT_EQ(hold_force<double>(10, 1e6, 1e-6, 0.01, 0.005, 0, 1).force, 0);
+}
+
+TEST(PullOut, TheirDistanceResistsRotation)
+{
+    // a block that is lifted by a hangs on both: I theta'' = -(2 k e2 + m (a - g) h) theta, e the distance
+    const double k = 1e6, distance = 0.06, m = 4, a = 3 * gravity, I = m * (0.04 + 0.0025) / 12;
+    Realization r = single({0.2, 0.05, m}, {1e6, 0, 0}, 1, 1);
+    r.joints[0].reinforcement = {.hold_n = 1e9, .hold_stiffness_n_m = k, .hold_length_m = 1, .hold_spread_m = distance};
+    r.step_s = 0.005 * step_bound(r).dt_s;
+    const double want = 2 * pi / std::sqrt((2 * k * distance * distance + m * (a - gravity) * 0.025) / I);
+    double before = 0, time_before = 0, first = -1, last = 0;
+    int count = -1;
+    pushed(
+        r, 40 * want,
+        [&](int, double time) {
+            return Push{0, a * std::min(1.0, time / (20 * want)), time < 0.5 * want ? 1.0 : 0};
+        },
+        [&](double time, const Snapshot& s) {
+            if (time > 21 * want && before < 0 && s.theta_rad[1] >= 0) {
+                last = time_before + (time - time_before) * -before / (s.theta_rad[1] - before);
+                if (first < 0)
+                    first = last;
+                ++count;
+            }
+            before = s.theta_rad[1];
+            time_before = time;
+            return true;
+        });
+    ASSERT_GT(count, 5);
+    EXPECT_NEAR((last - first) / count, want, 0.01 * want);
 }
 
 TEST(PullOut, TwoDowelsResistRockingAtTheirLeverArms)

@@ -2,7 +2,7 @@
 
 #include "ensemble/statics/step_bound.hpp"
 #include "kernels/mechanisms/mortar.hpp"
-#include "tests/kernels/reinforced_runs.hpp"
+#include "tests/kernels/reinforced/reinforced_runs.hpp"
 
 #include <gtest/gtest.h>
 

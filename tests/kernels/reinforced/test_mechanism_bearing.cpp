@@ -1,7 +1,7 @@
 /// Bearings, each against its closed form or an equation of motion that is integrated here.
 
 #include "ensemble/statics/step_bound.hpp"
-#include "tests/kernels/reinforced_runs.hpp"
+#include "tests/kernels/reinforced/reinforced_runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -126,6 +126,41 @@ TEST(Bearing, AFrictionPendulumSticksAndSlipsAsItsOwnEquation)
     EXPECT_GT(stuck, all / 10); // it does stick
     EXPECT_LT(stuck, 9 * all / 10);
     EXPECT_LT(worst, 0.01 * most);
+}
+
+TEST(Bearing, HoldsALiftedBlockAsFarAsADowelDoes)
+{
+    // to half of the smaller half height: x'' = -k s / m below, s at the bottom face, and 0 above
+    const double k = 2e3, reach = 0.5 * 0.025;
+    const Realization r = on_bearing(0, k, 0, 0);
+    std::vector<double> x, face;
+    double chunk = 0;
+    int below = 0, above = 0;
+    pushed(
+        r, 1,
+        [](int, double time) {
+            return Push{time < 0.03 ? 20.0 : 0, time < 0.03 ? 12.0 : 1.2 * gravity, 0};
+        },
+        [&](double now, const Snapshot& s) {
+            chunk = now / static_cast<double>(x.size() + 1);
+            x.push_back(s.x_m[1]);
+            face.push_back(s.x_m[1] + 0.5 * raft.height * std::sin(s.theta_rad[1]));
+            const double y = s.y_m[1];
+            if (now < 0.04 || x.size() < 3)
+                return true;
+            const double rate = (x[x.size() - 1] - 2 * x[x.size() - 2] + x[x.size() - 3]) / (chunk * chunk);
+            if (y > 0 && y < 0.9 * reach) {
+                EXPECT_NEAR(rate, -k * face[x.size() - 2] / raft.mass, 0.05) << now;
+                ++below;
+            }
+            if (y > 1.2 * reach) {
+                EXPECT_NEAR(rate, 0, 0.05) << now;
+                ++above;
+            }
+            return y < 3 * reach;
+        });
+    EXPECT_GT(below, 3);
+    EXPECT_GT(above, 3);
 }
 
 TEST(Bearing, ABlockRocksOnItAsOnAnyBed)
