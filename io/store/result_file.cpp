@@ -238,7 +238,7 @@ void check_same_study(const ResultFile& file, const ResultHeader& asked)
     const ResultHeader& found = file.header;
     const auto refuse = [&](const std::string& text) { throw InputError(file.path.string(), 0, text); };
     if (const std::string other = study_difference(found, file.complete, asked); !other.empty())
-        refuse("holds the results of another study: " + other + ". Choose another output file (-o).");
+        refuse("holds the results of another study: " + other + ". Remove the file, or choose another output (-o).");
     if (found.code_version != asked.code_version)
         refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
                ", whose results may differ bitwise. " +

@@ -312,7 +312,7 @@ void print_file(const CommonOptions& options, const std::string& file)
         if (!std::filesystem::exists(file))
             throw InputError(file, 0, "there is no such file");
         throw InputError(file, 0,
-                         "is not a file that stylobate reads: a study (TOML), results, a diagnosis, a "
+                         "is not a file that stylobate reads: a study (TOML), results, a comparison, a diagnosis, a "
                          "calibration or a risk estimate (HDF5), a measured campaign (HDF5 or a folder with "
                          "campaign.toml), measured "
                          "outcomes (CSV with a column 'fell'), or a record of ground motion.\n  io/FORMAT.md has the "

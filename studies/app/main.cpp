@@ -432,8 +432,10 @@ private:
     void add_report()
     {
         auto* report = app_.add_subcommand(
-            "report", "one self-contained page of a result, a diagnosis, a calibration or a risk estimate");
-        report->add_option("FILE", file_, "results file, diagnosis, calibration or risk estimate (HDF5)")->required();
+            "report",
+            "one self-contained page of a result, a comparison, a diagnosis, a calibration or a risk estimate");
+        report->add_option("FILE", file_, "results file, comparison, diagnosis, calibration or risk estimate (HDF5)")
+            ->required();
         report->add_option("-o,--output", report_.output,
                            "the page, .html (default: the file's name with that extension)");
         report->add_option("--title", report_.title, "title of the page (default: study.title, or the file's name)");

@@ -1,4 +1,4 @@
-/// `stylobate report`: a result, a diagnosis, a calibration or a risk estimate as one page.
+/// `stylobate report`: a result, a comparison, a diagnosis, a calibration or a risk estimate as one page.
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"

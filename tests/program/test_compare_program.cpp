@@ -2,7 +2,9 @@
 
 #include "tests/program/program.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace stylobate {
 namespace {
@@ -75,6 +77,9 @@ TEST_F(Compare, ANeutralVariantHasNoDiscordantPair)
         EXPECT_EQ(limit.value["overall"]["verdict"].text, "open") << limit.name;
         EXPECT_EQ(limit.value["worse_cells"].items.size() + limit.value["better_cells"].items.size(), 0U);
     }
+    EXPECT_EQ(variant(json, "neutral")["notes"].items[0].text,
+              "It is the study of the base: the variant changes nothing.");
+    EXPECT_TRUE(variant(json, "smoother")["notes"].items.empty());
     const JsonValue smoother = variant(json, "smoother")["limit_states"]["collapse"]["overall"];
     EXPECT_GT(smoother["base_only"].number + smoother["variant_only"].number, 0);
     EXPECT_EQ(names(), (Words{"col.h5", "col.toml", "col_comparison.h5", "col_neutral.h5", "col_smoother.h5"}));
@@ -113,6 +118,57 @@ TEST_F(Compare, PairsAreTheRowsOfOneIndex)
     EXPECT_EQ(common.items[1]["draws"].text, "same numbers");
 }
 
+/// The differences in the thirds of each quantity, counted here from the rows of the two results files.
+TEST_F(Compare, WhatTheAnswerHangsOnIsCountedInTheRows)
+{
+    const Ended ended = run(Words{"compare", "col.toml", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const std::vector<JsonValue> depends = variant(json_of(ended), "smoother")["depends_on"].items;
+    const ResultReader reader(folder / "col.h5");
+    const std::vector<std::string>& inputs = reader.header().input_names;
+    const std::vector<ResultRow> base = reader.rows(), other = ResultReader(folder / "col_smoother.h5").rows();
+    ASSERT_EQ(depends.size(), 3U);
+    for (const JsonValue& each : depends) {
+        const std::string quantity = each["quantity"].text;
+        std::vector<double> values;
+        for (const ResultRow& row : base) {
+            double sum = 0, number = 0;
+            for (std::size_t i = 0; i < inputs.size(); ++i)
+                if (inputs[i] == quantity || inputs[i].starts_with(quantity + "[")) {
+                    sum += row.inputs[i];
+                    number += 1;
+                }
+            values.push_back(sum / number);
+        }
+        std::vector<double> sorted = values;
+        std::sort(sorted.begin(), sorted.end());
+        // 384 values: a third of the others lie below place 127.67 of 0 to 383
+        const double low = sorted[127] + (sorted[128] - sorted[127]) * (383.0 / 3 - 127);
+        EXPECT_NEAR(each["between_low"].number, low, 1e-12 * std::abs(low)) << quantity;
+        for (std::size_t third = 0; third < 3; ++third) {
+            std::array<double, 16> sum{}, pairs{};
+            for (std::size_t i = 0; i < base.size(); ++i)
+                if (const bool above = values[i] > each["between_high"].number;
+                    third == (values[i] <= each["between_low"].number ? 0U
+                              : above                                 ? 2U
+                                                                      : 1U)) {
+                    pairs[base[i].cell] += 1;
+                    sum[base[i].cell] +=
+                        (other[i].outcome.state == State::collapsed) - (base[i].outcome.state == State::collapsed);
+                }
+            double mean = 0, cells = 0;
+            for (std::size_t cell = 0; cell < 16; ++cell)
+                if (pairs[cell] > 0) {
+                    mean += sum[cell] / pairs[cell];
+                    cells += 1;
+                }
+            EXPECT_NEAR(each["thirds"].items[third]["difference"].number, mean / cells, 1e-12) << quantity << third;
+        }
+    }
+    EXPECT_LE(depends[0]["p"].number, depends[1]["p"].number);
+    EXPECT_NEAR(depends[0]["p_adjusted"].number, std::min(1.0, 3 * depends[0]["p"].number), 1e-12);
+}
+
 /// Results are those of `run`, and finished results give the same numbers.
 TEST_F(Compare, TakesFinishedResultsToo)
 {
@@ -124,6 +180,13 @@ TEST_F(Compare, TakesFinishedResultsToo)
     const JsonValue a = json_of(by_results)["variants"].items[0];
     const JsonValue b = variant(json_of(run(Words{"compare", "col.toml", "--json"})), "smoother");
     EXPECT_EQ(a["name"].text, "own");
+    // of one name in two folders they are known by their paths
+    fs::create_directory(folder / "dowels");
+    fs::copy_file(folder / "own.h5", folder / "dowels" / "col.h5");
+    const Ended two_folders = run(Words{"compare", "col.h5", "dowels/col.h5", "-o", "folders.h5", "--json"});
+    ASSERT_EQ(two_folders.status, 0) << testing::PrintToString(two_folders);
+    EXPECT_EQ(json_of(two_folders)["base"].text, "col");
+    EXPECT_EQ(json_of(two_folders)["variants"].items[0]["name"].text, "dowels/col");
     for (const char* key : {"difference", "lower", "upper", "unpaired_realizations", "p"})
         EXPECT_EQ(a["limit_states"]["collapse"]["overall"][key].number,
                   b["limit_states"]["collapse"]["overall"][key].number);
@@ -240,6 +303,10 @@ TEST_F(Compare, AnAdaptiveComparisonDependsOnNothingButItsStudies)
     }
     EXPECT_LT(fewest, most);
     const std::string whole = read_bytes(folder / "a.h5");
+    ASSERT_EQ(run(Words{"report", "a.h5"}).status, 0);
+    const std::string page = read_bytes(folder / "a.html");
+    EXPECT_NE(page.find("--adaptive 600 --margin 0.1 -o a.h5"), std::string::npos) << "the command that repeats it";
+    EXPECT_NE(page.find("an adaptive comparison chooses the number of pairs"), std::string::npos);
     // what is there already is not run again, and more than is asked for is left out
     EXPECT_EQ(run(with(words, {"--threads", "1"})).status, 0);
     EXPECT_TRUE(read_bytes(folder / "a.h5") == whole);
@@ -271,6 +338,11 @@ TEST_F(Compare, HasPicturesTablesAndAPage)
     EXPECT_EQ(count_of(csv, "\n"), 1U + 2 * 3 * 17);
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg", "--limit", "slid"}).out,
               "col_comparison_slid.svg\n");
+    const std::string slid = read_bytes(folder / "col_comparison_slid.svg"); // no damage: more of it is not worse
+    EXPECT_NE(slid.find("<text>more</text>"), std::string::npos);
+    EXPECT_EQ(slid.find("<text>worse"), std::string::npos);
+    EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg"}).status, 0);
+    EXPECT_NE(read_bytes(folder / "col_comparison_collapse.svg").find("<text>worse</text>"), std::string::npos);
     EXPECT_EQ(run(Words{"report", "col_comparison.h5"}).status, 0);
     const std::string page = read_bytes(folder / "col_comparison.html");
     for (const char* words : {"What changes", "Where it changes", "smoother", "same quantiles", "data:image/png"})
@@ -313,6 +385,11 @@ TEST_F(Compare, SearchesTheValuesOfAKey)
     refused("[optimise]\n\"contact.friction\" = { from = 0.2, to = 90 }\n", {"contact.friction", "is outside"});
     refused("[optimise]\nminimise = \"unseated\"\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n",
             {"is no limit state of the study", "It has collapse, rocked, slid"});
+    refused("[optimise]\ncontact.friction = { from = 0.2, to = 0.9 }\n", {"contains tables", "stands in quotes"});
+    refused("[optimise]\n\"contact.frction\" = { from = 0.2, to = 0.9 }\n",
+            {"[optimise] with contact.frction=0.2: unknown key", "Did you mean friction"});
+    refused("[optimise]\n\"structure.blocks\" = { from = 3, to = 5 }\n",
+            {"[optimise] with structure.blocks=", "not a whole number"}); // though both ends and the middle are
     refused("[optimise]\n\"excitation.cycles\" = { from = 4, to = 9 }\n", {"excitation.cycles"});
 }
 
@@ -356,6 +433,7 @@ TEST_F(Compare, RefusesResultsThatAreNone)
     ASSERT_EQ(run(Words{"compare", "col.toml"}).status, 0);
     expect_refused(Words{"compare", "col.h5"}, {"is one result", "compare BASE.h5 VARIANT.h5"});
     expect_refused(Words{"compare", "col.h5", "col.toml"}, {"Give study files, or results of them all"});
+    expect_refused(Words{"compare", "col.h5", "col.h5"}, {"col.h5 is given twice"});
     expect_refused(Words{"compare", "col_comparison.h5"}, {"is a comparison of studies"});
     expect_refused(Words{"compare", "col.h5", "col_neutral.h5", "--set", "study.seed=2"}, {"are fixed"});
     ASSERT_EQ(run(Words{"run", "col.toml", "--set", "study.seed=2", "-o", "seed.h5"}).status, 0);

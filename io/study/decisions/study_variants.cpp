@@ -124,6 +124,9 @@ std::optional<OptimiseSpec> read_optimise(const KeyReader& top)
             if (value.type != TomlValue::Type::table)
                 keys.refuse(value.key, "is not a table",
                             "Give \"KEY\" = { from = ..., to = ... }; the other keys are minimise and budget.");
+            if (std::ranges::any_of(value.entries, [](const auto& e) { return e.type == TomlValue::Type::table; }))
+                keys.refuse(value.key, "contains tables",
+                            "A key with dots stands in quotes: \"contact.friction\" = { from = ..., to = ... }.");
             spec.keys.push_back(read_searched(keys.table(value.key), value.key));
         }
     if (spec.keys.empty() || spec.keys.size() > most_searched_keys)

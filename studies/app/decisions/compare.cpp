@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 namespace stylobate {
 
@@ -31,7 +32,8 @@ std::string default_output(const std::string& base)
     return fs::path(base).stem().string() + "_comparison.h5";
 }
 
-/// What the studies are called in the comparison: the base by its file, a variant by its own name.
+/// What the studies are called in the comparison: the base by its file, a variant by its own name; results of one name
+/// in several folders by their paths.
 std::vector<std::string> names_of(const CompareOptions& wanted, const std::vector<std::string>& results)
 {
     std::vector<std::string> names;
@@ -42,6 +44,9 @@ std::vector<std::string> names_of(const CompareOptions& wanted, const std::vecto
             name = name.substr(base.size() + 1);
         names.push_back(name);
     }
+    if (std::set(names.begin(), names.end()).size() < names.size())
+        for (std::size_t i = 0; i < names.size(); ++i)
+            names[i] = fs::path(results[i]).replace_extension().string();
     return names;
 }
 
@@ -174,6 +179,9 @@ int compare_results(const CommonOptions& options, const CompareOptions& wanted, 
     if (wanted.files.size() < 2)
         throw InputError(wanted.files.front(), 0,
                          "is one result.\n  Give those of its variants too: compare BASE.h5 VARIANT.h5 ...");
+    for (const std::string& file : wanted.files)
+        if (std::ranges::count(wanted.files, file) > 1)
+            throw InputError(fmt::format("compare: {} is given twice; give each study once", file));
     std::vector<std::string> texts;
     for (const auto& results : results_to_compare(wanted.files))
         texts.push_back(results->header().study_toml);

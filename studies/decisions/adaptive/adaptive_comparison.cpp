@@ -18,7 +18,7 @@ constexpr std::uint64_t first_look = 8; ///< pairs of each cell
 
 StudySide side_now(const WholeRun& run)
 {
-    StudySide side(limit_definitions(run.study(), run.header()), run.study().originals());
+    StudySide side(run.study(), run.header());
     run.for_each_row([&](const ResultRow& row) { side.add(row); });
     return side;
 }

@@ -168,6 +168,8 @@ void check_comparable(const ResultHeader& base, const std::string& base_name, co
 
 std::vector<std::string> differences_to_know(const ResultHeader& base, const ResultHeader& variant)
 {
+    if (base.study_toml == variant.study_toml)
+        return {"It is the study of the base: the variant changes nothing."};
     std::vector<std::string> notes;
     const Keys a = keys_of(base, "base"), b = keys_of(variant, "variant");
     const auto numeric = [](const std::string& key) {

@@ -38,7 +38,7 @@ void check_names(const std::vector<std::string>& names)
 
 StudySide side_of(const Study& study, const ResultReader& reader)
 {
-    StudySide side(limit_definitions(study, reader.header()), study.originals());
+    StudySide side(study, reader.header());
     reader.for_each_row([&](const ResultRow& row) { side.add(row); });
     return side;
 }

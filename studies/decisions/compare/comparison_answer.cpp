@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -15,7 +16,8 @@ namespace {
 std::string over_all(const Comparison& c)
 {
     if (c.motions > 0)
-        return fmt::format("over {} motions at {} intensities", c.motions, c.cells());
+        return fmt::format("over {} motion{}{}", c.motions, c.motions == 1 ? "" : "s",
+                           c.cells() > 1 ? fmt::format(" at {} intensities", c.cells()) : "");
     return c.cells() > 1 ? fmt::format("over the {} cells of the study, each with the same weight", c.cells())
                          : "under the study's shaking";
 }
@@ -51,6 +53,39 @@ std::string third_text(const InputDependence& input, std::size_t third)
     }
 }
 
+/// The cells in which it harms, or helps, with the number of them and the one of the largest difference; empty where
+/// none is named.
+std::string cells_text(const Comparison& c, const VariantComparison& variant, bool worse)
+{
+    const LimitComparison& limit = variant.limits.front();
+    if (c.cells() == 1 || !limit.damage)
+        return {};
+    const std::vector<std::size_t> cells = limit.named(c.rate, worse); // the largest difference first
+    if (cells.empty())
+        return {};
+    const PlaceComparison& most = limit.cells[cells.front()];
+    return fmt::format("It {} in {} of {} {} ({}), most at {}: {:.3f} instead of {:.3f}, difference {}.",
+                       worse ? "harms" : "helps", cells.size(), limit.cells.size(),
+                       c.motions > 0 ? "intensities" : "cells", adjustment_text(c), c.place(cells.front()),
+                       most.variant.probability, most.base.probability, difference_text(most));
+}
+
+/// How many pairs, or motions, would show the difference that was found: the distance of the interval's limit from it
+/// falls with the root of their number. @pre the interval contains 0
+std::string more_pairs_text(const Comparison& c, const PlaceComparison& all)
+{
+    const char* what = c.motions > 0 ? "motions" : "pairs";
+    if (all.difference == 0)
+        return fmt::format("More {} would exclude smaller differences; the one that was found is 0.", what);
+    const auto number = static_cast<double>(c.motions > 0 ? c.motions : all.counts.pairs());
+    const double reach = all.difference < 0 ? all.upper - all.difference : all.difference - all.lower;
+    const double needed = std::max(number + 1, number * std::pow(reach / all.difference, 2));
+    const double step = std::pow(10, std::max(0.0, std::floor(std::log10(needed)) - 1)); // two digits, upwards
+    return fmt::format("More {}: were the difference the one that was found, about {:.0f} instead of {:.0f} would "
+                       "show it.",
+                       what, std::ceil(needed / step - 1e-6) * step, number);
+}
+
 } // namespace
 
 std::string answer_text(const Comparison& c, const VariantComparison& variant)
@@ -60,10 +95,9 @@ std::string answer_text(const Comparison& c, const VariantComparison& variant)
     if (all.counts.pairs() == 0)
         return fmt::format("With {} nothing can be said: no pair of realizations is valid in both studies.",
                            variant.name);
-    std::string text =
-        fmt::format("With {} the probability of {} is {:.3f} instead of {:.3f} {}: a difference of {} at {:g} %. ",
-                    variant.name, limit.describe, all.variant.probability, all.base.probability, over_all(c),
-                    difference_text(all), 100 * c.level);
+    std::string text = fmt::format(
+        "With {} the probability of {} is {:.3f} instead of {:.3f} {}: a difference of {} at {:g} %. ", variant.name,
+        limit.name, all.variant.probability, all.base.probability, over_all(c), difference_text(all), 100 * c.level);
     switch (limit.verdict(all)) {
     case ChangeVerdict::better:
     case ChangeVerdict::less:
@@ -72,26 +106,15 @@ std::string answer_text(const Comparison& c, const VariantComparison& variant)
     case ChangeVerdict::more:
         return text + (limit.damage ? "It harms." : "It is more.");
     default:
-        return text + fmt::format("No difference is shown; one larger than {:.3f} is excluded.", all.largest());
+        return text + (all.largest() < 1
+                           ? fmt::format("No difference is shown; one larger than {:.3f} is excluded.", all.largest())
+                           : "No difference is shown, and none is excluded.");
     }
 }
 
 std::string harm_text(const Comparison& c, const VariantComparison& variant)
 {
-    const LimitComparison& limit = variant.limits.front();
-    if (c.cells() == 1 || !limit.damage)
-        return {};
-    const std::vector<std::size_t> cells = limit.named(c.rate, true);
-    if (cells.empty())
-        return {};
-    std::size_t worst = cells.front();
-    for (const std::size_t cell : cells)
-        if (limit.cells[cell].difference > limit.cells[worst].difference)
-            worst = cell;
-    return fmt::format("It harms in {} of {} cells ({}), most at {}: {} instead of {}, difference {}.", cells.size(),
-                       limit.cells.size(), adjustment_text(c), c.place(worst),
-                       fmt::format("{:.3f}", limit.cells[worst].variant.probability),
-                       fmt::format("{:.3f}", limit.cells[worst].base.probability), difference_text(limit.cells[worst]));
+    return cells_text(c, variant, true);
 }
 
 std::vector<std::string> dependence_texts(const Comparison& c, const VariantComparison& variant)
@@ -109,6 +132,8 @@ std::vector<std::string> what_would_change_it(const Comparison& c, const Variant
 {
     const LimitComparison& limit = variant.limits.front();
     const PlaceComparison& overall = limit.overall;
+    if (overall.counts.pairs() == 0)
+        return {"Pairs that are valid in both studies; there is none."};
     const Sign answer = sign_of(overall);
     std::vector<std::string> all;
     for (const InputDependence& input : variant.depends) {
@@ -124,19 +149,15 @@ std::vector<std::string> what_would_change_it(const Comparison& c, const Variant
                                           interval_text(d)));
         }
     }
-    if (const std::string harm = harm_text(c, variant); !harm.empty())
-        all.push_back(harm);
-    if (answer == Sign::none && overall.counts.pairs() > 0 && overall.difference != 0) {
-        // an interval's half width falls with the root of the number of pairs
-        const double half = (overall.upper - overall.lower) / 2;
-        const double times = std::pow(half / std::fabs(overall.difference), 2);
-        all.push_back(fmt::format("More pairs: were the difference the one that was found, about {:.2g} times as many "
-                                  "would show it.",
-                                  times));
-    }
+    for (const bool worse : {true, false}) // cells that are not as the answer is
+        if (const std::string cells = cells_text(c, variant, worse);
+            !cells.empty() && answer != (worse ? Sign::more : Sign::less))
+            all.push_back(cells);
+    if (answer == Sign::none)
+        all.push_back(more_pairs_text(c, overall));
     if (all.empty())
-        all.push_back(variant.depends.empty() ? "Nothing that was looked at."
-                                              : "No drawn quantity within its range changes the sign of the answer.");
+        all.push_back(variant.depends.empty() ? "Nothing that was examined: no test by drawn quantity was made."
+                                              : "None of the drawn quantities is shown to change it.");
     return all;
 }
 

@@ -22,7 +22,7 @@ std::string harm_text(const Comparison& comparison, const VariantComparison& var
 std::vector<std::string> dependence_texts(const Comparison& comparison, const VariantComparison& variant);
 
 /// What would change the answer: the other sign, or no difference shown, in a third of a quantity; cells in which it
-/// harms; what more pairs would decide. At least one sentence.
+/// harms though it helps over all, or the other way round; what more pairs would decide. At least one sentence.
 std::vector<std::string> what_would_change_it(const Comparison& comparison, const VariantComparison& variant);
 
 } // namespace stylobate

@@ -208,6 +208,9 @@ VariantComparison variant_of(const Table& table, std::size_t cells)
     const std::vector<std::int32_t>& damage = table.integers("damage", {names.size()});
     if (describe.size() != names.size())
         table.refuse("its limit states have no descriptions");
+    if (names.empty())
+        table.refuse("it has no limit state");
+    table.counts("both", {names.size(), cells}); // as many places as there are numbers
     for (std::size_t i = 0; i < names.size(); ++i)
         v.limits.push_back({names[i], describe[i], damage[i] != 0, std::vector<PlaceComparison>(cells), {}});
     std::vector<PlaceComparison*> places, overall;
@@ -274,6 +277,10 @@ Comparison read_comparison(const std::filesystem::path& file)
     c.frequency_hz = axis("frequency_hz");
     c.pga_m_s2 = axis("pga_m_s2");
     c.intensity = axis("intensity");
+    if (c.frequency_hz.empty() != c.pga_m_s2.empty())
+        general.refuse("one axis of its surface is missing");
+    if (general.texts("variants").empty())
+        general.refuse("it has no variant");
     for (std::size_t i = 0; i < general.texts("variants").size(); ++i)
         c.variants.push_back(variant_of(named(variant_table + std::to_string(i)), c.cells()));
     return c;

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -124,12 +125,17 @@ private:
     {
         if (c_.motions > 0)
             page_.paragraph("Pairs share motions here, so no test by drawn quantity was made. How much the answer "
-                            "depends on the motions is in the width of its intervals, which count each motion once.");
+                            "depends on the motions is in the width of its intervals, which take motions, and not "
+                            "pairs, as independent.");
+        else if (c_.adaptive_budget > 0)
+            page_.paragraph("No test by drawn quantity was made: an adaptive comparison chooses the number of pairs of "
+                            "a cell by their outcomes.");
+        else if (std::ranges::all_of(c_.variants, [](const auto& variant) { return variant.depends.empty(); }))
+            page_.paragraph("No test by drawn quantity was made: none varies among the pairs of the base.");
         else
             page_.paragraph(fmt::format(
                 "Differences of the first limit state in the lower, middle and upper third of each drawn quantity, "
-                "means "
-                "over the cells. A quantity counts where the adjusted p-value of its rank test is at most {:g}.",
+                "means over the cells. A quantity counts where the adjusted p-value of its rank test is at most {:g}.",
                 c_.rate));
         for (const VariantComparison& variant : c_.variants) {
             if (variant.limits.empty())
@@ -163,10 +169,21 @@ private:
             studies += fmt::format(" variant_{}.toml", i + 1);
             results += " " + c_.variants[i].results;
         }
-        page_.paragraph("The studies above, in files of their own, give the same numbers with the same version of the "
-                        "program. The second command uses the results that exist.");
-        page_.block(
-            fmt::format("stylobate compare {}\nstylobate compare {}\nstylobate report {}\n", studies, results, file_));
+        const std::string file = fs::path(file_).filename().string();
+        std::string options = " -o " + file;
+        if (c_.level != interval_level)
+            options += fmt::format(" --level {}", c_.level);
+        const std::string again = "The studies above, in files of their own, give the same numbers with the same "
+                                  "version of the program.";
+        if (c_.adaptive_budget > 0) {
+            page_.paragraph(again);
+            page_.block(fmt::format("stylobate compare {} --adaptive {} --margin {}{}\nstylobate report {}\n", studies,
+                                    c_.adaptive_budget, c_.adaptive_margin, options, file));
+            return;
+        }
+        page_.paragraph(again + " The second command uses the results that exist.");
+        page_.block(fmt::format("stylobate compare {0}{2}\nstylobate compare {1}{2}\nstylobate report {3}\n", studies,
+                                results, options, file));
     }
 
     void overall()
@@ -182,7 +199,9 @@ private:
                 table.rows.push_back(
                     {limit.describe, side_text(limit.overall.base), side_text(limit.overall.variant),
                      difference_text(limit.overall),
-                     fmt::format("{:.0f} ({:.1f} times)", limit.overall.unpaired, limit.overall.saving()),
+                     std::isfinite(limit.overall.unpaired)
+                         ? fmt::format("{:.0f} ({:.1f} times)", limit.overall.unpaired, limit.overall.saving())
+                         : "unknown",
                      verdict_tag(limit, limit.overall)});
             page_.table(table);
         }

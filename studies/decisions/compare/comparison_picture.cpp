@@ -21,15 +21,17 @@ constexpr double large = 0.2; ///< a difference that has the full colour
 /// Numbers of the classes below.
 enum Shade { better_much, better, not_named_less, none, not_named_more, worse, worse_much };
 
-std::vector<MapClass> classes()
+/// @param damage whether less of it is better
+std::vector<MapClass> classes(bool damage)
 {
-    return {{better_much, "#2166ac", fmt::format("better, ≥ {:g}", large)},
-            {better, "#74add1", "better"},
+    const char *less = damage ? "better" : "less", *more = damage ? "worse" : "more";
+    return {{better_much, "#2166ac", fmt::format("{}, ≥ {:g}", less, large)},
+            {better, "#74add1", less},
             {not_named_less, "#d8e8f1", "less, not named"},
             {none, "#f7f7f7", "no change"},
             {not_named_more, "#fbe3d4", "more, not named"},
-            {worse, "#ef8a62", "worse"},
-            {worse_much, "#b2182b", fmt::format("worse, ≥ {:g}", large)}};
+            {worse, "#ef8a62", more},
+            {worse_much, "#b2182b", fmt::format("{}, ≥ {:g}", more, large)}};
 }
 
 double shade_of(const PlaceComparison& place, double rate)
@@ -59,7 +61,7 @@ void draw_maps(const Comparison& comparison, const std::string& limit, const std
         const LimitComparison& of = limit_of(variant, limit);
         MapPanel panel;
         panel.title = fmt::format("{}: {}", variant.name, difference_text(of.overall));
-        panel.classes = classes();
+        panel.classes = classes(of.damage);
         const bool first = picture.line.empty();
         for (const PlaceComparison& place : of.cells) {
             panel.value.push_back(shade_of(place, comparison.rate));

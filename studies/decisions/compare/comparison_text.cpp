@@ -153,6 +153,8 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
         text += "  draws: " + inputs_text(variant) + "\n";
     for (const std::string& note : variant.notes)
         text += "  " + note + "\n";
+    if (variant.pairs == 0)
+        return text + "  no pair of realizations is valid in both studies: nothing can be said\n";
     for (const LimitComparison& limit : variant.limits) {
         const PlaceComparison& all = limit.overall;
         text += fmt::format("  {}: {} to {}, difference {}: {}\n", limit.name, share_text(all.base),

@@ -53,8 +53,9 @@ std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultH
     return all;
 }
 
-StudySide::StudySide(std::vector<LimitDefinition> limits, std::uint64_t originals)
-    : limits_(std::move(limits)), state_(originals), stride_(std::max<std::uint64_t>(1, originals / most_draws))
+StudySide::StudySide(const Study& study, const ResultHeader& header)
+    : limits_(limit_definitions(study, header)), state_(study.originals()), per_cell_(study.realizations),
+      drawn_per_cell_(std::max<std::uint64_t>(1, most_draws / study.cells()))
 {
     assert(limits_.size() < 30 && "limit states have a bit each");
 }
@@ -70,7 +71,7 @@ void StudySide::add(const ResultRow& row)
         for (std::size_t i = 0; i < limits_.size(); ++i)
             state |= static_cast<std::uint32_t>(limits_[i].reached(row)) << i;
     state_[row.index] = state;
-    if (row.index % stride_ == 0)
+    if (row.index % per_cell_ < drawn_per_cell_)
         draws_.push_back({row.index, row.inputs});
 }
 

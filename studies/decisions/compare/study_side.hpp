@@ -24,9 +24,8 @@ std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultH
 /// What became of the realizations of a study, by index.
 class StudySide {
 public:
-    /// @param originals realizations that are no replicas   @param kept of the inputs: those of every so many
-    /// realizations
-    StudySide(std::vector<LimitDefinition> limits, std::uint64_t originals);
+    /// Without rows as yet. @param study, header must outlive it
+    StudySide(const Study& study, const ResultHeader& header);
 
     void add(const ResultRow& row);
 
@@ -37,7 +36,8 @@ public:
     std::uint64_t size() const { return state_.size(); }
     const std::vector<LimitDefinition>& limits() const { return limits_; }
 
-    /// Draws of some realizations, for the question which numbers two studies have in common.
+    /// Draws of the first realizations of each cell, for the question which numbers two studies have in common: an
+    /// adaptive comparison has the first ones, too.
     struct Draws {
         std::uint64_t index;
         std::vector<double> inputs;
@@ -47,12 +47,12 @@ public:
 
 private:
     static constexpr std::uint32_t present = 1u << 31, invalid = 1u << 30;
-    static constexpr std::uint64_t most_draws = 512;
+    static constexpr std::uint64_t most_draws = 512; ///< or one of each cell
 
     std::vector<LimitDefinition> limits_;
     std::vector<std::uint32_t> state_;
     std::vector<Draws> draws_;
-    std::uint64_t stride_;
+    std::uint64_t per_cell_, drawn_per_cell_; ///< realizations of a cell, and those of them that keep their draws
 };
 
 } // namespace stylobate

@@ -45,7 +45,16 @@ std::unique_ptr<WholeRun> run_at(const SearchFiles& files, const OptimiseSpec& s
     std::vector<std::string> settings = files.settings;
     for (std::size_t k = 0; k < value.size(); ++k)
         settings.push_back(spec.keys[k].key + "=" + toml_number(value[k]));
-    LoadedStudy loaded = LoadedStudy::from_file(files.study, settings);
+    LoadedStudy loaded = [&] {
+        try {
+            return LoadedStudy::from_file(files.study, settings);
+        } catch (const InputError& error) { // of a setting that the user did not give
+            const std::string text = error.what(), setting = "--set ";
+            if (value.empty() || !text.starts_with(setting))
+                throw;
+            throw InputError(files.study, 0, "[optimise] with " + text.substr(setting.size()));
+        }
+    }();
     const std::string stem = std::filesystem::path(files.study).stem().string();
     const std::string name =
         value.empty() ? stem : fmt::format("{}_search_{:08x}", stem, study_crc32_of(loaded.result_header()));
@@ -63,7 +72,7 @@ std::vector<double> values_at(const OptimiseSpec& spec, const SearchPlace& place
 
 std::unique_ptr<StudySide> side_of(const WholeRun& run)
 {
-    auto side = std::make_unique<StudySide>(limit_definitions(run.study(), run.header()), run.study().originals());
+    auto side = std::make_unique<StudySide>(run.study(), run.header());
     run.for_each_row([&](const ResultRow& row) { side->add(row); });
     return side;
 }
@@ -127,6 +136,8 @@ public:
                 return std::nullopt;
         const std::vector<SearchPlace> candidates = candidate_places(spec_.keys.size());
         while (points_.size() < most_points) {
+            if (observer_.stop_requested()) // while points that are there already are taken again
+                return std::nullopt;
             const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
             const NextPlace next = next_place(surface, candidates, places());
             if (next.improvement < least_improvement)
@@ -219,7 +230,7 @@ void check_search(const SearchFiles& files)
     const OptimiseSpec spec = spec_of(files);
     const auto base = run_at(files, spec, {});
     check_can_be_compared(base->header(), files.study);
-    limit_number(StudySide(limit_definitions(base->study(), base->header()), 1), spec.minimise, files.study);
+    limit_number(StudySide(base->study(), base->header()), spec.minimise, files.study);
     const std::uint64_t each = base->header().total, first = first_places(spec.keys.size()).size() + 1;
     if (spec.budget / each < first + 1)
         throw InputError(files.study, 0,
@@ -228,7 +239,7 @@ void check_search(const SearchFiles& files)
                                      "study.realizations.",
                                      spec.budget, spec.budget / each, each, first + 1, (first + 1) * each));
     base->check_drawn();
-    for (const double end : {0.0, 1.0}) { // both ends of all keys
+    for (const double end : {0.0, 1.0, 0.381966}) { // both ends of all keys, and a place where none is a whole number
         const auto at_end = run_at(files, spec, values_at(spec, SearchPlace(spec.keys.size(), end)));
         check_comparable(base->header(), files.study, at_end->header(), files.study + " (with a value of [optimise])");
         at_end->check_drawn();

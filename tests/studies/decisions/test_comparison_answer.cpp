@@ -1,10 +1,13 @@
 /// What a comparison comes to in sentences, and that its file keeps what they are made of.
 
+#include "ensemble/model/input_error.hpp"
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -87,7 +90,100 @@ TEST(ComparisonAnswer, SaysHowManyMorePairsWouldShowADifference)
     c.pga_m_s2.pop_back();
     const std::vector<std::string> changes = what_would_change_it(c, c.variants.front());
     ASSERT_EQ(changes.size(), 1U);
-    EXPECT_NE(changes.front().find("about 9 times as many"), std::string::npos) << changes.front();
+    // 100 pairs, whose upper limit is 0.3 from the difference: three times too far, so 9 times as many
+    EXPECT_NE(changes.front().find("about 900 instead of 100 would show it"), std::string::npos) << changes.front();
+
+    // the limit on the other side of 0 counts, however near the one beyond the difference is: (0.11 / 0.1)^2
+    PlaceComparison& all = c.variants.front().limits.front().overall;
+    all.lower = -0.12;
+    all.upper = 0.01;
+    EXPECT_NE(what_would_change_it(c, c.variants.front()).front().find("about 130 instead of 100"), std::string::npos)
+        << what_would_change_it(c, c.variants.front()).front();
+    // the same of a variant that seems to harm
+    all.difference = 0.1;
+    all.lower = -0.01;
+    all.upper = 0.12;
+    EXPECT_NE(what_would_change_it(c, c.variants.front()).front().find("about 130 instead of 100"), std::string::npos);
+    all.difference = 0;
+    EXPECT_EQ(what_would_change_it(c, c.variants.front()).front(),
+              "More pairs would exclude smaller differences; the one that was found is 0.");
+}
+
+TEST(ComparisonAnswer, CellsThatAreAsTheAnswerIsDoNotChangeIt)
+{
+    Comparison c = comparison(0.01, 0.3); // it harms
+    c.variants.front().depends.clear();
+    const std::vector<std::string> changes = what_would_change_it(c, c.variants.front());
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_TRUE(changes.front().starts_with("It helps in 1 of 2 cells")) << changes.front();
+    EXPECT_NE(changes.front().find("3 m/s2: 0.400 instead of 0.800, difference -0.4000"), std::string::npos)
+        << changes.front();
+    const Comparison open = comparison(-0.2, 0.05);
+    const std::vector<std::string> both = what_would_change_it(open, open.variants.front());
+    ASSERT_EQ(both.size(), 5U) << "two thirds with a difference, both kinds of cells, more pairs";
+    EXPECT_TRUE(both[0].starts_with("friction below 0.65: a difference is shown,")) << both[0];
+    EXPECT_TRUE(both[2].starts_with("It harms")) << both[2];
+    EXPECT_TRUE(both[3].starts_with("It helps")) << both[3];
+    EXPECT_TRUE(both[4].starts_with("More pairs")) << both[4];
+}
+
+TEST(ComparisonAnswer, AThirdWithTheOtherSignIsNamed)
+{
+    Comparison c = comparison(-0.2, -0.05);
+    c.variants.front().depends.front().found.thirds[1] = {0.1, 0.01, 0.2};
+    EXPECT_EQ(what_would_change_it(c, c.variants.front()).front(),
+              "friction from 0.65 to 0.71: the difference has the other sign, 0.100 [0.010, 0.200].");
+}
+
+TEST(ComparisonAnswer, OfMotionsSpeaksOfMotions)
+{
+    Comparison c = comparison(-0.4, 0.2);
+    c.kind = "fragility";
+    c.adjustment = "holm";
+    c.frequency_hz = c.pga_m_s2 = {};
+    c.intensity = {1, 2};
+    c.motions = 20;
+    VariantComparison& dowels = c.variants.front();
+    dowels.limits.front().describe = "a block falls"; // of a damage state: a clause, no noun
+    dowels.depends.clear();
+    EXPECT_TRUE(answer_text(c, dowels).starts_with("With dowels the probability of collapse is"));
+    EXPECT_NE(answer_text(c, dowels).find("over 20 motions at 2 intensities: a difference"), std::string::npos);
+    EXPECT_TRUE(harm_text(c, dowels).starts_with("It harms in 1 of 2 intensities (Holm")) << harm_text(c, dowels);
+    EXPECT_EQ(what_would_change_it(c, dowels).back(),
+              "More motions: were the difference the one that was found, about 180 instead of 20 would show it.");
+    c.intensity = {}; // a cloud
+    dowels.limits.front().cells.pop_back();
+    EXPECT_NE(answer_text(c, dowels).find("over 20 motions: a difference"), std::string::npos);
+    dowels.limits.front().overall.upper = 1; // one motion alone shows nothing
+    EXPECT_TRUE(answer_text(c, dowels).ends_with("No difference is shown, and none is excluded."));
+}
+
+TEST(ComparisonAnswer, WithoutPairsNothingIsSaid)
+{
+    Comparison c = comparison(-1, 1);
+    VariantComparison& dowels = c.variants.front();
+    dowels.limits.front().overall = {};
+    dowels.limits.front().overall.difference = std::nan("");
+    dowels.pairs = 0;
+    dowels.depends.clear();
+    EXPECT_EQ(what_would_change_it(c, dowels),
+              std::vector<std::string>{"Pairs that are valid in both studies; there is none."});
+    const std::string text = comparison_text(c);
+    EXPECT_NE(text.find("no pair of realizations is valid in both studies"), std::string::npos) << text;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+}
+
+TEST(ComparisonAnswer, WhatNothingChangesIsSaid)
+{
+    Comparison c = comparison(-0.2, -0.05);
+    VariantComparison& dowels = c.variants.front();
+    dowels.limits.front().cells[1].p_adjusted = 1;
+    dowels.depends.front().p_adjusted = 0.06;
+    EXPECT_EQ(what_would_change_it(c, dowels),
+              std::vector<std::string>{"None of the drawn quantities is shown to change it."});
+    dowels.depends.clear();
+    EXPECT_EQ(what_would_change_it(c, dowels),
+              std::vector<std::string>{"Nothing that was examined: no test by drawn quantity was made."});
 }
 
 TEST(ComparisonAnswer, ItsGroundsAreInTheFile)
@@ -102,6 +198,13 @@ TEST(ComparisonAnswer, ItsGroundsAreInTheFile)
     c.variants.front().depends.clear();
     write_comparison(c, file);
     EXPECT_TRUE(read_comparison(file).variants.front().depends.empty());
+    Comparison none = c; // what is no comparison is refused before it is used
+    none.variants.clear();
+    write_comparison(none, file);
+    EXPECT_THROW(read_comparison(file), InputError);
+    c.variants.front().limits.clear();
+    write_comparison(c, file);
+    EXPECT_THROW(read_comparison(file), InputError);
     std::filesystem::remove(file);
 }
 

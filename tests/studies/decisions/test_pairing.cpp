@@ -39,8 +39,7 @@ ResultRow row(std::uint64_t index, State state, std::vector<double> inputs = {})
 
 struct Sides {
     explicit Sides(const std::string& text)
-        : study(parse_study(text, "study.toml")), base(limit_definitions(study, header), study.originals()),
-          variant(limit_definitions(study, header), study.originals())
+        : study(parse_study(text, "study.toml")), base(study, header), variant(study, header)
     {
     }
     VariantComparison compared() const { return compare_sides(base, names, variant, names, pair_layout(study, 0.95)); }
@@ -129,6 +128,23 @@ TEST(Pairing, FindsWhichDrawsAreCommon)
     EXPECT_EQ(found[3].draws, CommonDraws::base_only);
     EXPECT_EQ(found[4].name, "phase");
     EXPECT_EQ(found[4].draws, CommonDraws::variant_only);
+}
+
+/// The first realizations of each cell have their draws kept: those that an adaptive comparison has.
+TEST(Pairing, DrawsAreKeptWhereAnAdaptiveComparisonHasPairs)
+{
+    std::string large = surface;
+    large.replace(large.find("realizations = 4"), 16, "realizations = 100000");
+    Sides s(large);
+    s.names = {"friction[0]"};
+    for (std::uint64_t cell = 0; cell < 6; ++cell)
+        for (std::uint64_t k = 0; k < 8; ++k) {
+            const double u = std::fmod(0.618 * static_cast<double>(8 * cell + k), 1);
+            s.base.add(row(cell * 100000 + k, State::stood, {u}));
+            s.variant.add(row(cell * 100000 + k, State::stood, {std::fmod(7.3 * u, 1)}));
+        }
+    EXPECT_EQ(s.base.draws().size(), 48U);
+    EXPECT_EQ(s.compared().inputs.front().draws, CommonDraws::other);
 }
 
 Comparison sample()
