@@ -233,10 +233,10 @@ std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name
         return std::find(kinds.begin(), kinds.end(), file.detail) != kinds.end();
     };
     for (const Use& use : uses)
-        if (const std::string_view verb = use.verb; use.kind == file.kind && !(verb == "replay" && is({"rare"})) &&
-                                                    !(verb == "compare" && is({"rare", "sensitivity", "survival", "replay"})) &&
-                                                    (verb != "risk" || is({"fragility"})) &&
-                                                    (verb != "past" || is({"survival"})))
+        if (const std::string_view verb = use.verb;
+            use.kind == file.kind && !(verb == "replay" && is({"rare"})) &&
+            !(verb == "compare" && is({"rare", "sensitivity", "survival", "replay"})) &&
+            (verb != "risk" || is({"fragility"})) && (verb != "past" || is({"survival"})))
             found.push_back({use.verb, fmt::format(fmt::runtime(use.command), name), use.purpose});
     return found;
 }
