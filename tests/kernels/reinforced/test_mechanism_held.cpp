@@ -52,10 +52,6 @@ Realization beside_another(const Stone& stone, const Bed& bed)
     return r;
 }
 
-} // namespace
-
-namespace {
-
 /// Of runs of several durations: the largest energy that the springs store and what is then called a loss.
 struct Losses {
     double stored = 0, lost = 0, residual = 0;
@@ -148,8 +144,9 @@ TEST(MechanismHeld, StepsAreSafeWhereItIsStifferThanTheBed)
         const StepBound bound = step_bound(r);
         EXPECT_LT(range(0.999 * bound.dt_s), 0.01) << held.name;
         EXPECT_LT(range(0.95 * structure_step_bound(r, bound).dt_s), 0.01) << held.name;
-        if (held.name != "tendon" && held.name != "clamp") // taken as if they held in both directions
+        if (held.name != "tendon" && held.name != "clamp") { // taken as if they held in both directions
             EXPECT_GT(range((held.name == "dashpot" ? 2.5 : 1.6) * bound.dt_s), 0.01) << held.name;
+        }
     }
 }
 
