@@ -2,7 +2,7 @@
 # Runs the ready studies of decisions (which strengthening helps, what is the risk, what does it tell that the column
 # still stands) and writes their results and pictures into docs/decisions.md.
 #
-#   scripts/decisions.sh     some ten minutes on two cores
+#   scripts/decisions.sh     some twenty minutes on two cores
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
@@ -37,7 +37,8 @@ ROWS
     echo
     echo "| study | variant | base | variant | difference | verdict | cells better, worse | unpaired |"
     echo "|---|---|---:|---:|---:|---|---:|---:|"
-    for study in small_scale_strengthened strengthening_dowels strengthening_tendon isolated_column; do
+    for study in small_scale_strengthened strengthening_dowels strengthening_tendon strengthening_joints isolated_column \
+        small_scale_restored restored_column small_scale_clamped clamped_colonnade; do
         "$stylobate" compare "$inputs/$study.toml" -o "$study.cmp.h5" --json --quiet >"$study.json"
         "$stylobate" export "$study.cmp.h5" --to png -o "$images/decisions_$study.png" --force --quiet
         compared "$study.json" "$study"

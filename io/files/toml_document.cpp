@@ -240,8 +240,9 @@ void put(TomlValue& root, const std::vector<std::string>& parts, TomlValue given
     std::string path;
     for (const std::string& part : parts) {
         if (table->type != TomlValue::Type::table)
-            fail(fmt::format("{} = {} is {}, not a table, and has no key {}.", path, table->shown(), table->type_name(),
-                             part));
+            fail(fmt::format("{} = {} is {}, not a table, and has no key {}.{}", path, table->shown(),
+                             table->type_name(), part,
+                             table->type == TomlValue::Type::array ? "\n  Give the whole list " + path + "." : ""));
         path += (path.empty() ? "" : ".") + part;
         TomlValue* next = table->find(part);
         if (next == nullptr) {
