@@ -95,11 +95,16 @@ void check_intensities(const RawHazard& raw)
 
 void check_curve(const RawHazard& raw, const std::vector<double>& curve, const std::string& name)
 {
+    constexpr double least = 1e-150; // quotients of frequencies are finite
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (!(curve[i] > 0) || !std::isfinite(curve[i]))
             refuse(raw, i,
                    fmt::format("{} = {} at {} is not above 0 and finite.\n  Give the annual frequency of exceedance.",
                                name, curve[i], point_name(raw, i)));
+        if (!(curve[i] >= least && curve[i] <= 1 / least))
+            refuse(raw, i,
+                   fmt::format("{} = {} at {} is outside [{:g}, {:g}].\n  Leave the intensity out.", name, curve[i],
+                               point_name(raw, i), least, 1 / least));
         if (i > 0 && curve[i] > curve[i - 1])
             refuse(raw, i, increase_text(name, raw, curve, i));
     }

@@ -140,6 +140,6 @@ Verdict judge(std::string_view input)
 
 } // namespace
 
-const Target decision_target = {"decision", judge, mutated_bytes, 256, 500};
+const Target decision_target = {"decision", judge, mutated_bytes, 256, 250};
 
 } // namespace stylobate::fuzz

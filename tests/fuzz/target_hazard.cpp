@@ -149,6 +149,6 @@ std::string mutated(std::string_view input, Random& random)
 
 } // namespace
 
-const Target hazard_target = {"hazard", judge, mutated, 2048, 5000};
+const Target hazard_target = {"hazard", judge, mutated, 2048, 2000};
 
 } // namespace stylobate::fuzz

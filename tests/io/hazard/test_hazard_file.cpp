@@ -130,6 +130,8 @@ TEST_F(HazardFile, TableRefusals)
               "hazard.csv:3: pga_g = 0.10000000001 is within a millionth of pga_g = 0.1 before it"},
              {"pga_g,annual_frequency\n0.1,1e-3\n1e308,1e-4\n",
               "hazard.csv:3: pga_g = 1e308 is not finite in SI units"},
+             {"pga_g,annual_frequency\n0.1,1e-3\n0.2,1e-320\n",
+              "hazard.csv:3: annual frequency = 1e-320 at pga_g = 0.2 is outside [1e-150, 1e+150]"},
              {"pga_g,annual_frequency\n0.1,1e-3\n", "hazard.csv: has 1 intensity with a finite frequency above 0"},
              {"pga_ft,annual_frequency\n0.1,1e-3\n",
               "hazard.csv:1: the first column 'pga_ft' is no intensity measure with its unit."},
