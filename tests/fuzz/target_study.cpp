@@ -182,7 +182,10 @@ std::string named_line(const TomlKey& key, Random& random)
 {
     if (!key.keys.empty()) {
         const DottedKey chosen = any_dotted(random);
-        return fmt::format("{} = {}\n", chosen.name, table_of(key, random, 0));
+        const auto limit = [&] { return number_in(chosen.key->range.low, chosen.key->range.high, random); };
+        return fmt::format("{} = {}\n", chosen.name,
+                           chosen.key && random() % 2 == 0 ? fmt::format("{{ from = {}, to = {} }}", limit(), limit())
+                                                           : table_of(key, random, 0));
     }
     std::string text;
     for (std::size_t n = 1 + below(random, 3); n > 0; --n) {
