@@ -72,13 +72,39 @@ std::string increase_text(const std::string& name, const RawHazard& raw, const s
                        name, curve[point], point_name(raw, point), curve[point - 1]);
 }
 
+void check_intensities(const RawHazard& raw)
+{
+    constexpr double closest = 1e-6; // between two points: the slope is a difference of logarithms over another one
+    const std::vector<double>& x = raw.hazard.intensity;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!(x[i] > 0) || (i > 0 && !(x[i] > x[i - 1])))
+            refuse(raw, i,
+                   fmt::format("{} is not above {}: intensities ascend from above 0.\n  Sort the lines by their "
+                               "intensity, each once.",
+                               point_name(raw, i), i == 0 ? "0" : point_name(raw, i - 1) + " before it"));
+        if (!std::isfinite(x[i]))
+            refuse(raw, i,
+                   fmt::format("{} is not finite in SI units.\n  Give the intensity in its unit.", point_name(raw, i)));
+        if (i > 0 && !(x[i] - x[i - 1] >= closest * x[i]))
+            refuse(raw, i,
+                   fmt::format("{} is within a millionth of {} before it: no slope follows from both.\n  Leave one of "
+                               "them out.",
+                               point_name(raw, i), point_name(raw, i - 1)));
+    }
+}
+
 void check_curve(const RawHazard& raw, const std::vector<double>& curve, const std::string& name)
 {
+    constexpr double least = 1e-150; // quotients of frequencies are finite
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (!(curve[i] > 0) || !std::isfinite(curve[i]))
             refuse(raw, i,
                    fmt::format("{} = {} at {} is not above 0 and finite.\n  Give the annual frequency of exceedance.",
                                name, curve[i], point_name(raw, i)));
+        if (!(curve[i] >= least && curve[i] <= 1 / least))
+            refuse(raw, i,
+                   fmt::format("{} = {} at {} is outside [{:g}, {:g}].\n  Leave the intensity out.", name, curve[i],
+                               point_name(raw, i), least, 1 / least));
         if (i > 0 && curve[i] > curve[i - 1])
             refuse(raw, i, increase_text(name, raw, curve, i));
     }
@@ -197,12 +223,7 @@ HazardModel checked_hazard(RawHazard raw)
                          fmt::format("has one fractile ({:g}) alone, which bounds one side.\n  Give one on the other "
                                      "side too, or none.",
                                      fractiles[0].probability));
-    for (std::size_t i = 0; i < hazard.intensity.size(); ++i)
-        if (!(hazard.intensity[i] > 0) || (i > 0 && !(hazard.intensity[i] > hazard.intensity[i - 1])))
-            refuse(raw, i,
-                   fmt::format("{} is not above {}: intensities ascend from above 0.\n  Sort the lines by their "
-                               "intensity, each once.",
-                               point_name(raw, i), i == 0 ? "0" : point_name(raw, i - 1) + " before it"));
+    check_intensities(raw);
     drop_ends(raw);
     if (hazard.intensity.size() < 2)
         throw InputError(hazard.source, 0,

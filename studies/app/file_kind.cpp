@@ -95,7 +95,7 @@ std::string beginning_of(const fs::path& file)
     return bytes;
 }
 
-/// Results and diagnoses begin with a seal, before their HDF5 part.
+/// Results, and what is computed from them, begin with a seal, before their HDF5 part.
 RecognisedFile of_sealed(const fs::path& file)
 {
     check_seal(FileHandle::open(file, false), file.string()); // before the library meets what may be damaged
@@ -104,6 +104,8 @@ RecognisedFile of_sealed(const fs::path& file)
         return {FileKind::diagnosis, ""};
     if (label.format == "stylobate-comparison")
         return {FileKind::comparison, ""};
+    if (label.format == "stylobate-risk")
+        return {FileKind::risk, ""};
     return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind} : RecognisedFile{};
 }
 
@@ -111,7 +113,6 @@ RecognisedFile of_hdf5(const fs::path& file)
 {
     const std::string format = hdf5_label(file).format;
     return {format == "stylobate-calibration" ? FileKind::calibration
-            : format == "stylobate-risk"      ? FileKind::risk
             : format == "stylobate-measured"  ? FileKind::campaign
                                               : FileKind::unknown,
             ""};

@@ -1,4 +1,5 @@
-/// Study files. One that is accepted has a canonical text, which is read back to itself. Inputs are made from the
+/// Study files. One that is accepted has a canonical text, which is read back to itself, and so has each of its
+/// variants that is accepted; the numbers that a search chooses stay within their limits. Inputs are made from the
 /// description of all keys (io/keys), from which docs/study_reference.md is made too.
 
 #include "io/keys/study_tables.hpp"
@@ -13,12 +14,8 @@
 namespace stylobate::fuzz {
 namespace {
 
-Verdict judge(std::string_view input)
+void check_text(const Study& study)
 {
-    Study study;
-    const Verdict verdict = judged([&] { study = parse_study(std::string(input), "fuzz.toml"); });
-    if (verdict == Verdict::refused)
-        return verdict;
     try {
         const Study again = parse_study(study.text, "again.toml");
         promise(again.text == study.text, "the canonical text of a study has another canonical text");
@@ -26,6 +23,42 @@ Verdict judge(std::string_view input)
         promise(again.total() == study.total() && study.total() > 0, "a study has no realizations, or others again");
     } catch (const InputError& error) {
         throw Finding(std::string("the canonical text of a study is refused: ") + error.what());
+    }
+}
+
+/// What `stylobate compare` reads beside the study itself.
+void check_decisions(std::string_view input)
+{
+    if (input.find("variants") == std::string_view::npos && input.find("optimise") == std::string_view::npos)
+        return;
+    const std::filesystem::path file = folder() / "study.toml";
+    write_file(file, input);
+    judged([&] {
+        for (const std::string& name : read_variant_names(file)) {
+            Study variant;
+            if (judged([&] { variant = read_variant(file, name); }) == Verdict::accepted)
+                check_text(variant);
+        }
+    });
+    judged([&] {
+        if (const auto search = read_optimisation(file))
+            for (const SearchedKey& key : search->keys)
+                for (const double place : {0.0, 0.25, 0.5, 1.0}) {
+                    const double value = key.value(place);
+                    promise(value >= key.from && value <= key.to, "a search leaves the limits of a key");
+                    const double back = key.place(value);
+                    promise(back >= 0 && back <= 1 + 1e-12, "a value of a search has no place within its limits");
+                }
+    });
+}
+
+Verdict judge(std::string_view input)
+{
+    Study study;
+    const Verdict verdict = judged([&] { study = parse_study(std::string(input), "fuzz.toml"); });
+    if (verdict == Verdict::accepted) {
+        check_text(study);
+        check_decisions(input);
     }
     return verdict;
 }
@@ -128,6 +161,41 @@ std::string value_of(const TomlKey& key, Random& random, int depth)
     return text_value(random);
 }
 
+/// KEY = VALUE for a key with its table before it, as [variants] and [optimise] name those of the study.
+struct DottedKey {
+    std::string name; ///< in quotes
+    const TomlKey* key = nullptr;
+};
+
+DottedKey any_dotted(Random& random)
+{
+    const std::vector<const TomlKey*>& tables = study_file_keys().keys;
+    const TomlKey& table = *tables[below(random, tables.size())];
+    if (table.keys.empty())
+        return {"\"contact.friction\"", nullptr};
+    const TomlKey& key = *table.keys[below(random, table.keys.size())];
+    return {toml_quoted(table.name + "." + key.name), &key};
+}
+
+/// A line of a table whose names are the user's: a variant, or a number that a search chooses.
+std::string named_line(const TomlKey& key, Random& random)
+{
+    if (!key.keys.empty()) {
+        const DottedKey chosen = any_dotted(random);
+        const auto limit = [&] { return number_in(chosen.key->range.low, chosen.key->range.high, random); };
+        return fmt::format("{} = {}\n", chosen.name,
+                           chosen.key && random() % 2 == 0 ? fmt::format("{{ from = {}, to = {} }}", limit(), limit())
+                                                           : table_of(key, random, 0));
+    }
+    std::string text;
+    for (std::size_t n = 1 + below(random, 3); n > 0; --n) {
+        const DottedKey changed = any_dotted(random);
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", changed.name,
+                            changed.key ? value_of(*changed.key, random, 1) : "0.4");
+    }
+    return fmt::format("{} = {{ {} }}\n", "abc"[below(random, 3)], text);
+}
+
 /// Gives a key of a table of the file a value: in the place of its line, or under the heading of the table, which is
 /// added where it is not there.
 void set_key(std::string& text, Random& random)
@@ -137,7 +205,8 @@ void set_key(std::string& text, Random& random)
     if (table.keys.empty())
         return;
     const TomlKey& key = *table.keys[below(random, table.keys.size())];
-    const std::string line = fmt::format("{} = {}\n", key.name, value_of(key, random, 0));
+    const std::string line = key.type == KeyType::named ? named_line(key, random)
+                                                        : fmt::format("{} = {}\n", key.name, value_of(key, random, 0));
     const std::string heading = fmt::format("[{}]", table.name);
     std::size_t begin = text.find("\n" + heading);
     if (begin == std::string::npos && !text.starts_with(heading)) {

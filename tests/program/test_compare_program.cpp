@@ -381,6 +381,8 @@ TEST_F(Compare, SearchesTheValuesOfAKey)
     refused("[optimise]\nbudget = 500\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n",
             {"optimise.budget = 500", "Give a budget of at least"});
     refused("[optimise]\n\"contact.friction\" = { from = 0.9, to = 0.2 }\n", {"is not above from"});
+    refused("[optimise]\n\"contact.friction\" = { from = 1e-320, to = 0.9, spacing = \"log\" }\n",
+            {"times from", "Give limits whose ratio is above 1 and finite"});
     refused("[optimise]\nbudget = 2000\n", {"0 keys of the study to choose"});
     refused("[optimise]\n\"contact.friction\" = { from = 0.2, to = 90 }\n", {"contact.friction", "is outside"});
     refused("[optimise]\nminimise = \"unseated\"\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n",

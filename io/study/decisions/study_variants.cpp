@@ -45,6 +45,9 @@ SearchedKey read_searched(const KeyReader& keys, const std::string& name)
         keys.refuse(to.name, fmt::format("is not above from = {:g}", key.from), "Give from < to.");
     if (key.spacing == Spacing::log && !(key.from > 0))
         keys.refuse(from.name, "is not above 0, as spacing = \"log\" needs", "Give spacing = \"linear\".");
+    if (const double ratio = key.to / key.from; key.spacing == Spacing::log && !(ratio > 1 && std::isfinite(ratio)))
+        keys.refuse(to.name, fmt::format("is {:g} times from = {:g}", ratio, key.from),
+                    "Give limits whose ratio is above 1 and finite.");
     return key;
 }
 

@@ -106,9 +106,7 @@ int risk_command(const CommonOptions& options, const std::string& file, const Ri
         }
         risk.sequences = found;
     }
-    AtomicFile target(output);
-    write_risk(risk, target.temporary());
-    target.commit();
+    write_risk(risk, output);
     if (options.json)
         fmt::print("{}\n", risk_json(risk).member("written", output).text());
     else if (options.quiet)

@@ -1,21 +1,56 @@
 #include "studies/decisions/risk/risk_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/hdf5.hpp"
 #include "io/hazard/hazard_parts.hpp"
+#include "io/sealed/table_file.hpp"
 #include "io/tables/csv.hpp"
-#include "io/tables/table_hdf5.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stylobate {
 
 namespace {
 
-constexpr char format_name[] = "stylobate-risk";
-constexpr std::uint64_t format_version = 1;
+constexpr SealedFormat format{"stylobate-risk", "risk estimate", 2, 2, "compute it again"};
+
+Table general_table(const Risk& risk)
+{
+    Table table("risk");
+    table.set("title", risk.title);
+    table.set("fragility_file", risk.fragility_file);
+    table.set("study_toml", risk.study_text);
+    table.set("level", risk.level);
+    table.set("fragility_level", risk.fragility_level);
+    table.set("most_outside", risk.most_outside);
+    table.set("code_version", risk.code_version);
+    table.add("years", risk.years, {risk.years.size()}, "year");
+    table.add("notes", risk.says);
+    return table;
+}
+
+Risk general_of(const Table& table)
+{
+    Risk risk;
+    risk.title = table.text("title");
+    risk.fragility_file = table.text("fragility_file");
+    risk.study_text = table.text("study_toml");
+    risk.level = table.number("level");
+    risk.fragility_level = table.number("fragility_level");
+    risk.most_outside = table.number("most_outside");
+    risk.code_version = table.text("code_version");
+    risk.years = table.numbers("years", table.shape("years"));
+    if (risk.years.empty() || !std::ranges::all_of(risk.years, [](double y) { return y > 0 && std::isfinite(y); }))
+        table.refuse("its years are not above 0 and finite");
+    for (const double level : {risk.level, risk.fragility_level})
+        if (!(level > 0 && level < 1))
+            table.refuse("a level of its intervals is not between 0 and 1");
+    risk.says = table.texts("notes");
+    return risk;
+}
 
 /// The columns of a number with all its limits.
 void add_numbers(Table& table, const std::string& name, const std::vector<RiskNumber>& numbers)
@@ -94,7 +129,11 @@ HazardModel hazard_of(const Table& table)
                 table.refuse("a fractile of its hazard has no probability");
             hazard.fractiles.push_back({*probability, table.numbers(column.name, shape)});
         }
-    return checked_hazard({std::move(hazard), {}, {}});
+    try {
+        return checked_hazard({std::move(hazard), {}, {}});
+    } catch (const InputError& error) { // it names what the hazard was read from, not this file
+        table.refuse(fmt::format("its hazard is none: {}", error.what()));
+    }
 }
 
 // ---- /states, /disaggregation, /fragility ---------------------------------------------------------------------------
@@ -195,6 +234,8 @@ std::vector<StateRisk> states_of(const Table& states, const Table& parts, const 
     for (std::size_t i = 0; i < names.size(); ++i) {
         const FragilityForm form =
             forms[i] == to_string(FragilityForm::shares) ? FragilityForm::shares : FragilityForm::lognormal;
+        if (forms[i] != to_string(form))
+            states.refuse("a limit state has a fragility of no known form");
         found.push_back({names[i],
                          meanings[i],
                          form,
@@ -303,60 +344,30 @@ std::vector<Table> tables_of(const Risk& risk)
 
 void write_risk(const Risk& risk, const std::filesystem::path& file)
 {
-    try {
-        hdf5::Handle made = hdf5::create_file(file, 0);
-        hdf5::write_text(made.id(), "format", format_name);
-        hdf5::write_number(made.id(), "format_version", H5T_STD_U32LE, format_version);
-        hdf5::write_text(made.id(), "code_version", risk.code_version);
-        hdf5::write_text(made.id(), "title", risk.title);
-        hdf5::write_text(made.id(), "fragility_file", risk.fragility_file);
-        hdf5::write_text(made.id(), "study_toml", risk.study_text);
-        hdf5::write_real(made.id(), "level", risk.level);
-        hdf5::write_real(made.id(), "fragility_level", risk.fragility_level);
-        hdf5::write_real(made.id(), "most_outside", risk.most_outside);
-        hdf5::write_array(made.id(), "years", risk.years, {risk.years.size()}, "year");
-        hdf5::write_texts(made.id(), "notes", risk.says);
-        for (const Table& table : tables_of(risk))
-            write_table(made.id(), table);
-        made.close();
-    } catch (const hdf5::Error& error) {
-        throw InputError(file.string(), 0, std::string("cannot be written: ") + error.what());
-    }
+    std::vector<Table> tables = tables_of(risk);
+    tables.push_back(general_table(risk));
+    write_table_file(file, format, risk.code_version, tables);
 }
 
 Risk read_risk(const std::filesystem::path& file)
 {
-    try {
-        const hdf5::Handle open = hdf5::open_file(file, false);
-        const hid_t root = open.id();
-        if (!hdf5::has_attribute(root, "format") || hdf5::read_any_text(root, "format") != format_name)
-            throw InputError(file.string(), 0, "contains no risk estimate");
-        if (const std::uint64_t version = hdf5::read_number(root, "format_version"); version != format_version)
-            throw InputError(file.string(), 0,
-                             fmt::format("is a risk estimate of format version {}; this program reads version {}. "
-                                         "Compute it again.",
-                                         version, format_version));
-        Risk risk;
-        risk.code_version = hdf5::read_text(root, "code_version");
-        risk.title = hdf5::read_text(root, "title");
-        risk.fragility_file = hdf5::read_text(root, "fragility_file");
-        risk.study_text = hdf5::read_text(root, "study_toml");
-        risk.level = hdf5::read_any_number(root, "level");
-        risk.fragility_level = hdf5::read_any_number(root, "fragility_level");
-        risk.most_outside = hdf5::read_any_number(root, "most_outside");
-        risk.years = hdf5::read_doubles(root, "years", hdf5::dims_of(root, "years"));
-        risk.says = hdf5::read_texts(root, "notes", hdf5::dims_of(root, "notes"));
-        const auto table = [&](const char* name) { return read_table(root, name, file.string()); };
-        risk.hazard = hazard_of(table("hazard"));
-        risk.states = states_of(table("states"), table("disaggregation"), table("fragility"), risk.hazard.measure);
-        if (risk.chosen().empty())
-            throw hdf5::Error("it has no limit state");
-        if (hdf5::exists(root, "sequences"))
-            risk.sequences = sequences_of(table("sequences"));
-        return risk;
-    } catch (const hdf5::Error& error) {
-        throw InputError(file.string(), 0, std::string("is a damaged risk estimate: ") + error.what());
-    }
+    const std::vector<Table> tables = read_table_file(file, format);
+    const Table missing("risk", file.string());
+    const auto find = [&](const char* name) { return std::ranges::find(tables, name, &Table::name); };
+    const auto named = [&](const char* name) -> const Table& {
+        const auto found = find(name);
+        if (found == tables.end())
+            missing.refuse(fmt::format("the table {} is missing", name));
+        return *found;
+    };
+    Risk risk = general_of(named("risk"));
+    risk.hazard = hazard_of(named("hazard"));
+    risk.states = states_of(named("states"), named("disaggregation"), named("fragility"), risk.hazard.measure);
+    if (risk.chosen().empty())
+        missing.refuse("it has no limit state");
+    if (const auto found = find("sequences"); found != tables.end())
+        risk.sequences = sequences_of(*found);
+    return risk;
 }
 
 std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk)

@@ -1,5 +1,5 @@
 #pragma once
-/// A risk estimate as an HDF5 file; `io/FORMAT.md` describes its content.
+/// A risk estimate as a sealed HDF5 file; `io/FORMAT.md` describes its content.
 
 #include "studies/decisions/risk/risk.hpp"
 
@@ -10,10 +10,11 @@
 
 namespace stylobate {
 
-/// Writes over a file. @throws InputError if it cannot be written
+/// Writes it whole or not at all; the same estimate gives the same bytes.
+/// @throws InputError if it cannot be written
 void write_risk(const Risk& risk, const std::filesystem::path& file);
 
-/// @throws InputError if the file is none, of another format version, or damaged
+/// @throws InputError if the file is none, of another format version, truncated or damaged
 Risk read_risk(const std::filesystem::path& file);
 
 /// The tables as comma-separated values: names of files and their texts.

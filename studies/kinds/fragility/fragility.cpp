@@ -374,27 +374,4 @@ FragilityTable stored(const Fragility& f)
     return table;
 }
 
-std::string describe_measure(const std::string& name)
-{
-    if (name == "pga_m_s2")
-        return "peak ground acceleration [m/s²]";
-    if (name == "pgv_m_s")
-        return "peak ground velocity [m/s]";
-    if (name == "pgd_m")
-        return "peak ground displacement [m]";
-    if (name == "arias_m_s")
-        return "Arias intensity [m/s]";
-    if (name == "cav_m_s")
-        return "cumulative absolute velocity [m/s]";
-    if (name == "d5_95_s")
-        return "duration from 5 to 95 % of the Arias intensity [s]";
-    if (name == "pgv_per_pga_s")
-        return "PGV / PGA [s]";
-    if (name == "mean_frequency_hz")
-        return "mean frequency [Hz]";
-    if (name.starts_with("sa_"))
-        return fmt::format("spectral acceleration at {} s [m/s²]", name.substr(3, name.find("s_m") - 3));
-    return name;
-}
-
 } // namespace stylobate

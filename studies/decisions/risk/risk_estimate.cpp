@@ -1,0 +1,144 @@
+#include "studies/decisions/risk/risk.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
+#include "studies/kinds/fragility/fragility_text.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// Whether a curve rises, so that a frequency can be computed from it.
+bool has_lognormal(const StateFragility& s)
+{
+    return has_curve(s) && s.curve.dispersion.value > 0;
+}
+
+std::vector<FragilityPoint> curve_points(const StateFragility& s)
+{
+    std::vector<FragilityPoint> points;
+    for (const CurvePoint& at : s.curve.at)
+        points.push_back({at.intensity[0], at.probability.value, std::max(at.probability.records.lower, 0.0),
+                          std::min(at.probability.records.upper, 1.0)});
+    return points;
+}
+
+std::vector<FragilityPoint> share_points(const StateFragility& s)
+{
+    std::vector<FragilityPoint> points;
+    for (const StripeShare& stripe : s.stripes->stripes)
+        points.push_back(
+            {stripe.intensity, stripe.share, std::max(stripe.limits.lower, 0.0), std::min(stripe.limits.upper, 1.0)});
+    return points;
+}
+
+/// Says of a state whether too much comes from outside.
+void judge(StateRisk& risk, double most_outside)
+{
+    const FrequencyEstimate& e = risk.estimate;
+    const double outside = e.below + e.above;
+    const auto refuse = [&](double share, const std::string& where, const std::string& remedy) {
+        risk.determined = false;
+        risk.note = fmt::format("{:.0f} % of the frequency would come from {}, more than {:g} %. {}", 100 * share,
+                                where, 100 * most_outside, remedy);
+    };
+    if (outside > most_outside && outside >= e.beyond_hazard)
+        refuse(outside, "intensities outside of the range of the runs",
+               fmt::format("Run the study with {} intensities.", e.below > e.above ? "weaker" : "stronger"));
+    else if (e.beyond_hazard > most_outside)
+        refuse(e.beyond_hazard, "intensities outside of the hazard's points", "Give the hazard over a wider range.");
+}
+
+std::vector<StateRisk> risks_of(const StateFragility& s, const HazardModel& hazard, const RiskOptions& options)
+{
+    std::vector<StateRisk> risks;
+    if (s.data.records == 0) // the data bore no estimate
+        return risks;
+    FrequencyOptions frequency;
+    frequency.level = options.level;
+    const bool fits = s.fit.p_value >= fit_significance;
+    const bool shares = s.stripes && s.data.points() >= 2;
+    const auto add = [&](FragilityForm form) {
+        StateRisk risk{s.state.name, s.state.describe, form, risks.empty(), true, "", {}, {}};
+        if (form == FragilityForm::lognormal) {
+            risk.estimate = lognormal_frequency(s.data, hazard, frequency);
+            risk.fragility = curve_points(s);
+            risk.note = fits ? fmt::format("no lack of fit of the lognormal curve: p = {:.2g}", s.fit.p_value)
+                             : fmt::format("the lognormal curve does not fit: p = {:.2g}", s.fit.p_value);
+        } else {
+            risk.estimate = share_frequency(s.data, *s.stripes, hazard, frequency);
+            risk.fragility = share_points(s);
+            risk.note = !has_lognormal(s) ? "there is no lognormal curve"
+                        : fits            ? "no form of a curve is assumed"
+                                          : fmt::format("the lognormal curve does not fit: p = {:.2g}", s.fit.p_value);
+        }
+        judge(risk, options.most_outside);
+        risks.push_back(std::move(risk));
+    };
+    if (has_lognormal(s) && (fits || !shares))
+        add(FragilityForm::lognormal);
+    if (shares)
+        add(FragilityForm::shares);
+    if (has_lognormal(s) && !fits && shares)
+        add(FragilityForm::lognormal);
+    return risks;
+}
+
+void check_determined(const Risk& risk)
+{
+    if (risk.states.empty())
+        throw InputError("no limit state has a curve or shares by stripe." +
+                         (risk.says.empty() ? "" : "\n  " + risk.says.front()));
+    const auto chosen = risk.chosen();
+    if (std::none_of(chosen.begin(), chosen.end(), [](const StateRisk* s) { return s->determined; })) {
+        const StateRisk& s = risk.principal();
+        throw InputError(fmt::format("{}: {}\n  Or accept it: --most-outside {:.2g}.", s.state, s.note,
+                                     std::max(s.estimate.below + s.estimate.above, s.estimate.beyond_hazard) + 0.01));
+    }
+}
+
+} // namespace
+
+Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOptions& options)
+{
+    std::vector<const StateFragility*> wanted;
+    std::vector<std::string> names;
+    for (const StateFragility& s : fragility.states) {
+        names.push_back(s.state.name);
+        if (options.state.empty() || options.state == s.state.name)
+            wanted.push_back(&s);
+    }
+    if (wanted.empty() && !options.state.empty()) {
+        const std::string meant = nearest_word(options.state, names);
+        throw InputError(fmt::format("--state {}: is no limit state of the study; it has {}.{}", options.state,
+                                     fmt::join(names, ", "),
+                                     meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
+    }
+    Risk risk;
+    risk.hazard = hazard;
+    risk.level = options.level;
+    risk.most_outside = options.most_outside;
+    risk.years = options.years;
+    risk.says = fragility.says;
+    if (fragility.invalid > 0)
+        risk.says.push_back(fmt::format("{} invalid realizations are left out.", fragility.invalid));
+    risk.says.insert(risk.says.end(), hazard.says.begin(), hazard.says.end());
+    if (hazard.fractiles.empty())
+        risk.says.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
+    std::vector<std::vector<StateRisk>> found(wanted.size());
+    tbb::parallel_for(std::size_t{0}, wanted.size(),
+                      [&](std::size_t i) { found[i] = risks_of(*wanted[i], hazard, options); });
+    for (auto& forms : found)
+        for (StateRisk& s : forms)
+            risk.states.push_back(std::move(s));
+    check_determined(risk);
+    return risk;
+}
+
+} // namespace stylobate

@@ -1,0 +1,145 @@
+/// Comparisons and risk estimates, which lie behind a seal. An input is a recipe: which file, and what is changed in
+/// it. Changes by the HDF5 library are followed by a right seal, so that they are met by all that comes behind it.
+/// Other bytes are changed without one: then nothing may come out.
+
+#include "io/files/file_handle.hpp"
+#include "io/store/result_seal.hpp"
+#include "studies/decisions/compare/comparison_answer.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/risk/risk_answer.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk_text.hpp"
+#include "tests/fuzz/hdf5_edits.hpp"
+#include "tests/fuzz/text_mutation.hpp"
+#include "tests/studies/decisions/decision_samples.hpp"
+
+#include <vector>
+
+namespace stylobate::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Original {
+    std::string bytes;
+    std::uint64_t block = 0; ///< of the seal
+    bool risk = false;       ///< else a comparison
+};
+
+const std::vector<Original>& originals()
+{
+    static const std::vector<Original> all = [] {
+        std::vector<Original> made;
+        const fs::path file = folder() / "original.h5";
+        for (const bool risk : {false, true})
+            for (const bool other : {false, true}) {
+                if (risk)
+                    write_risk(sample_risk(other), file);
+                else
+                    write_comparison(sample_comparison(other), file);
+                std::string bytes = file_content(file);
+                const std::size_t block = bytes.find("\x89HDF\r\n\x1a\n");
+                made.push_back({std::move(bytes), block, risk});
+            }
+        return made;
+    }();
+    return all;
+}
+
+/// What the verbs make of it in words.
+void tell(const Comparison& comparison)
+{
+    promise(!comparison.variants.empty(), "a comparison has no variant");
+    comparison_text(comparison);
+    comparison_json(comparison);
+    for (const VariantComparison& variant : comparison.variants) {
+        promise(!variant.limits.empty(), "a variant has no limit state");
+        for (const LimitComparison& limit : variant.limits)
+            promise(limit.cells.size() == comparison.cells(), "a limit state has other cells than the comparison");
+        answer_text(comparison, variant);
+        harm_text(comparison, variant);
+        dependence_texts(comparison, variant);
+        what_would_change_it(comparison, variant);
+    }
+}
+
+void tell(const Risk& risk)
+{
+    promise(!risk.chosen().empty() && !risk.years.empty(), "a risk estimate has no limit state or no years");
+    risk_text(risk);
+    risk_json(risk);
+    risk_csv(risk);
+    risk_answer(risk);
+    risk_grounds(risk);
+}
+
+/// What was read is told, written, read and written again: both files have the same bytes.
+template <class Read, class Write>
+Verdict judge_file(const fs::path& file, const Read& read, const Write& write)
+{
+    decltype(read(file)) found;
+    const Verdict verdict = judged([&] { found = read(file); });
+    if (verdict == Verdict::refused)
+        return verdict;
+    tell(found);
+    const fs::path once = folder() / "once.h5", twice = folder() / "twice.h5";
+    try {
+        write(found, once);
+        write(read(once), twice);
+    } catch (const InputError& error) {
+        throw Finding(std::string("what was read is refused when it is written: ") + error.what());
+    }
+    promise(file_content(once) == file_content(twice), "what was read changes when it is written");
+    return verdict;
+}
+
+Verdict judge_file(const Original& original, const fs::path& file)
+{
+    return original.risk ? judge_file(file, read_risk, write_risk)
+                         : judge_file(file, read_comparison, write_comparison);
+}
+
+/// Bytes of the file as it was written: changed, cut, or more behind the end.
+Verdict damaged(const Original& original, const fs::path& file, ByteSource& recipe)
+{
+    std::string bytes = original.bytes;
+    do {
+        const std::uint8_t how = recipe.byte();
+        const std::size_t at = recipe.below(bytes.size());
+        if (how % 8 == 0)
+            bytes.resize(at);
+        else if (how % 8 == 1)
+            bytes += recipe.text(32);
+        else if (at < bytes.size())
+            bytes[at] = static_cast<char>(bytes[at] ^ (1 << how % 8));
+    } while (!recipe.empty() && !bytes.empty());
+    write_file(file, bytes);
+    const Verdict verdict = judge_file(original, file);
+    promise(verdict == Verdict::refused || bytes == original.bytes, "a damaged file is believed");
+    return verdict;
+}
+
+Verdict judge(std::string_view input)
+{
+    ByteSource recipe(input);
+    const fs::path file = folder() / "decision.h5";
+    const Original& original = originals()[recipe.below(originals().size())];
+    const std::uint8_t how = recipe.byte();
+    if (how % 4 == 0)
+        return damaged(original, file, recipe);
+    write_file(file, original.bytes);
+    if (how % 4 != 1 && !edit_hdf5_file(file, recipe, how / 4 % 4 + 1))
+        return Verdict::refused;
+    {
+        FileHandle handle = FileHandle::open(file, true);
+        write_seal(handle, original.block, {});
+    }
+    return judge_file(original, file);
+}
+
+} // namespace
+
+const Target decision_target = {"decision", judge, mutated_bytes, 256, 250};
+
+} // namespace stylobate::fuzz
