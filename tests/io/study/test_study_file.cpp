@@ -456,7 +456,7 @@ TEST(StudyFile, RefusesBadSettingsByTheirName)
     refused("surface.pga_m_s2={from=1", {"not valid TOML"});
     refused("surface.pga_m_s2={from=1, to=2}", {"surface.pga_m_s2.count is missing"});
     refused("study.kind.x=1", {"study.kind = \"surface\" is a string, not a table"});
-    expect_refused(text, "--set",
+    expect_refused(text, "--set structure.drums.width_m=2.0",
                    {"structure.drums = [ ... ] is an array, not a table", "Give the whole list structure.drums."},
                    {"structure.drums=[{ width_m = 1.0, height_m = 1.0 }]", "structure.drums.width_m=2.0"});
     refused("study.seed", {"KEY=VALUE"});
