@@ -48,7 +48,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/estimators/surface", {"ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/paired", {"ensemble/estimators/surface", "ensemble/numerics"}},
     {"ensemble/estimators/past", {"ensemble/estimators/risk", "ensemble/model", "ensemble/numerics"}},
-    {"ensemble/estimators/search", {}},
+    {"ensemble/estimators/search", {"ensemble/numerics"}},
 
     {"io/files", {}},
     {"io/tables", {"io/files"}},

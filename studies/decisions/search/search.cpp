@@ -1,7 +1,7 @@
 #include "studies/decisions/search/search.hpp"
 
 #include "ensemble/estimators/paired/paired_difference.hpp"
-#include "ensemble/estimators/search/response_surface.hpp"
+#include "ensemble/estimators/search/search_answer.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 namespace stylobate {
@@ -20,7 +22,8 @@ namespace stylobate {
 namespace {
 
 constexpr std::size_t most_points = 60;
-constexpr double least_improvement = 2e-4; ///< of a probability: less is expected of a further point
+/// Of the mean share of the points that have been run: less is expected of a further point.
+constexpr double least_improvement = 1e-3;
 
 struct RunPoint {
     SearchPlace place;
@@ -112,6 +115,15 @@ PairedNoise noise_of(const std::vector<RunPoint>& points, std::size_t limit, con
     return paired_noise(reached, size, stratum, m);
 }
 
+/// The improvement that is not worth a further point; half a count where no point has reached the state.
+double enough(const PairedNoise& noise)
+{
+    double mean = 0;
+    for (const double share : noise.share)
+        mean += share / static_cast<double>(noise.share.size());
+    return mean > 0 ? least_improvement * mean : std::sqrt(noise.half);
+}
+
 class Search {
 public:
     Search(const SearchFiles& files, double level, const RunOptions& options, Observer& observer)
@@ -139,8 +151,8 @@ public:
             if (observer_.stop_requested()) // while points that are there already are taken again
                 return std::nullopt;
             const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
-            const NextPlace next = next_place(surface, candidates, places());
-            if (next.improvement < least_improvement)
+            const NextPlace next = next_place(surface, candidates);
+            if (next.improvement < enough(surface.noise()))
                 break;
             result_.at_the_end = result_.realizations + each > spec_.budget;
             if (result_.at_the_end)
@@ -179,20 +191,12 @@ private:
         const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
         const SearchAnswer answer = search_answer(surface, candidates, result_.level);
         result_.best = values_at(spec_, answer.best);
-        const double z = two_sided_normal(result_.level);
-        result_.probability = std::clamp(answer.value.mean, 0.0, 1.0);
-        result_.lower = std::max(0.0, answer.value.mean - z * answer.value.sd);
-        result_.upper = std::min(1.0, answer.value.mean + z * answer.value.sd);
-        for (std::size_t k = 0; k < spec_.keys.size(); ++k) {
-            double from = 1, to = 0;
-            for (const SearchPlace& place : answer.flat) {
-                from = std::min(from, place[k]);
-                to = std::max(to, place[k]);
-            }
-            result_.flat_from.push_back(spec_.keys[k].value(from));
-            result_.flat_to.push_back(spec_.keys[k].value(to));
-        }
-        double least = 2;
+        result_.probability = answer.value;
+        result_.lower = answer.lower;
+        result_.upper = answer.upper;
+        result_.flat_from = values_at(spec_, answer.from);
+        result_.flat_to = values_at(spec_, answer.to);
+        double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const PlaceComparison change = change_of(points_[i]);
             result_.points.push_back({points_[i].value, change.variant,
