@@ -120,8 +120,9 @@ SearchAnswer search_answer(const ResponseSurface& surface, const std::vector<Sea
     answer.best = candidates[best];
     const std::vector<double> excess = excesses(surface, candidates, answer.best);
     const Drawn drawn = drawn_of(surface, candidates, excess, answer.best, level);
-    const MeanLimits limits = mean_limits(values[best].mean, values[best].sd, noise.most,
-                                          noise.freedom[lowest(surface.values(surface.points()))], noise.groups, level);
+    answer.freedom = noise.freedom[lowest(surface.values(surface.points()))];
+    const MeanLimits limits =
+        mean_limits(values[best].mean, values[best].sd, noise.most, answer.freedom, noise.groups, level);
     answer.value = std::clamp(values[best].mean, limits.lower, limits.upper);
     answer.lower = limits.lower;
     answer.upper = std::min(limits.upper + drawn.regret, noise.most);

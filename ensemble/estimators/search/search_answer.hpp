@@ -24,6 +24,7 @@ struct SearchAnswer {
     SearchPlace best;
     double value = 0, lower = 0, upper = 1; ///< p there, between 0 and most
     double critical = 0;                    ///< c
+    double freedom = 0;                     ///< of the interval: that of the lowest point
     std::vector<SearchPlace> flat;          ///< candidates that are not shown to be worse
     /// (dimensions) the smallest box around them, with half a spacing of the candidates on each side.
     std::vector<double> from, to;

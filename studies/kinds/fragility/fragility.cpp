@@ -47,7 +47,7 @@ public:
     {
         const FragilitySpec& spec = *study_.fragility;
         out_.method = spec.method;
-        out_.measure = spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
+        out_.measure = measure_of(spec);
         out_.motions = header_.motions.names.size();
         out_.structures = study_.realizations;
         for (FragilityOutcome& row : rows) {
@@ -395,6 +395,11 @@ std::string describe_measure(const std::string& name)
     if (name.starts_with("sa_"))
         return fmt::format("spectral acceleration at {} s [m/s²]", name.substr(3, name.find("s_m") - 3));
     return name;
+}
+
+std::string measure_of(const FragilitySpec& spec)
+{
+    return spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
 }
 
 } // namespace stylobate
