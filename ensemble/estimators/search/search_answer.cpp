@@ -79,6 +79,13 @@ double half_spacing(const std::vector<SearchPlace>& candidates, std::size_t k)
     return values.size() > 1 ? 0.5 * (values.back() - values.front()) / static_cast<double>(values.size() - 1) : 0;
 }
 
+/// Student's where the scatter is that of groups.
+double quantile_of(double probability, double freedom)
+{
+    return std::isfinite(freedom) ? student_quantile(probability, std::max(freedom, 1.0))
+                                  : normal_quantile(probability);
+}
+
 double density(double u)
 {
     return std::exp(-0.5 * u * u) / std::sqrt(2 * std::numbers::pi);
@@ -126,7 +133,7 @@ SearchAnswer search_answer(const ResponseSurface& surface, const std::vector<Sea
     answer.value = std::clamp(values[best].mean, limits.lower, limits.upper);
     answer.lower = limits.lower;
     answer.upper = std::min(limits.upper + drawn.regret, noise.most);
-    answer.critical = std::min(drawn.critical, normal_quantile((1 + level) / 2));
+    answer.critical = std::min(drawn.critical, quantile_of((1 + level) / 2, answer.freedom));
     for (std::size_t i = 0; i < candidates.size(); ++i)
         if (excess[i] <= answer.critical)
             answer.flat.push_back(candidates[i]);

@@ -12,9 +12,10 @@ namespace stylobate {
 /// Of each candidate T = (mean of p(x) - p(best)) / (standard deviation of this difference). The set of the places that
 /// are not shown to be worse is T <= c. The critical c is such that the set holds the place of the least p in a share
 /// `level` of joint draws of the surface over the candidates, in which all comparisons hold together, errors that
-/// places have in common cancel, and the models have their weights; but at most the normal quantile of one comparison.
-/// Of two and three numbers c by the draws alone is 1.7 to 2.5 and the ranges are up to twice as wide, while those of
-/// the smaller c hold the optimum in at least 97 % of the searches (own choice; `ResponseSurfaceStatistics`).
+/// places have in common cancel, and the models have their weights; but at most the quantile of one comparison, normal
+/// or under groups Student's. Of two and three numbers c by the draws alone is 1.7 to 2.5 and the ranges are up to
+/// twice as wide, while those of the smaller c hold the optimum in 94 to 100 % of 200 searches (own choice;
+/// `ResponseSurfaceStatistics`).
 ///
 /// The interval of p at the best place is on the scale of ln(p / (most - p)), with Student's quantile where the
 /// variance comes from groups. Below `least_groups` degrees of freedom half a group is added to the variance instead.

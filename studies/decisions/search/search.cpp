@@ -207,16 +207,19 @@ private:
                                       {},
                                       std::filesystem::path(points_[i].run->results()).filename().string()});
             std::string outside;
+            double unseen = 0;
             if (objective_->is_frequency()) {
                 const FrequencyEstimate own = objective_->frequency(*points_[i].side, limit_, layout_);
                 result_.points.back().frequency = own.frequency;
                 outside = why_undetermined(own, RiskOptions{}.most_outside);
+                unseen = own.unseen;
             }
             if (const double mean = surface.at(points_[i].place).mean; mean < least) {
                 least = mean;
                 result_.best_point = i;
                 result_.change = change;
                 result_.outside = outside;
+                result_.unseen = unseen;
                 result_.base = change.base;
             }
         }

@@ -44,6 +44,7 @@ struct SearchResult {
     // with a hazard
     RiskNumber base_frequency;
     FrequencyDifference frequency_change; ///< of that point against the base
+    double unseen = 0;                    ///< of that point (`FrequencyEstimate::unseen`), in no interval [1/year]
     std::string outside;                  ///< why its frequency is not determined; empty: it is
     bool is_frequency() const { return !asked.hazard.empty(); }
 };

@@ -53,6 +53,11 @@ std::string point_text(const SearchResult& r)
     std::string text = fmt::format("{} a year, base {}, difference {:+.3g} [{:+.3g}, {:+.3g}]", number(point.frequency),
                                    number(r.base_frequency), r.frequency_change.value, r.frequency_change.lower,
                                    r.frequency_change.upper);
+    if (r.unseen > 0)
+        text +=
+            fmt::format("\n    from intensities at which no run reached it: none seen, {:.3g} a year not excluded; not "
+                        "in the intervals",
+                        r.unseen);
     if (!r.outside.empty())
         text += "\n    " + r.outside;
     return text;
@@ -139,6 +144,7 @@ Json search_json(const SearchResult& r)
             .member("frequency_difference", r.frequency_change.value)
             .member("frequency_difference_lower", r.frequency_change.lower)
             .member("frequency_difference_upper", r.frequency_change.upper)
+            .member("unseen", r.unseen)
             .member("outside", r.outside);
     return json;
 }
