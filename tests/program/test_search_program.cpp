@@ -112,7 +112,13 @@ TEST_F(SearchProgram, TheAnnualFrequencyAgainstAGrid)
         EXPECT_NEAR(found, want, 1e-12 * want) << point["results"].text;
         EXPECT_LT(point["frequency"]["total_lower"].number, point["frequency"]["lower"].number);
     }
-    EXPECT_NEAR(json["base_frequency"]["value"].number, frequency_of("frag.h5"), 1e-12);
+    const double base = frequency_of("frag.h5");
+    EXPECT_NEAR(json["base_frequency"]["value"].number, base, 1e-12 * base);
+    // what the surface is of: the sum of the motions' own frequencies
+    const JsonValue best = json["points"].items[static_cast<std::size_t>(json["best_point"].number)];
+    const double change = best["frequency"]["value"].number - base;
+    ASSERT_NE(change, 0);
+    EXPECT_NEAR(json["frequency_difference"].number, change, 1e-12 * base);
     for (const char* friction : {"0.2", "0.35", "0.5", "0.65", "0.8"}) {
         const std::string results = std::string("grid_") + friction + ".h5";
         ASSERT_EQ(
@@ -128,7 +134,10 @@ TEST_F(SearchProgram, TheAnnualFrequencyAgainstAGrid)
     const Ended text = run(frag_);
     EXPECT_NE(text.out.find("smallest annual frequency of collapse"), std::string::npos) << text.out;
     EXPECT_NE(text.out.find("in 50 years"), std::string::npos) << text.out;
-    EXPECT_EQ(run(with(frag_, {"--json", "--threads", "1"})).out, ended.out);
+    EXPECT_EQ(run(with(frag_, {"--json", "--threads", "1", "-o", "search.svg"})).out, ended.out);
+    const std::string picture = read_bytes(folder / "search.svg");
+    EXPECT_NE(picture.find("Annual frequency of collapse"), std::string::npos);
+    EXPECT_NE(picture.find("contact.friction"), std::string::npos);
 }
 
 /// A file lies beside the study file, wherever the program is run.
@@ -164,6 +173,8 @@ TEST_F(SearchProgram, RefusesAHazardThatIsNone)
     write_surface(
         "[optimise]\nhazard = \"k0=1e-3,k=3,measure=pga\"\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n");
     expect_refused(Words{"compare", "col.toml", "--search"}, {"optimise.hazard", "of kind \"fragility\""});
+    write_fragility(search_of(power_law_));
+    expect_refused(with(frag_, {"-o", "points.h5"}), {"-o points.h5", "--search writes a picture there"});
     // most of the frequency is of earthquakes that are weaker than those of the runs
     write_fragility(search_of(power_law_), 10);
     const Ended weak = run(frag_);
