@@ -29,6 +29,11 @@ inline const Range any_number{-1e30, 1e30};
 
 inline const TextKey minimise{
     "minimise", "the limit state whose probability is to be smallest", {.absent = "\"collapse\""}};
+inline const TextKey hazard{"hazard",
+                            "of a fragility study by stripes: a file with the hazard curve of the site, beside the "
+                            "study file, or a power law such as \"k0=1e-4,k=2.5,measure=pga_g\", as `stylobate risk` "
+                            "takes it; the annual frequency of the limit state is then to be smallest",
+                            {.absent = "the probability is to be smallest"}};
 inline const WholeKey budget{"budget",
                              {1, most_realizations, "Realizations of the whole search."},
                              20000,
@@ -44,7 +49,7 @@ inline const TableKey any{"KEY",
                           KeyType::named};
 inline const TableKey table{"optimise",
                             "numbers of the study that `stylobate compare --search` chooses",
-                            {&minimise, &budget, &any},
+                            {&minimise, &hazard, &budget, &any},
                             {.absent = "no search"}};
 
 } // namespace optimise_keys

@@ -470,7 +470,14 @@ std::optional<OptimiseSpec> read_optimisation(const std::filesystem::path& file,
                                               const std::vector<std::string>& overrides)
 {
     const TomlValue root = read_toml(read_text(file), file.string(), overrides);
-    return read_optimise(KeyReader(&root, "", root.place));
+    std::optional<OptimiseSpec> spec = read_optimise(KeyReader(&root, "", root.place));
+    if (spec && !spec->hazard.empty()) { // beside the study file, unless it is a power law
+        std::error_code none;
+        const auto beside = std::filesystem::absolute(file, none).parent_path() / spec->hazard;
+        if (spec->hazard.find('=') == std::string::npos || std::filesystem::exists(beside, none))
+            spec->hazard = beside.lexically_normal().string();
+    }
+    return spec;
 }
 
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides)

@@ -306,6 +306,14 @@ FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardMod
     return LognormalFrequency(data, hazard, options).estimate();
 }
 
+std::vector<double> stripe_weights(const std::vector<double>& intensity, const HazardModel& hazard)
+{
+    std::vector<double> nodes;
+    for (const double im : intensity)
+        nodes.push_back(std::log(im));
+    return best_curve(hazard).node_weights(nodes, -no_end, no_end);
+}
+
 FrequencyEstimate share_frequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
                                   const FrequencyOptions& options)
 {

@@ -60,6 +60,11 @@ struct FrequencyEstimate {
 FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardModel& hazard,
                                       const FrequencyOptions& options = {});
 
+/// Weights w of the stripes [1/year]: the frequency by shares is sum_j w_j p_j, over all intensities and with the best
+/// estimate of the hazard (`HazardCurve::node_weights`).
+/// @param intensity (stripes >= 2) ascending, > 0
+std::vector<double> stripe_weights(const std::vector<double>& intensity, const HazardModel& hazard);
+
 /// The frequency is linear in the shares, so it is the mean over records of each one's own frequency y_g. A record
 /// without runs at a stripe takes the share of the others there. The interval is Student's of ln lambda by the scatter
 /// of the y_g, with (sum y_g)^2 / sum y_g^2 - 1 degrees of freedom (own choice, of the form of `RecordSpread`: records

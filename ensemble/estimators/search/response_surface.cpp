@@ -1,16 +1,20 @@
 #include "ensemble/estimators/search/response_surface.hpp"
 
 #include <Eigen/Dense>
-#include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace stylobate {
 
 namespace {
+
+constexpr double least_weight = 1e-3; ///< of a model that is kept
+constexpr double jitter = 1e-8;       ///< of a variance, on the diagonal
+constexpr int smoothing_passes = 2;
 
 double matern(double r)
 {
@@ -31,222 +35,197 @@ Eigen::Index index(std::size_t i)
     return static_cast<Eigen::Index>(i);
 }
 
-} // namespace
-
-PairedNoise paired_noise(const std::vector<double>& reached, const std::vector<double>& size,
-                         const std::vector<std::size_t>& stratum, std::size_t points)
+/// (a x b)
+Eigen::MatrixXd correlations(const std::vector<SearchPlace>& a, const std::vector<SearchPlace>& b,
+                             const std::vector<double>& length)
 {
-    const std::size_t groups = size.size(), strata = 1 + *std::max_element(stratum.begin(), stratum.end());
-    double all = 0;
-    std::vector<double> in_stratum(strata), number(strata), mean(strata * points);
-    PairedNoise noise{std::vector<double>(points), std::vector<double>(points * points)};
-    for (std::size_t g = 0; g < groups; ++g) {
-        all += size[g];
-        in_stratum[stratum[g]] += size[g];
-        number[stratum[g]] += 1;
-        for (std::size_t i = 0; i < points; ++i) {
-            mean[stratum[g] * points + i] += reached[g * points + i];
-            noise.share[i] += reached[g * points + i];
-        }
-    }
-    for (std::size_t s = 0; s < strata; ++s)
-        for (std::size_t i = 0; i < points; ++i)
-            mean[s * points + i] /= std::max(in_stratum[s], 1.0);
-    for (double& share : noise.share)
-        share /= all;
-    std::vector<double> error(points);
-    for (std::size_t g = 0; g < groups; ++g) {
-        const double n = number[stratum[g]];
-        for (std::size_t i = 0; i < points; ++i)
-            error[i] = reached[g * points + i] - size[g] * mean[stratum[g] * points + i];
-        for (std::size_t i = 0; i < points; ++i)
-            for (std::size_t j = 0; j < points; ++j)
-                noise.covariance[i * points + j] += (n > 1 ? n / (n - 1) : 1) * error[i] * error[j] / (all * all);
-    }
-    // a share of 0 or 1 has an error too: that of half a count, for each point by itself
-    for (std::size_t i = 0; i < points; ++i)
-        noise.covariance[i * points + i] += 0.5 / (all * all);
-    return noise;
+    Eigen::MatrixXd all(index(a.size()), index(b.size()));
+    for (std::size_t j = 0; j < b.size(); ++j)
+        for (std::size_t i = 0; i < a.size(); ++i)
+            all(index(i), index(j)) = correlation(a[i], b[j], length);
+    return all;
 }
+
+/// All choices of the lengths.
+std::vector<std::vector<double>> lengths_of(std::size_t dimensions)
+{
+    const std::vector<double> each = dimensions == 1   ? std::vector<double>{0.1, 0.15, 0.25, 0.4, 0.7, 1.2, 2}
+                                     : dimensions == 2 ? std::vector<double>{0.15, 0.3, 0.6, 1.2, 2.4}
+                                                       : std::vector<double>{0.2, 0.5, 1.2, 2.5};
+    std::vector<std::vector<double>> all = {{}};
+    for (std::size_t k = 0; k < dimensions; ++k) {
+        std::vector<std::vector<double>> longer;
+        for (const std::vector<double>& start : all)
+            for (const double length : each) {
+                longer.push_back(start);
+                longer.back().push_back(length);
+            }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+} // namespace
 
 /// One choice of the deviation and the lengths.
 struct ResponseSurface::Model {
     double weight = 0;
     double variance = 1;
     std::vector<double> length;
-    Eigen::VectorXd alpha; ///< K^-1 (y - mean)
-    Eigen::VectorXd ones;  ///< K^-1 1
-    Eigen::LLT<Eigen::MatrixXd> factor;
-    double mean = 0, precision = 1; ///< of the flat mean: 1' K^-1 1
+    Eigen::LLT<Eigen::MatrixXd> factor; ///< L L' = K
+    Eigen::VectorXd rest;               ///< L^-1 (y - mean)
+    Eigen::VectorXd ones;               ///< L^-1 1
+    double mean = 0, precision = 1;     ///< of the flat mean: 1' K^-1 1
+
+    /// L^-1 k of places, from their correlations with the points (points x places).
+    Eigen::MatrixXd whitened(const Eigen::MatrixXd& correlation) const
+    {
+        return factor.matrixL().solve(variance * correlation);
+    }
 };
 
-ResponseSurface::ResponseSurface(std::vector<SearchPlace> points, const PairedNoise& noise) : points_(std::move(points))
+ResponseSurface::ResponseSurface(std::vector<SearchPlace> points, PairedNoise noise)
+    : points_(std::move(points)), noise_(std::move(noise))
 {
-    const std::size_t m = points_.size(), d = points_.front().size();
-    assert(m >= 2);
-    Eigen::VectorXd y(index(m));
-    Eigen::MatrixXd errors(index(m), index(m));
-    for (std::size_t i = 0; i < m; ++i) {
-        y[index(i)] = noise.share[i];
-        for (std::size_t j = 0; j < m; ++j)
-            errors(index(i), index(j)) = noise.covariance[i * m + j];
+    assert(points_.size() >= 2);
+    fit(noise_);
+    for (int pass = 0; pass < smoothing_passes; ++pass) {
+        std::vector<double> mean;
+        for (const Value& value : values(points_))
+            mean.push_back(value.mean);
+        fit(smoothed_noise(noise_, mean));
     }
-    const double scale = std::max(0.02, std::sqrt((y.array() - y.mean()).square().sum() / static_cast<double>(m - 1)));
-    const std::vector<double> lengths = d == 1   ? std::vector<double>{0.1, 0.15, 0.25, 0.4, 0.7, 1.2, 2}
-                                        : d == 2 ? std::vector<double>{0.15, 0.3, 0.6, 1.2, 2.4}
-                                                 : std::vector<double>{0.2, 0.5, 1.2, 2.5};
-    std::size_t choices = 1;
-    for (std::size_t k = 0; k < d; ++k)
-        choices *= lengths.size();
+}
+
+void ResponseSurface::fit(const PairedNoise& noise)
+{
+    const std::size_t m = points_.size();
+    const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(noise.share.data(), index(m));
+    const Eigen::MatrixXd errors = Eigen::Map<const Eigen::MatrixXd>(noise.covariance.data(), index(m), index(m));
+    const double spread = std::sqrt((y.array() - y.mean()).square().sum() / static_cast<double>(m - 1));
+    const double scale = std::max(spread, std::sqrt(errors.trace() / static_cast<double>(m))); // 0: all shares equal
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(index(m));
     std::vector<Model> models;
-    double most = -std::numeric_limits<double>::infinity();
     std::vector<double> log_weight;
-    for (const double times : {0.35, 0.7, 1.4, 2.8})
-        for (std::size_t choice = 0; choice < choices; ++choice) {
+    for (const std::vector<double>& length : lengths_of(points_.front().size())) {
+        const Eigen::MatrixXd correlation = correlations(points_, points_, length);
+        for (const double times : {0.35, 0.7, 1.4, 2.8}) {
             Model model;
             model.variance = times * times * scale * scale;
-            for (std::size_t k = 0, rest = choice; k < d; ++k, rest /= lengths.size())
-                model.length.push_back(lengths[rest % lengths.size()]);
-            Eigen::MatrixXd K = errors;
-            for (std::size_t i = 0; i < m; ++i)
-                for (std::size_t j = 0; j < m; ++j)
-                    K(index(i), index(j)) += model.variance * correlation(points_[i], points_[j], model.length);
-            K.diagonal().array() += 1e-10;
+            model.length = length;
+            Eigen::MatrixXd K = errors + model.variance * correlation;
+            K.diagonal().array() += jitter * model.variance;
             model.factor.compute(K);
             if (model.factor.info() != Eigen::Success)
                 continue;
-            model.ones = model.factor.solve(one);
-            model.precision = one.dot(model.ones);
-            model.mean = y.dot(model.ones) / model.precision;
-            model.alpha = model.factor.solve(y - model.mean * one);
+            model.ones = model.factor.matrixL().solve(one);
+            model.rest = model.factor.matrixL().solve(y);
+            model.precision = model.ones.squaredNorm();
+            model.mean = model.rest.dot(model.ones) / model.precision;
+            model.rest -= model.mean * model.ones;
             const double determinant = 2 * model.factor.matrixLLT().diagonal().array().log().sum();
-            log_weight.push_back(-0.5 *
-                                 ((y - model.mean * one).dot(model.alpha) + determinant + std::log(model.precision)));
-            most = std::max(most, log_weight.back());
+            log_weight.push_back(-0.5 * (model.rest.squaredNorm() + determinant + std::log(model.precision)));
             models.push_back(std::move(model));
         }
+    }
+    const double most = *std::max_element(log_weight.begin(), log_weight.end());
     double sum = 0;
     for (std::size_t i = 0; i < models.size(); ++i)
         sum += models[i].weight = std::exp(log_weight[i] - most);
+    std::erase_if(models, [&](const Model& model) { return model.weight < least_weight * sum; });
+    sum = 0;
+    for (const Model& model : models)
+        sum += model.weight;
     for (Model& model : models)
         model.weight /= sum;
-    std::erase_if(models, [](const Model& model) { return model.weight < 1e-4; });
     models_ = std::make_shared<const std::vector<Model>>(std::move(models));
+}
+
+std::vector<ResponseSurface::Value> ResponseSurface::mixture(const std::vector<SearchPlace>& places,
+                                                             const SearchPlace* from) const
+{
+    const Eigen::Index n = index(places.size());
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n), square = sum;
+    Eigen::MatrixXd correlation;
+    Eigen::ArrayXd own;
+    const std::vector<double>* length = nullptr;
+    for (const Model& model : *models_) {
+        if (!length || *length != model.length) {
+            length = &model.length;
+            correlation = correlations(points_, places, model.length);
+            own = Eigen::ArrayXd::Ones(n);
+            if (from) {
+                const Eigen::VectorXd reference = correlations(points_, {*from}, model.length).col(0);
+                correlation.colwise() -= reference;
+                for (Eigen::Index j = 0; j < n; ++j)
+                    own[j] = 2 * (1 - stylobate::correlation(places[static_cast<std::size_t>(j)], *from, *length));
+            }
+        }
+        const Eigen::MatrixXd V = model.whitened(correlation);
+        const Eigen::ArrayXd value = (V.transpose() * model.rest).array() + (from ? 0 : model.mean);
+        const Eigen::ArrayXd rest = (from ? 0.0 : 1.0) - (V.transpose() * model.ones).array();
+        const Eigen::ArrayXd variance =
+            (model.variance * own - V.colwise().squaredNorm().transpose().array() + rest.square() / model.precision)
+                .max(0.0);
+        sum += model.weight * value;
+        square += model.weight * (value.square() + variance);
+    }
+    std::vector<Value> all(places.size());
+    for (Eigen::Index j = 0; j < n; ++j)
+        all[static_cast<std::size_t>(j)] = {sum[j], std::sqrt(std::max(0.0, square[j] - sum[j] * sum[j]))};
+    return all;
+}
+
+std::vector<ResponseSurface::Value> ResponseSurface::values(const std::vector<SearchPlace>& places) const
+{
+    return mixture(places, nullptr);
 }
 
 ResponseSurface::Value ResponseSurface::at(const SearchPlace& place) const
 {
-    double mean = 0, square = 0, weights = 0;
-    for (const Model& model : *models_) {
-        Eigen::VectorXd k(index(points_.size()));
-        for (std::size_t i = 0; i < points_.size(); ++i)
-            k[index(i)] = model.variance * correlation(place, points_[i], model.length);
-        const double rest = 1 - k.dot(model.ones), value = model.mean + k.dot(model.alpha);
-        const double variance =
-            std::max(0.0, model.variance - k.dot(model.factor.solve(k)) + rest * rest / model.precision);
-        mean += model.weight * value;
-        square += model.weight * (value * value + variance);
-        weights += model.weight;
-    }
-    mean /= weights;
-    return {mean, std::sqrt(std::max(0.0, square / weights - mean * mean))};
+    return mixture({place}, nullptr).front();
+}
+
+std::vector<ResponseSurface::Value> ResponseSurface::differences(const std::vector<SearchPlace>& places,
+                                                                 const SearchPlace& from) const
+{
+    return mixture(places, &from);
 }
 
 ResponseSurface::Value ResponseSurface::difference(const SearchPlace& a, const SearchPlace& b) const
 {
-    double mean = 0, square = 0, weights = 0;
+    return mixture({a}, &b).front();
+}
+
+std::vector<std::vector<double>> ResponseSurface::draws(const std::vector<SearchPlace>& places, std::size_t number,
+                                                        std::uint64_t seed) const
+{
+    const Eigen::Index n = index(places.size());
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<std::vector<double>> all;
+    double until = 0;
     for (const Model& model : *models_) {
-        Eigen::VectorXd k(index(points_.size()));
-        for (std::size_t i = 0; i < points_.size(); ++i)
-            k[index(i)] =
-                model.variance * (correlation(a, points_[i], model.length) - correlation(b, points_[i], model.length));
-        const double rest = k.dot(model.ones), value = k.dot(model.alpha);
-        const double variance = std::max(0.0, 2 * model.variance * (1 - correlation(a, b, model.length)) -
-                                                  k.dot(model.factor.solve(k)) + rest * rest / model.precision);
-        mean += model.weight * value;
-        square += model.weight * (value * value + variance);
-        weights += model.weight;
-    }
-    mean /= weights;
-    return {mean, std::sqrt(std::max(0.0, square / weights - mean * mean))};
-}
-
-std::vector<SearchPlace> first_places(std::size_t dimensions)
-{
-    if (dimensions == 1)
-        return {{0.5}, {0}, {1}, {0.25}, {0.75}};
-    double ratio = 1.5; // x^(d + 1) = x + 1
-    for (int i = 0; i < 60; ++i)
-        ratio = std::pow(1 + ratio, 1.0 / (static_cast<double>(dimensions) + 1));
-    std::vector<SearchPlace> places;
-    for (std::size_t i = 0; i < 4 * dimensions; ++i) {
-        SearchPlace place;
-        for (std::size_t k = 0; k < dimensions; ++k)
-            place.push_back(
-                std::fmod(0.5 + static_cast<double>(i) * std::pow(1 / ratio, static_cast<double>(k) + 1), 1.0));
-        places.push_back(std::move(place));
-    }
-    return places;
-}
-
-std::vector<SearchPlace> candidate_places(std::size_t dimensions)
-{
-    const std::size_t side = dimensions == 1 ? 201 : dimensions == 2 ? 41 : 17;
-    std::size_t all = 1;
-    for (std::size_t k = 0; k < dimensions; ++k)
-        all *= side;
-    std::vector<SearchPlace> places;
-    for (std::size_t i = 0; i < all; ++i) {
-        SearchPlace place;
-        for (std::size_t k = 0, rest = i; k < dimensions; ++k, rest /= side)
-            place.push_back(static_cast<double>(rest % side) / static_cast<double>(side - 1));
-        places.push_back(std::move(place));
-    }
-    return places;
-}
-
-SearchAnswer search_answer(const ResponseSurface& surface, const std::vector<SearchPlace>& candidates, double level)
-{
-    SearchAnswer answer;
-    double least = std::numeric_limits<double>::infinity();
-    for (const SearchPlace& place : candidates)
-        if (const double mean = surface.at(place).mean; mean < least) {
-            least = mean;
-            answer.best = place;
-        }
-    answer.value = surface.at(answer.best);
-    const double z = quantile(boost::math::normal_distribution<double>(), (1 + level) / 2);
-    for (const SearchPlace& place : candidates) {
-        const ResponseSurface::Value excess = surface.difference(place, answer.best);
-        if (excess.mean <= z * excess.sd)
-            answer.flat.push_back(place);
-    }
-    return answer;
-}
-
-NextPlace next_place(const ResponseSurface& surface, const std::vector<SearchPlace>& candidates,
-                     const std::vector<SearchPlace>& points)
-{
-    SearchPlace best = points.front();
-    double least = surface.at(best).mean;
-    for (const SearchPlace& point : points)
-        if (const double mean = surface.at(point).mean; mean < least) {
-            least = mean;
-            best = point;
-        }
-    const boost::math::normal_distribution<double> normal;
-    NextPlace next{{}, -1};
-    for (const SearchPlace& place : candidates) {
-        if (std::find(points.begin(), points.end(), place) != points.end())
+        until += model.weight * static_cast<double>(number);
+        if (all.size() >= number || std::floor(until + 0.5) <= static_cast<double>(all.size()))
             continue;
-        const ResponseSurface::Value change = surface.difference(place, best);
-        const double u = change.sd > 0 ? -change.mean / change.sd : 0;
-        const double improvement = change.sd > 0 ? change.sd * (u * cdf(normal, u) + pdf(normal, u)) : 0;
-        if (improvement > next.improvement)
-            next = {place, improvement};
+        const Eigen::MatrixXd V = model.whitened(correlations(points_, places, model.length));
+        const Eigen::VectorXd mean = (V.transpose() * model.rest).array() + model.mean;
+        const Eigen::VectorXd rest = 1 - (V.transpose() * model.ones).array();
+        Eigen::MatrixXd C = model.variance * correlations(places, places, model.length);
+        C.noalias() -= V.transpose() * V;
+        C.noalias() += rest * rest.transpose() / model.precision;
+        C.diagonal().array() += jitter * model.variance;
+        const Eigen::LLT<Eigen::MatrixXd> factor(C);
+        while (all.size() < number && static_cast<double>(all.size()) + 0.5 <= until) {
+            Eigen::VectorXd z(n);
+            for (Eigen::Index j = 0; j < n; ++j)
+                z[j] = normal(random);
+            const Eigen::VectorXd drawn = mean + factor.matrixL() * z;
+            all.emplace_back(drawn.data(), drawn.data() + n);
+        }
     }
-    return next;
+    return all;
 }
 
 } // namespace stylobate

@@ -121,12 +121,14 @@ std::optional<OptimiseSpec> read_optimise(const KeyReader& top)
     const KeyReader keys = top.table(optimise_keys::table.name);
     OptimiseSpec spec;
     spec.minimise = keys.read_or(optimise_keys::minimise, spec.minimise);
+    spec.hazard = keys.read_or(optimise_keys::hazard, spec.hazard);
     spec.budget = keys.read(optimise_keys::budget);
     for (const TomlValue& value : table->entries)
-        if (value.key != optimise_keys::minimise.name && value.key != optimise_keys::budget.name) {
+        if (value.key != optimise_keys::minimise.name && value.key != optimise_keys::hazard.name &&
+            value.key != optimise_keys::budget.name) {
             if (value.type != TomlValue::Type::table)
                 keys.refuse(value.key, "is not a table",
-                            "Give \"KEY\" = { from = ..., to = ... }; the other keys are minimise and budget.");
+                            "Give \"KEY\" = { from = ..., to = ... }; the other keys are minimise, hazard and budget.");
             if (std::ranges::any_of(value.entries, [](const auto& e) { return e.type == TomlValue::Type::table; }))
                 keys.refuse(value.key, "contains tables",
                             "A key with dots stands in quotes: \"contact.friction\" = { from = ..., to = ... }.");

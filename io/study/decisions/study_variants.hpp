@@ -24,6 +24,7 @@ struct SearchedKey {
 
 struct OptimiseSpec {
     std::string minimise = "collapse"; ///< name of a limit state
+    std::string hazard = {};           ///< file, or a power law; empty: the probability is minimised
     std::uint64_t budget = 0;          ///< realizations
     std::vector<SearchedKey> keys;     ///< one to three, by name
 };

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/plots/gnuplot.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
@@ -194,9 +195,17 @@ int search_study(const CommonOptions& options, const CompareOptions& wanted)
     if (wanted.files.size() > 1)
         throw InputError(
             fmt::format("--search: takes one study file with [optimise], not {} files", wanted.files.size()));
-    if (wanted.adaptive || !wanted.output.empty())
-        throw InputError(fmt::format("{}: does not go with --search, whose points have results files of their own",
-                                     wanted.adaptive ? "--adaptive" : "-o " + wanted.output));
+    if (wanted.adaptive)
+        throw InputError("--adaptive: does not go with --search, whose points are run whole");
+    if (!wanted.output.empty()) {
+        if (!is_picture_format(ending_of(wanted.output)))
+            throw InputError(fmt::format("-o {}: --search writes a picture there (png, svg or pdf); its points have "
+                                         "results files of their own",
+                                         wanted.output));
+        check_output(wanted.files.front(), wanted.output, options.force);
+        AtomicFile::check(wanted.output);
+        find_gnuplot(); // refuses before anything is run
+    }
     const SearchFiles files{wanted.files.front(), options.set, ""};
     check_search(files);
     const RunOptions run = options.run_options();
@@ -212,6 +221,8 @@ int search_study(const CommonOptions& options, const CompareOptions& wanted)
             fmt::print("Interrupted; what was run is kept. The same command continues the search.\n");
         return exit_interrupted;
     }
+    if (!wanted.output.empty())
+        plot_search(*result, wanted.output);
     if (options.json)
         fmt::print("{}\n", search_json(*result).member("complete", true).text());
     else if (!options.quiet)

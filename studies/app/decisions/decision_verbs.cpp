@@ -29,7 +29,8 @@ void DecisionVerbs::add_compare()
         ->capture_default_str()
         ->needs(adaptive);
     compare->add_flag("--search", compare_.search,
-                      "search the values of [optimise] for which the limit state is least probable");
+                      "search the values of [optimise] for which the limit state is least probable, or least "
+                      "frequent over a hazard; -o FILE.png: a picture");
     add_force(*compare, options_);
     add_set(*compare, options_);
     add_common(*compare, options_, {"cpu", "cuda"});

@@ -36,13 +36,6 @@ const FragilityKind& fragility_kind(const Results& results)
     return *kind;
 }
 
-/// The measure of the hazard that is needed, before all rows are read.
-std::string measure_of(const Study& study)
-{
-    const FragilitySpec& f = *study.fragility;
-    return f.method == FragilityMethod::stripes ? measure_name(f.measure, f.period_s) : "pga_m_s2";
-}
-
 RiskOptions checked(const RiskCommandOptions& wanted)
 {
     RiskOptions options;
@@ -74,7 +67,7 @@ int risk_command(const CommonOptions& options, const std::string& file, const Ri
     const RunOptions run = options.run_options();
     const Results results(file, options.set);
     fragility_kind(results);
-    const HazardModel hazard = read_hazard(wanted.hazard, measure_of(results.study()), wanted.site);
+    const HazardModel hazard = read_hazard(wanted.hazard, measure_of(*results.study().fragility), wanted.site);
     if (wanted.sequences > 0)
         check_sequences(results);
     AtomicFile::check(output);

@@ -52,6 +52,10 @@ struct Risk {
     const StateRisk& principal() const;
 };
 
+/// Why too much of a frequency comes from outside of the range of the runs, or of the hazard's points; empty: it is
+/// determined.
+std::string why_undetermined(const FrequencyEstimate& estimate, double most_outside);
+
 /// Of each limit state both forms where the data bear them. The lognormal curve is chosen where it fits (lack of fit, p
 /// of at least 0.05) or where there are no stripes, else the shares.
 /// @throws InputError for an unknown limit state, and where no limit state has an estimate

@@ -41,18 +41,11 @@ std::vector<FragilityPoint> share_points(const StateFragility& s)
 /// Says of a state whether too much comes from outside.
 void judge(StateRisk& risk, double most_outside)
 {
-    const FrequencyEstimate& e = risk.estimate;
-    const double outside = e.below + e.above;
-    const auto refuse = [&](double share, const std::string& where, const std::string& remedy) {
-        risk.determined = false;
-        risk.note = fmt::format("{:.0f} % of the frequency would come from {}, more than {:g} %. {}", 100 * share,
-                                where, 100 * most_outside, remedy);
-    };
-    if (outside > most_outside && outside >= e.beyond_hazard)
-        refuse(outside, "intensities outside of the range of the runs",
-               fmt::format("Run the study with {} intensities.", e.below > e.above ? "weaker" : "stronger"));
-    else if (e.beyond_hazard > most_outside)
-        refuse(e.beyond_hazard, "intensities outside of the hazard's points", "Give the hazard over a wider range.");
+    const std::string why = why_undetermined(risk.estimate, most_outside);
+    if (why.empty())
+        return;
+    risk.determined = false;
+    risk.note = why;
 }
 
 std::vector<StateRisk> risks_of(const StateFragility& s, const HazardModel& hazard, const RiskOptions& options)
@@ -104,6 +97,22 @@ void check_determined(const Risk& risk)
 }
 
 } // namespace
+
+std::string why_undetermined(const FrequencyEstimate& e, double most_outside)
+{
+    const double outside = e.below + e.above;
+    const auto why = [&](double share, const std::string& where, const std::string& remedy) {
+        return fmt::format("{:.0f} % of the frequency would come from {}, more than {:g} %. {}", 100 * share, where,
+                           100 * most_outside, remedy);
+    };
+    if (outside > most_outside && outside >= e.beyond_hazard)
+        return why(outside, "intensities outside of the range of the runs",
+                   fmt::format("Run the study with {} intensities.", e.below > e.above ? "weaker" : "stronger"));
+    if (e.beyond_hazard > most_outside)
+        return why(e.beyond_hazard, "intensities outside of the hazard's points",
+                   "Give the hazard over a wider range.");
+    return "";
+}
 
 Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOptions& options)
 {

@@ -1,18 +1,22 @@
 #include "studies/decisions/search/search.hpp"
 
 #include "ensemble/estimators/paired/paired_difference.hpp"
-#include "ensemble/estimators/search/response_surface.hpp"
+#include "ensemble/estimators/search/search_answer.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparable.hpp"
 #include "studies/decisions/compare/pairing.hpp"
+#include "studies/decisions/risk/risk.hpp"
+#include "studies/decisions/search/search_objective.hpp"
 #include "studies/results/whole_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 namespace stylobate {
@@ -20,7 +24,8 @@ namespace stylobate {
 namespace {
 
 constexpr std::size_t most_points = 60;
-constexpr double least_improvement = 2e-4; ///< of a probability: less is expected of a further point
+/// Of the mean over the points that have been run: less is expected of a further point.
+constexpr double least_improvement = 1e-3;
 
 struct RunPoint {
     SearchPlace place;
@@ -89,27 +94,13 @@ std::size_t limit_number(const StudySide& side, const std::string& name, const s
         study, 0, fmt::format("optimise.minimise = \"{}\" is no limit state of the study.\n  It has {}.", name, names));
 }
 
-/// Shares of the points and the covariance of their errors, over the realizations that are valid in all of them.
-PairedNoise noise_of(const std::vector<RunPoint>& points, std::size_t limit, const PairLayout& layout)
+/// The improvement that is not worth a further point; half a count where no point has reached the state.
+double enough(const PairedNoise& noise)
 {
-    const std::size_t m = points.size(), groups = layout.groups;
-    std::vector<double> reached(groups * m), size(groups);
-    std::vector<std::size_t> stratum(groups);
-    for (std::uint64_t index = 0; index < points.front().side->size(); ++index) {
-        if (!std::ranges::all_of(points, [&](const RunPoint& p) { return p.side->has(index) && p.side->valid(index); }))
-            continue;
-        std::size_t group = layout.group(index);
-        if (groups == 0) { // a realization by itself, within its cell
-            group = size.size();
-            size.push_back(0);
-            stratum.push_back(layout.cell(index));
-            reached.resize(reached.size() + m);
-        }
-        size[group] += 1;
-        for (std::size_t i = 0; i < m; ++i)
-            reached[group * m + i] += points[i].side->reached(index, limit);
-    }
-    return paired_noise(reached, size, stratum, m);
+    double mean = 0;
+    for (const double share : noise.share)
+        mean += share / static_cast<double>(noise.share.size());
+    return mean > 0 ? least_improvement * mean : std::sqrt(noise.half);
 }
 
 class Search {
@@ -129,6 +120,8 @@ public:
             return std::nullopt;
         base_side_ = side_of(*base_);
         limit_ = limit_number(*base_side_, spec_.minimise, files_.study);
+        objective_.emplace(spec_, files_.study, base_->study(), result_.level);
+        check_determined();
         const std::uint64_t each = base_->header().total;
         result_.realizations = each;
         for (const SearchPlace& place : first_places(spec_.keys.size()))
@@ -138,9 +131,9 @@ public:
         while (points_.size() < most_points) {
             if (observer_.stop_requested()) // while points that are there already are taken again
                 return std::nullopt;
-            const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
-            const NextPlace next = next_place(surface, candidates, places());
-            if (next.improvement < least_improvement)
+            const ResponseSurface surface(places(), noise());
+            const NextPlace next = next_place(surface, candidates);
+            if (next.improvement < enough(surface.noise()))
                 break;
             result_.at_the_end = result_.realizations + each > spec_.budget;
             if (result_.at_the_end)
@@ -161,6 +154,26 @@ private:
         return all;
     }
 
+    PairedNoise noise() const
+    {
+        std::vector<const StudySide*> sides;
+        for (const RunPoint& point : points_)
+            sides.push_back(point.side.get());
+        return objective_->noise(sides, limit_, layout_);
+    }
+
+    /// As `stylobate risk` refuses it.
+    void check_determined()
+    {
+        if (!objective_->is_frequency())
+            return;
+        const FrequencyEstimate base = objective_->frequency(*base_side_, limit_, layout_);
+        if (const std::string why = why_undetermined(base, RiskOptions{}.most_outside); !why.empty())
+            throw InputError(files_.study, 0,
+                             fmt::format("optimise.hazard: {} of the study as it stands: {}", spec_.minimise, why));
+        result_.base_frequency = base.frequency;
+    }
+
     /// Runs a point. @returns whether it is complete
     bool add(const SearchPlace& place)
     {
@@ -176,34 +189,63 @@ private:
 
     void conclude(const std::vector<SearchPlace>& candidates)
     {
-        const ResponseSurface surface(places(), noise_of(points_, limit_, layout_));
+        const ResponseSurface surface(places(), noise());
         const SearchAnswer answer = search_answer(surface, candidates, result_.level);
         result_.best = values_at(spec_, answer.best);
-        const double z = two_sided_normal(result_.level);
-        result_.probability = std::clamp(answer.value.mean, 0.0, 1.0);
-        result_.lower = std::max(0.0, answer.value.mean - z * answer.value.sd);
-        result_.upper = std::min(1.0, answer.value.mean + z * answer.value.sd);
-        for (std::size_t k = 0; k < spec_.keys.size(); ++k) {
-            double from = 1, to = 0;
-            for (const SearchPlace& place : answer.flat) {
-                from = std::min(from, place[k]);
-                to = std::max(to, place[k]);
-            }
-            result_.flat_from.push_back(spec_.keys[k].value(from));
-            result_.flat_to.push_back(spec_.keys[k].value(to));
-        }
-        double least = 2;
+        result_.value = answer.value;
+        result_.lower = answer.lower;
+        result_.upper = answer.upper;
+        result_.flat_from = values_at(spec_, answer.from);
+        result_.flat_to = values_at(spec_, answer.to);
+        for (std::size_t k = 0; k < spec_.keys.size(); ++k)
+            result_.slices.push_back(slice(surface, answer, k));
+        double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const PlaceComparison change = change_of(points_[i]);
-            result_.points.push_back({points_[i].value, change.variant,
+            result_.points.push_back({points_[i].value,
+                                      change.variant,
+                                      {},
                                       std::filesystem::path(points_[i].run->results()).filename().string()});
+            std::string outside;
+            double unseen = 0;
+            if (objective_->is_frequency()) {
+                const FrequencyEstimate own = objective_->frequency(*points_[i].side, limit_, layout_);
+                result_.points.back().frequency = own.frequency;
+                outside = why_undetermined(own, RiskOptions{}.most_outside);
+                unseen = own.unseen;
+            }
             if (const double mean = surface.at(points_[i].place).mean; mean < least) {
                 least = mean;
                 result_.best_point = i;
                 result_.change = change;
+                result_.outside = outside;
+                result_.unseen = unseen;
                 result_.base = change.base;
             }
         }
+        if (objective_->is_frequency())
+            result_.frequency_change =
+                objective_->difference(*base_side_, *points_[result_.best_point].side, limit_, layout_);
+    }
+
+    SearchSlice slice(const ResponseSurface& surface, const SearchAnswer& answer, std::size_t k) const
+    {
+        SearchSlice slice;
+        std::vector<SearchPlace> places;
+        for (const SearchPlace& along : candidate_places(1)) {
+            places.push_back(answer.best);
+            places.back()[k] = along[0];
+            slice.x.push_back(spec_.keys[k].value(along[0]));
+        }
+        const PairedNoise& found = surface.noise();
+        for (const ResponseSurface::Value& value : surface.values(places)) {
+            const MeanLimits limits =
+                mean_limits(value.mean, value.sd, found.most, answer.freedom, found.groups, result_.level);
+            slice.value.push_back(std::clamp(value.mean, 0.0, found.most));
+            slice.lower.push_back(limits.lower);
+            slice.upper.push_back(limits.upper);
+        }
+        return slice;
     }
 
     PlaceComparison change_of(const RunPoint& point) const
@@ -217,6 +259,7 @@ private:
     const OptimiseSpec spec_;
     SearchResult result_;
     PairLayout layout_;
+    std::optional<SearchObjective> objective_;
     std::size_t limit_ = 0;
     std::unique_ptr<WholeRun> base_;
     std::unique_ptr<StudySide> base_side_;
@@ -231,6 +274,7 @@ void check_search(const SearchFiles& files)
     const auto base = run_at(files, spec, {});
     check_can_be_compared(base->header(), files.study);
     limit_number(StudySide(base->study(), base->header()), spec.minimise, files.study);
+    SearchObjective(spec, files.study, base->study(), interval_level); // refuses a hazard
     const std::uint64_t each = base->header().total, first = first_places(spec.keys.size()).size() + 1;
     if (spec.budget / each < first + 1)
         throw InputError(files.study, 0,

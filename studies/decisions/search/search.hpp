@@ -1,12 +1,15 @@
 #pragma once
-/// The values of one to three numbers of a study for which a limit state is least probable.
+/// The values of one to three numbers of a study for which a limit state is least probable, or least frequent over a
+/// hazard.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/observer.hpp"
 #include "io/study/decisions/study_variants.hpp"
 #include "studies/decisions/compare/comparison.hpp"
+#include "studies/decisions/search/search_objective.hpp"
 #include "studies/report/json.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,21 +19,34 @@ namespace stylobate {
 struct SearchedPoint {
     std::vector<double> value; ///< (keys)
     Share share;               ///< of the limit state
+    RiskNumber frequency;      ///< of the limit state, by a hazard [1/year]
     std::string results;       ///< its results file
+};
+
+/// The surface along one key, through the best place.
+struct SearchSlice {
+    std::vector<double> x, value, lower, upper; ///< limits as of the answer, but for the choice of the place
 };
 
 struct SearchResult {
     OptimiseSpec asked;
     double level = interval_level;
-    std::uint64_t realizations = 0;    ///< of all points and the base together
-    std::vector<SearchedPoint> points; ///< in the order in which they were run
-    std::vector<double> best;          ///< (keys) the lowest place of the response surface
-    double probability = 0, lower = 0, upper = 1;
+    std::uint64_t realizations = 0;         ///< of all points and the base together
+    std::vector<SearchedPoint> points;      ///< in the order in which they were run
+    std::vector<double> best;               ///< (keys) the lowest place of the response surface
+    double value = 0, lower = 0, upper = 1; ///< probability there, or with a hazard the frequency [1/year]
     std::vector<double> flat_from, flat_to; ///< (keys) range of the places that are not shown to be worse
+    std::vector<SearchSlice> slices;        ///< (keys)
     bool at_the_end = false;                ///< of the budget; else no improvement is expected any more
     Share base;                             ///< of the study as it stands
     std::size_t best_point = 0;             ///< of those that were run, by the surface
     PlaceComparison change;                 ///< of that point against the base
+    // with a hazard
+    RiskNumber base_frequency;
+    FrequencyDifference frequency_change; ///< of that point against the base
+    double unseen = 0;                    ///< of that point (`FrequencyEstimate::unseen`), in no interval [1/year]
+    std::string outside;                  ///< why its frequency is not determined; empty: it is
+    bool is_frequency() const { return !asked.hazard.empty(); }
 };
 
 struct SearchFiles {
@@ -52,6 +68,8 @@ std::optional<SearchResult> search(const SearchFiles& files, double level, const
                                    Observer& observer);
 
 std::string search_text(const SearchResult& result);
+/// Slices with their intervals and the ranges that are not shown to be worse; of one key the points too.
+void plot_search(const SearchResult& result, const std::filesystem::path& picture);
 Json search_json(const SearchResult& result);
 
 } // namespace stylobate

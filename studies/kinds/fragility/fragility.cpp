@@ -47,7 +47,7 @@ public:
     {
         const FragilitySpec& spec = *study_.fragility;
         out_.method = spec.method;
-        out_.measure = spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
+        out_.measure = measure_of(spec);
         out_.motions = header_.motions.names.size();
         out_.structures = study_.realizations;
         for (FragilityOutcome& row : rows) {
@@ -372,6 +372,11 @@ FragilityTable stored(const Fragility& f)
             else
                 add(table.share, none, {none, none});
     return table;
+}
+
+std::string measure_of(const FragilitySpec& spec)
+{
+    return spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
 }
 
 } // namespace stylobate

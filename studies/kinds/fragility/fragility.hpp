@@ -66,6 +66,9 @@ Fragility fragility_of(const Study& study, const ResultHeader& header, std::vect
 /// What the file keeps of it.
 FragilityTable stored(const Fragility& fragility);
 
+/// The measure of its curves, "pgv_m_s"; of a cloud the PGA.
+std::string measure_of(const FragilitySpec& spec);
+
 /// "peak ground velocity [m/s]" of "pgv_m_s".
 std::string describe_measure(const std::string& name);
 

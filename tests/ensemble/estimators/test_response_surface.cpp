@@ -1,52 +1,16 @@
-/// The response surface of a search: known functions with binomial noise.
+/// The response surface of a search: its parts.
 
 #include "ensemble/estimators/search/response_surface.hpp"
+#include "ensemble/estimators/search/search_answer.hpp"
+#include "tests/ensemble/estimators/search_truth.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <random>
+#include <limits>
 
 namespace stylobate {
 namespace {
-
-/// Realizations that are the same at all points: half of what decides is common.
-class Realizations {
-public:
-    Realizations(std::size_t number, double common, std::uint64_t seed) : random_(seed), common_(common)
-    {
-        std::normal_distribution<double> normal;
-        for (std::size_t r = 0; r < number; ++r)
-            level_.push_back(normal(random_));
-    }
-    /// One point more.
-    void add(double p)
-    {
-        std::normal_distribution<double> normal;
-        std::vector<char> column;
-        for (const double level : level_) {
-            const double z = std::sqrt(common_) * level + std::sqrt(1 - common_) * normal(random_);
-            column.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)) < p);
-        }
-        reached_.push_back(std::move(column));
-    }
-    PairedNoise noise() const
-    {
-        const std::size_t n = level_.size(), m = reached_.size();
-        std::vector<double> reached(n * m), size(n, 1);
-        for (std::size_t r = 0; r < n; ++r)
-            for (std::size_t i = 0; i < m; ++i)
-                reached[r * m + i] = reached_[i][r];
-        return paired_noise(reached, size, std::vector<std::size_t>(n), m);
-    }
-
-private:
-    std::mt19937_64 random_;
-    double common_;
-    std::vector<double> level_;
-    std::vector<std::vector<char>> reached_;
-};
 
 TEST(PairedNoise, IsTheCovarianceOfShares)
 {
@@ -62,10 +26,22 @@ TEST(PairedNoise, IsTheCovarianceOfShares)
     EXPECT_NEAR(strata.covariance[3], 0.5 / 16, 1e-12);
 }
 
+/// Of so many realizations that the covariance is known.
+PairedNoise known_noise(std::vector<double> share, std::vector<double> covariance)
+{
+    PairedNoise noise;
+    noise.freedom.assign(share.size(), std::numeric_limits<double>::infinity());
+    noise.share = std::move(share);
+    noise.covariance = std::move(covariance);
+    noise.groups = 1e9;
+    noise.half = 1e-18;
+    return noise;
+}
+
 TEST(ResponseSurface, GoesThroughPointsWithoutNoise)
 {
     const std::vector<SearchPlace> points = {{0}, {0.25}, {0.5}, {0.75}, {1}};
-    PairedNoise noise{{0.6, 0.35, 0.2, 0.3, 0.55}, std::vector<double>(25)};
+    PairedNoise noise = known_noise({0.6, 0.35, 0.2, 0.3, 0.55}, std::vector<double>(25));
     for (std::size_t i = 0; i < 5; ++i)
         noise.covariance[i * 6] = 1e-8;
     const ResponseSurface surface(points, noise);
@@ -77,13 +53,16 @@ TEST(ResponseSurface, GoesThroughPointsWithoutNoise)
     EXPECT_NEAR(surface.difference({0.25}, {0.5}).mean, 0.15, 1e-3);
     const SearchAnswer answer = search_answer(surface, candidate_places(1), 0.95);
     EXPECT_NEAR(answer.best[0], 0.55, 0.1);
+    EXPECT_LE(answer.from[0], answer.best[0]);
+    EXPECT_GE(answer.to[0], answer.best[0]);
 }
 
 /// An error that all points have in common cancels in differences.
 TEST(ResponseSurface, CommonErrorsCancelInDifferences)
 {
     const std::vector<SearchPlace> points = {{0}, {0.5}, {1}};
-    PairedNoise common{{0.4, 0.3, 0.4}, std::vector<double>(9, 1e-3)}, own{common.share, std::vector<double>(9)};
+    PairedNoise common = known_noise({0.4, 0.3, 0.4}, std::vector<double>(9, 1e-3));
+    PairedNoise own = known_noise(common.share, std::vector<double>(9));
     for (std::size_t i = 0; i < 3; ++i) {
         common.covariance[i * 4] += 1e-6;
         own.covariance[i * 4] = 1e-3;
@@ -104,69 +83,107 @@ TEST(ResponseSurface, FirstPlacesFillTheCube)
     EXPECT_EQ(candidate_places(2).size(), 1681U);
 }
 
-struct Repeats {
-    double place = 0, value = 0, excess = 0;
-};
-/// Searches of a known function: how often the range that is not shown to be worse holds the optimum, how often the
-/// interval holds the probability at the answer, and how much larger that is than the least one.
-Repeats searches(std::size_t d, const std::function<double(const SearchPlace&)>& p, const SearchPlace& optimum,
-                 std::size_t points, int repeats)
+/// Draws have the means and deviations that the surface states, of values and of differences.
+TEST(ResponseSurface, DrawsAreThoseOfTheSurface)
 {
-    Repeats found;
-    std::vector<SearchPlace> candidates = candidate_places(d);
-    if (d == 2) // every other row and column: a fourth of the time
-        std::erase_if(candidates, [](const SearchPlace& place) {
-            return std::llround(40 * place[0]) % 2 != 0 || std::llround(40 * place[1]) % 2 != 0;
-        });
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-        Realizations realizations(300, 0.5, static_cast<std::uint64_t>(repeat) + 1);
-        std::vector<SearchPlace> places = first_places(d);
-        for (const SearchPlace& place : places)
-            realizations.add(p(place));
-        while (places.size() < points) {
-            const NextPlace next = next_place(ResponseSurface(places, realizations.noise()), candidates, places);
-            if (next.place.empty())
-                break;
-            places.push_back(next.place);
-            realizations.add(p(next.place));
+    const KnownFunction f = known_functions(2).front();
+    CommonRealizations realizations(300, 0, true, 3);
+    const std::vector<SearchPlace> points = first_places(2);
+    for (const SearchPlace& place : points)
+        realizations.add(f.p(place), place);
+    const ResponseSurface surface(points, realizations.noise());
+    const std::vector<SearchPlace> places = {{0.1, 0.2}, {0.15, 0.2}, {0.9, 0.4}};
+    constexpr std::size_t number = 20000;
+    const auto draws = surface.draws(places, number, 5);
+    ASSERT_EQ(draws.size(), number);
+    const auto expect = [&](const ResponseSurface::Value& want, auto&& of) {
+        double mean = 0, square = 0;
+        for (const auto& draw : draws) {
+            mean += of(draw) / number;
+            square += of(draw) * of(draw) / number;
         }
-        const ResponseSurface surface(places, realizations.noise());
-        const SearchAnswer answer = search_answer(surface, candidates, 0.95);
-        bool inside = true;
-        for (std::size_t k = 0; k < d; ++k) {
-            double from = 1, to = 0;
-            for (const SearchPlace& place : answer.flat) {
-                from = std::min(from, place[k]);
-                to = std::max(to, place[k]);
-            }
-            inside = inside && from <= optimum[k] && optimum[k] <= to;
-        }
-        found.place += inside / static_cast<double>(repeats);
-        found.value +=
-            (std::abs(p(answer.best) - answer.value.mean) <= 1.96 * answer.value.sd) / static_cast<double>(repeats);
-        found.excess += (p(answer.best) - p(optimum)) / repeats;
-    }
-    return found;
-}
-
-TEST(ResponseSurfaceStatistics, FindsTheOptimumOfOneNumber)
-{
-    const auto p = [](const SearchPlace& x) { return 0.15 + 1.2 * (x[0] - 0.37) * (x[0] - 0.37); };
-    const Repeats found = searches(1, p, {0.37}, 12, 200);
-    EXPECT_GE(found.place, 0.93);
-    EXPECT_GE(found.value, 0.91);
-    EXPECT_LT(found.excess, 0.01);
-}
-
-TEST(ResponseSurfaceStatistics, FindsTheOptimumOfTwoNumbers)
-{
-    const auto p = [](const SearchPlace& x) {
-        return 0.1 + 0.8 * (x[0] - 0.6) * (x[0] - 0.6) + 0.5 * (x[1] - 0.3) * (x[1] - 0.3);
+        EXPECT_NEAR(mean, want.mean, 5 * want.sd / std::sqrt(number));
+        EXPECT_NEAR(std::sqrt(square - mean * mean), want.sd, 0.03 * want.sd);
     };
-    const Repeats found = searches(2, p, {0.6, 0.3}, 16, 30);
-    EXPECT_GE(found.place, 0.9);
-    EXPECT_GE(found.value, 0.85);
-    EXPECT_LT(found.excess, 0.03);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        expect(surface.at(places[i]), [&](const auto& draw) { return draw[i]; });
+    expect(surface.difference(places[0], places[1]), [](const auto& draw) { return draw[0] - draw[1]; });
+    expect(surface.difference(places[2], places[1]), [](const auto& draw) { return draw[2] - draw[1]; });
+}
+
+/// Of one realization by itself at p = 0.5 all is known: v = y (1 - y) / n, and half a count.
+TEST(PairedNoise, SmoothedFollowsTheSurface)
+{
+    std::vector<double> reached(400 * 2), size(400, 1);
+    for (std::size_t r = 0; r < 400; ++r) {
+        reached[2 * r] = r % 10 == 0;    // 0.1
+        reached[2 * r + 1] = r % 2 == 0; // 0.5
+    }
+    const PairedNoise noise = paired_noise(reached, size, std::vector<std::size_t>(400), 2);
+    const PairedNoise same = smoothed_noise(noise, noise.share);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(same.covariance[i], noise.covariance[i], 0.02 * noise.covariance[3]);
+    const PairedNoise other = smoothed_noise(noise, {0.2, 0.5});
+    EXPECT_NEAR(other.covariance[0], 0.2 * 0.8 / 400, 0.02 * 0.16 / 400);
+    // twenty motions of one design effect: few groups lend each other's
+    std::vector<double> motions(20 * 2);
+    for (std::size_t g = 0; g < 20; ++g) {
+        motions[2 * g] = g < 4 ? 20 : 0; // all or nothing
+        motions[2 * g + 1] = 10;         // no scatter at all, by chance
+    }
+    const PairedNoise few = paired_noise(motions, std::vector<double>(20, 20), std::vector<std::size_t>(20), 2);
+    EXPECT_DOUBLE_EQ(few.freedom[0], 3);
+    EXPECT_DOUBLE_EQ(few.freedom[1], 19);
+    EXPECT_GT(smoothed_noise(few, few.share).covariance[3], 10 * few.covariance[3]);
+    EXPECT_TRUE(std::isinf(noise.freedom[0]));
+}
+
+/// Against exact limits (Clopper & Pearson) of counts of 300: 5 % of 0.05 to 0.95, which those of a normal
+/// approximation do not hold at small counts.
+TEST(PairedNoise, LimitsOfMeansHoldAtSmallCounts)
+{
+    for (const double p : {0.004, 0.01, 0.03, 0.1, 0.3, 0.5}) {
+        double covered = 0, term = std::pow(1 - p, 300);
+        for (int count = 0; count <= 300; ++count) {
+            const double share = count / 300.0, v = share * (1 - share) / 300 + 0.5 / (300.0 * 300);
+            const MeanLimits limits =
+                mean_limits(share, std::sqrt(v), 1, std::numeric_limits<double>::infinity(), 300, 0.95);
+            covered += limits.lower <= p && p <= limits.upper ? term : 0;
+            term *= (300.0 - count) / (count + 1) * p / (1 - p);
+        }
+        EXPECT_GE(covered, 0.93) << p;
+        EXPECT_LE(covered, 0.9999) << p;
+    }
+    // of another unit
+    const MeanLimits one = mean_limits(0.1, 0.02, 1, 30, 40, 0.95), two = mean_limits(0.2, 0.04, 2, 30, 40, 0.95);
+    EXPECT_NEAR(two.lower, 2 * one.lower, 1e-12);
+    EXPECT_NEAR(two.upper, 2 * one.upper, 1e-12);
+    EXPECT_EQ(mean_limits(0, 0, 1, 30, 40, 0.95).upper, 0);
+}
+
+/// A unit changes nothing but the unit.
+TEST(ResponseSurface, DoesNotDependOnTheUnit)
+{
+    const KnownFunction f = known_functions(1).front();
+    CommonRealizations realizations(300, 20, false, 3);
+    const std::vector<SearchPlace> points = first_places(1);
+    for (const SearchPlace& place : points)
+        realizations.add(f.p(place), place);
+    PairedNoise noise = realizations.noise();
+    const std::vector<SearchPlace> candidates = candidate_places(1);
+    const SearchAnswer one = search_answer(ResponseSurface(points, noise), candidates, 0.95);
+    constexpr double unit = 1e-4;
+    for (double& share : noise.share)
+        share *= unit;
+    for (double& v : noise.covariance)
+        v *= unit * unit;
+    noise.most *= unit;
+    noise.half *= unit * unit;
+    const SearchAnswer other = search_answer(ResponseSurface(points, noise), candidates, 0.95);
+    EXPECT_EQ(one.best, other.best);
+    EXPECT_EQ(one.flat, other.flat);
+    EXPECT_NEAR(other.value, unit * one.value, 1e-9 * unit);
+    EXPECT_NEAR(other.upper, unit * one.upper, 1e-9 * unit);
 }
 
 } // namespace
