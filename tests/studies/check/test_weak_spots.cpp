@@ -68,6 +68,9 @@ TEST(WeakSpots, BlocksThatSlideFirst) // B / H = 0.276
 {
     EXPECT_TRUE(has("slides_first", ready("free_rocking", {"contact.friction=0.26"})));
     EXPECT_FALSE(has("slides_first", ready("free_rocking", {"contact.friction=0.28"})));
+    // two epistyles that meet over a column slide there as the columns rock: with rough seats, too
+    EXPECT_FALSE(has("slides_first", ready("small_scale_clamped", {"contact.friction=0.62"})));
+    EXPECT_TRUE(has("slides_first", ready("small_scale_clamped", {"contact.friction=0.3"})));
 }
 
 TEST(WeakSpots, ATrialInWhichAllOrNoneFall)
