@@ -93,9 +93,11 @@ Found below_limit(const Subject& s)
 Found slides_first(const Subject& s)
 {
     const std::optional<StaticLimit>& limit = s.limit;
-    // epistyles that meet over a column slide on it as it rocks, whatever the friction: that is no limit by sliding
-    if (!limit || !s.study().mechanisms.empty() ||
-        limit->limit_m_s2 > 0.98 * std::min(limit->rocking_m_s2, limit->rough_m_s2))
+    if (!limit || !s.study().mechanisms.empty() || limit->limit_m_s2 > 0.98 * limit->rocking_m_s2)
+        return std::nullopt;
+    // Epistyles that meet over a column slide on it as it rocks, whatever the friction: that is no limit by sliding,
+    // which rises with the friction.
+    if (limit->rough_m_s2 < 0.98 * std::min(1.1 * limit->limit_m_s2, limit->rocking_m_s2))
         return std::nullopt;
     return spot(fmt::format("Blocks slide at {:.4g} m/s2, before they can rock at {:.4g} m/s2 (friction below B / H; "
                             "Shenton, Journal of Engineering Mechanics 122 (1996) 690): sliding limits the "
@@ -359,7 +361,7 @@ std::optional<StaticLimit> static_limit(const Study& study)
     try {
         limit.limit_m_s2 = limit_acceleration(r).acceleration_m_s2;
         for (Joint& joint : r.joints)
-            joint.friction *= 1.5;
+            joint.friction *= 1.1;
         limit.rough_m_s2 = limit_acceleration(r).acceleration_m_s2;
         constexpr double no_sliding = 1e3;
         for (Joint& joint : r.joints)

@@ -30,7 +30,7 @@ std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Do
 struct StaticLimit {
     double rocking_m_s2 = 0; ///< if no bed could slide
     double limit_m_s2 = 0;   ///< with the friction of the study
-    double rough_m_s2 = 0;   ///< with half as much friction again
+    double rough_m_s2 = 0;   ///< with a tenth more of it
 };
 /// Nothing for more than 60 free blocks, for which the dense linear programme is slow, and where rigid blocks cannot
 /// rest. @throws InputError as `lay_out`
