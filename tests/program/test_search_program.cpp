@@ -95,6 +95,22 @@ TEST_F(SearchProgram, ThreeKeys)
     EXPECT_EQ(run(with(words, {"--threads", "1"})).out, ended.out);
 }
 
+TEST_F(SearchProgram, APictureForAnyNumberOfKeys)
+{
+    const std::string first = "[optimise]\nbudget = 260\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n";
+    const std::string second = "\"contact.normal_stiffness_n_m2\" = { from = 2e6, to = 8e6, spacing = \"log\" }\n";
+    const Words words = {"compare", "col.toml", "--search", "-o", "search.svg", "--force"};
+    for (const std::string& more : {std::string{}, second}) {
+        write_surface(first + more);
+        ASSERT_EQ(run(words).status, 0);
+        const std::string picture = read_bytes(folder / "search.svg");
+        EXPECT_NE(picture.find("Probability of collapse"), std::string::npos);
+        EXPECT_NE(picture.find("contact.friction"), std::string::npos);
+        EXPECT_EQ(picture.find("contact.normal_stiffness_n_m2") != std::string::npos, !more.empty());
+        EXPECT_EQ(picture.find("inside the line: not shown to be worse at 95 %") != std::string::npos, !more.empty());
+    }
+}
+
 /// The frequencies are those of `risk`, and the least of a grid lies in the interval of the search.
 TEST_F(SearchProgram, TheAnnualFrequencyAgainstAGrid)
 {

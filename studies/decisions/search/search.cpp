@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <set>
 
 namespace stylobate {
 
@@ -197,8 +198,11 @@ private:
         result_.upper = answer.upper;
         result_.flat_from = values_at(spec_, answer.from);
         result_.flat_to = values_at(spec_, answer.to);
-        for (std::size_t k = 0; k < spec_.keys.size(); ++k)
-            result_.slices.push_back(slice(surface, answer, k));
+        if (spec_.keys.size() == 2)
+            result_.map = map_of(surface, answer);
+        else
+            for (std::size_t k = 0; k < spec_.keys.size(); ++k)
+                result_.slices.push_back(slice(surface, answer, k));
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const PlaceComparison change = change_of(points_[i]);
@@ -246,6 +250,25 @@ private:
             slice.upper.push_back(limits.upper);
         }
         return slice;
+    }
+
+    static SearchMap map_of(const ResponseSurface& surface, const SearchAnswer& answer)
+    {
+        std::vector<SearchPlace> places = candidate_places(2);
+        std::sort(places.begin(), places.end());
+        const std::set<SearchPlace> flat(answer.flat.begin(), answer.flat.end());
+        const std::vector<ResponseSurface::Value> values = surface.values(places);
+        SearchMap map;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (map.place.empty() || places[i][0] > map.place.back()) {
+                map.place.push_back(places[i][0]);
+                map.value.emplace_back();
+                map.flat.emplace_back();
+            }
+            map.value.back().push_back(std::clamp(values[i].mean, 0.0, surface.noise().most));
+            map.flat.back().push_back(flat.contains(places[i]));
+        }
+        return map;
     }
 
     PlaceComparison change_of(const RunPoint& point) const

@@ -28,6 +28,13 @@ struct SearchSlice {
     std::vector<double> x, value, lower, upper; ///< limits as of the answer, but for the choice of the place
 };
 
+/// The surface over two keys, at the candidates.
+struct SearchMap {
+    std::vector<double> place;              ///< along either key, from 0 to 1
+    std::vector<std::vector<double>> value; ///< (first key)(second key)
+    std::vector<std::vector<char>> flat;    ///< whether it is not shown to be worse
+};
+
 struct SearchResult {
     OptimiseSpec asked;
     double level = interval_level;
@@ -36,7 +43,8 @@ struct SearchResult {
     std::vector<double> best;               ///< (keys) the lowest place of the response surface
     double value = 0, lower = 0, upper = 1; ///< probability there, or with a hazard the frequency [1/year]
     std::vector<double> flat_from, flat_to; ///< (keys) range of the places that are not shown to be worse
-    std::vector<SearchSlice> slices;        ///< (keys)
+    std::vector<SearchSlice> slices;        ///< (keys), of one or three
+    SearchMap map;                          ///< of two keys
     bool at_the_end = false;                ///< of the budget; else no improvement is expected any more
     Share base;                             ///< of the study as it stands
     std::size_t best_point = 0;             ///< of those that were run, by the surface
@@ -68,7 +76,9 @@ std::optional<SearchResult> search(const SearchFiles& files, double level, const
                                    Observer& observer);
 
 std::string search_text(const SearchResult& result);
-/// Slices with their intervals and the ranges that are not shown to be worse; of one key the points too.
+/// Of one key the surface with its interval, the range that is not shown to be worse, and the points; of two keys a map
+/// of the surface with the set that is not shown to be worse, and the points; of three keys slices with their
+/// intervals.
 void plot_search(const SearchResult& result, const std::filesystem::path& picture);
 Json search_json(const SearchResult& result);
 
