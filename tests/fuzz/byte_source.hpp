@@ -44,4 +44,20 @@ private:
     std::string_view bytes_;
 };
 
+/// Some of the bytes of a file changed, cut off, or more behind the end.
+inline std::string damaged_bytes(std::string bytes, ByteSource& recipe)
+{
+    do {
+        const std::uint8_t how = recipe.byte();
+        const std::size_t at = recipe.below(bytes.size());
+        if (how % 8 == 0)
+            bytes.resize(at);
+        else if (how % 8 == 1)
+            bytes += recipe.text(32);
+        else if (at < bytes.size())
+            bytes[at] = static_cast<char>(bytes[at] ^ (1 << how % 8));
+    } while (!recipe.empty() && !bytes.empty());
+    return bytes;
+}
+
 } // namespace stylobate::fuzz

@@ -103,17 +103,7 @@ Verdict judge_file(const Original& original, const fs::path& file)
 /// Bytes of the file as it was written: changed, cut, or more behind the end.
 Verdict damaged(const Original& original, const fs::path& file, ByteSource& recipe)
 {
-    std::string bytes = original.bytes;
-    do {
-        const std::uint8_t how = recipe.byte();
-        const std::size_t at = recipe.below(bytes.size());
-        if (how % 8 == 0)
-            bytes.resize(at);
-        else if (how % 8 == 1)
-            bytes += recipe.text(32);
-        else if (at < bytes.size())
-            bytes[at] = static_cast<char>(bytes[at] ^ (1 << how % 8));
-    } while (!recipe.empty() && !bytes.empty());
+    const std::string bytes = damaged_bytes(original.bytes, recipe);
     write_file(file, bytes);
     const Verdict verdict = judge_file(original, file);
     promise(verdict == Verdict::refused || bytes == original.bytes, "a damaged file is believed");

@@ -432,6 +432,29 @@ inline const std::vector<std::string> eight_realizations = {
     "surface.pga_m_s2={from=1.0,to=16.0,count=2}",
 };
 
+/// The structure and contacts of a study of three soft drums, and a fragility study of them under pulses.
+inline const std::string short_column = R"([structure]
+blocks = 3
+drum_width_m = 0.048
+drum_height_m = 0.06
+depth_m = 0.048
+drum_mass_kg = 0.3
+[contact]
+normal_stiffness_n_m2 = 4e6
+tangential_stiffness_n_m = 2e5
+friction = 0.6
+)";
+
+/// @param intensity PGA [m/s2], as text: from, to and count   @param more further tables
+inline std::string short_fragility_study(const std::string& intensity, const std::string& more)
+{
+    return "[study]\nkind = \"fragility\"\nrealizations = 2\n" + short_column +
+           "[excitation]\nkind = \"pulse\"\nfrequency_hz = 2\n[fragility]\nmotions = 12\nintensity = { " + intensity +
+           " }\n[perturbation]\nfriction = { distribution = \"normal\", cov = 0.10, per = \"joint\" }\n"
+           "pulse_frequency = { distribution = \"log_uniform\", from = 1, to = 4 }\n" +
+           more;
+}
+
 /// A PEER file of a burst A exp(-((t - t0) / s)^2) sin(2 pi f (t - t0)), t0 = half its length: in g, 5 values a line.
 struct Burst {
     double amplitude_g = 0.4;

@@ -245,32 +245,10 @@ TEST_F(Compare, ThreadsAndInterruptionsChangeNoByte)
 
 TEST_F(Compare, AFragilityStudyIsComparedByMotions)
 {
-    write_bytes(folder / "frag.toml", R"([study]
-kind = "fragility"
-realizations = 2
-[structure]
-blocks = 3
-drum_width_m = 0.048
-drum_height_m = 0.06
-depth_m = 0.048
-drum_mass_kg = 0.3
-[contact]
-normal_stiffness_n_m2 = 4e6
-tangential_stiffness_n_m = 2e5
-friction = 0.6
-[excitation]
-kind = "pulse"
-frequency_hz = 2
-[fragility]
-motions = 12
-intensity = { from = 4, to = 12, count = 3 }
-[perturbation]
-friction = { distribution = "normal", cov = 0.10, per = "joint" }
-pulse_frequency = { distribution = "log_uniform", from = 1, to = 4 }
-[variants]
+    write_bytes(folder / "frag.toml", short_fragility_study("from = 4, to = 12, count = 3", R"([variants]
 dowel = { mechanisms = { dowel = { stiffness_n_m = 1e6, yield_n = 20 } } }
 neutral = {}
-)");
+)"));
     const Ended ended = run(Words{"compare", "frag.toml", "--json"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     const JsonValue json = json_of(ended);

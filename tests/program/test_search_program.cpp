@@ -10,34 +10,12 @@
 namespace stylobate {
 namespace {
 
-const std::string short_column = R"([structure]
-blocks = 3
-drum_width_m = 0.048
-drum_height_m = 0.06
-depth_m = 0.048
-drum_mass_kg = 0.3
-[contact]
-normal_stiffness_n_m2 = 4e6
-tangential_stiffness_n_m = 2e5
-friction = 0.6
-)";
-
 class SearchProgram : public Program {
 protected:
     void write_fragility(const std::string& more, int from = 1) const
     {
-        write_bytes(folder / "frag.toml", "[study]\nkind = \"fragility\"\nrealizations = 2\n" + short_column +
-                                              R"([excitation]
-kind = "pulse"
-frequency_hz = 2
-[fragility]
-motions = 12
-intensity = { to = 16, count = 6, from = )" + std::to_string(from) +
-                                              R"( }
-[perturbation]
-friction = { distribution = "normal", cov = 0.10, per = "joint" }
-pulse_frequency = { distribution = "log_uniform", from = 1, to = 4 }
-)" + more);
+        write_bytes(folder / "frag.toml",
+                    short_fragility_study(fmt::format("to = 16, count = 6, from = {}", from), more));
     }
     void write_surface(const std::string& more) const
     {
