@@ -230,7 +230,8 @@ void Deal::follow()
 void Deal::pick_up(std::string_view portion)
 {
     std::vector<std::uint64_t> numbers(portion.size() / sizeof(std::uint64_t));
-    std::memcpy(numbers.data(), portion.data(), portion.size());
+    if (!numbers.empty())
+        std::memcpy(numbers.data(), portion.data(), portion.size());
     const std::lock_guard lock(mutex_);
     hand_.insert(hand_.end(), numbers.begin(), numbers.end());
     used_up_ = numbers.empty();

@@ -330,7 +330,7 @@ using BlockText = std::vector<std::pair<std::string, const char*>>;
 /// What may stand in a block, what says most first.
 std::vector<BlockText> block_texts(const Drawing& d, std::size_t i)
 {
-    constexpr char black[] = "#000000";
+    static constexpr char black[] = "#000000"; // the texts point to it
     const PlacedBlock& b = d.block(i);
     const std::pair<std::string, const char*> name{short_name(b), black}, size{d.size(b), black};
     if (d.alike) // the list has the rest

@@ -71,7 +71,8 @@ TEST_F(Compare, ANeutralVariantHasNoDiscordantPair)
     const Ended ended = run(Words{"compare", "col.toml", "--json"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     const JsonValue json = json_of(ended);
-    for (const JsonMember& limit : variant(json, "neutral")["limit_states"].members) {
+    const JsonValue neutral = variant(json, "neutral");
+    for (const JsonMember& limit : neutral["limit_states"].members) {
         EXPECT_EQ(limit.value["overall"]["base_only"].number, 0) << limit.name;
         EXPECT_EQ(limit.value["overall"]["variant_only"].number, 0) << limit.name;
         EXPECT_EQ(limit.value["overall"]["verdict"].text, "open") << limit.name;
@@ -259,7 +260,8 @@ neutral = {}
     EXPECT_TRUE(limits.has("peak_0.35"));
     EXPECT_EQ(limits["collapse"]["cells"].items.size(), 3U);
     EXPECT_EQ(limits["collapse"]["overall"]["pairs"].number, 72);
-    for (const JsonMember& limit : variant(json, "neutral")["limit_states"].members)
+    const JsonValue neutral = variant(json, "neutral");
+    for (const JsonMember& limit : neutral["limit_states"].members)
         EXPECT_EQ(limit.value["overall"]["base_only"].number + limit.value["overall"]["variant_only"].number, 0);
 }
 
