@@ -60,9 +60,9 @@ RawHazard csv_hazard(const std::string& file, std::string_view text)
                 columns.push_back(column_of(file, line, f));
             if (columns.empty())
                 throw InputError(file, line.number, "has no column after the intensity.\n  Give annual_frequency.");
-            for (const Column& column : columns)
-                if (column.fractile > 0)
-                    hazard.fractiles.push_back({column.fractile, {}});
+            for (const Column& given : columns)
+                if (given.fractile > 0)
+                    hazard.fractiles.push_back({given.fractile, {}});
             return;
         }
         if (line.fields.size() != columns.size() + 1)
