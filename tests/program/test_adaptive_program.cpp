@@ -19,7 +19,7 @@ class AdaptiveProgram : public ColumnProgram {};
 
 TEST_F(AdaptiveProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
-    expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
+    expect_no_byte_changes([](const std::string& results, const char* threads, const std::string& simd) {
         return words(adaptive, results, threads, simd);
     });
 }

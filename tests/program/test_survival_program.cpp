@@ -22,7 +22,7 @@ class SurvivalProgram : public ColumnProgram {};
 
 TEST_F(SurvivalProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
-    expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
+    expect_no_byte_changes([](const std::string& results, const char* threads, const std::string& simd) {
         return words(survival, results, threads, simd);
     });
 }

@@ -20,7 +20,7 @@ class TwinsProgram : public ColumnProgram {};
 
 TEST_F(TwinsProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
-    expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
+    expect_no_byte_changes([](const std::string& results, const char* threads, const std::string& simd) {
         return words(twins, results, threads, simd);
     });
 }
