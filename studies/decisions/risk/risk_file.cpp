@@ -117,7 +117,7 @@ HazardModel hazard_of(const Table& table)
     hazard.measure = table.text("measure");
     hazard.unbounded = table.count("unbounded") != 0;
     const std::string intensity = "intensity_" + hazard.measure;
-    const Table::Shape shape = table.shape(intensity);
+    const Table::Shape& shape = table.shape(intensity);
     if (shape.size() != 1 || shape[0] < 2)
         table.refuse("its hazard is no list");
     hazard.intensity = table.numbers(intensity, shape);

@@ -297,7 +297,7 @@ void check_search(const SearchFiles& files)
     const auto base = run_at(files, spec, {});
     check_can_be_compared(base->header(), files.study);
     limit_number(StudySide(base->study(), base->header()), spec.minimise, files.study);
-    SearchObjective(spec, files.study, base->study(), interval_level); // refuses a hazard
+    [[maybe_unused]] const SearchObjective refuses_a_hazard(spec, files.study, base->study(), interval_level);
     const std::uint64_t each = base->header().total, first = first_places(spec.keys.size()).size() + 1;
     if (spec.budget / each < first + 1)
         throw InputError(files.study, 0,

@@ -279,11 +279,12 @@ TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
 /// What strengthens a structure has rows and a list of blocks of its own.
 TEST(Slots, ReinforcementsHaveTheBitsOfTheLanes)
 {
-    same_in_slots(column({"study.realizations=1", "mechanisms.tendon={ stiffness_n_m = 1e4, prestress_n = 3 }",
-                          "mechanisms.bearing={ stiffness_n_m = 200, dashpot_n_s_m = 2, curvature_per_m = 1 }",
-                          "mechanisms.mortar={ joints = [2, 3], tensile_strength_pa = 2e3, cohesion_pa = 1e3 }",
-                          "mechanisms.pull_out={ joint = 4, hold_n = 0.5, stiffness_n_m = 1e5, length_m = 0.001, "
-                          "spread_m = 0.01 }"}));
+    const std::string dowels = "mechanisms.pull_out={ joint = 4, hold_n = 0.5, stiffness_n_m = 1e5, length_m = 0.001, "
+                               "spread_m = 0.01 }";
+    same_in_slots(
+        column({"study.realizations=1", "mechanisms.tendon={ stiffness_n_m = 1e4, prestress_n = 3 }",
+                "mechanisms.bearing={ stiffness_n_m = 200, dashpot_n_s_m = 2, curvature_per_m = 1 }",
+                "mechanisms.mortar={ joints = [2, 3], tensile_strength_pa = 2e3, cohesion_pa = 1e3 }", dowels}));
     same_in_slots(colonnade({"study.realizations=1",
                              "mechanisms.clamp={ block = 1, stiffness_n_m = 1e4, strength_n = 5, height_m = 0.01 }",
                              "mechanisms.tendon={ stiffness_n_m = 1e4, prestress_n = 3 }"}));
