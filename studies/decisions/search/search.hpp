@@ -69,7 +69,7 @@ struct SearchFiles {
 void check_search(const SearchFiles& files);
 
 /// Runs the base, the first points, and then one point after the other where the response surface expects most
-/// (ensemble/estimators/search/response_surface.hpp), each into a results file of its own that is named by its study. A
+/// (ensemble/estimators/search/search_answer.hpp), each into a results file of its own that is named by its study. A
 /// search that was interrupted takes the same points again, and finds their files.
 /// @returns nothing if the observer has asked to stop
 std::optional<SearchResult> search(const SearchFiles& files, double level, const RunOptions& options,

@@ -85,7 +85,7 @@ struct SearchObjective::Counts {
 };
 
 SearchObjective::SearchObjective(const OptimiseSpec& spec, const std::string& file, const Study& study, double level)
-    : level_(level)
+    : file_(file), level_(level)
 {
     if (spec.hazard.empty())
         return;
@@ -144,12 +144,19 @@ PairedNoise SearchObjective::frequency_noise(const std::vector<const StudySide*>
 PairedNoise SearchObjective::noise(const std::vector<const StudySide*>& sides, std::size_t limit,
                                    const PairLayout& layout) const
 {
+    std::uint64_t index = 0;
+    while (index < sides.front()->size() && !is_common(sides, index))
+        ++index;
+    if (index == sides.front()->size())
+        throw InputError(file_, 0,
+                         "[optimise]: no realization is valid at all of the points that were run.\n  Choose ranges in "
+                         "which the study is valid; `stylobate info` of the points' results says why it is not.");
     if (is_frequency())
         return frequency_noise(sides, limit, layout);
     const std::size_t m = sides.size(), groups = layout.groups;
     std::vector<double> reached(groups * m), size(groups);
     std::vector<std::size_t> stratum(groups);
-    for (std::uint64_t index = 0; index < sides.front()->size(); ++index) {
+    for (; index < sides.front()->size(); ++index) {
         if (!is_common(sides, index))
             continue;
         std::size_t group = layout.group(index);

@@ -31,7 +31,7 @@ public:
 
     bool is_frequency() const { return hazard_.has_value(); }
 
-    /// Over the realizations that are valid in all of the points.
+    /// Over the realizations that are valid in all of the points. @throws InputError if there is none
     PairedNoise noise(const std::vector<const StudySide*>& sides, std::size_t limit, const PairLayout& layout) const;
 
     /// Of one point by itself, as of `stylobate risk`. @pre is_frequency()
@@ -49,6 +49,7 @@ private:
     PairedNoise frequency_noise(const std::vector<const StudySide*>& sides, std::size_t limit,
                                 const PairLayout& layout) const;
 
+    std::string file_;
     double level_;
     std::optional<HazardModel> hazard_;
     std::vector<double> intensity_; ///< (stripes)

@@ -7,6 +7,7 @@
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/compare/pairing.hpp"
+#include "studies/decisions/search/search_objective.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +73,35 @@ TEST(Pairing, CountsPairsInTheirCells)
     EXPECT_FALSE(found.limits.back().damage);
     EXPECT_EQ(found.limits.back().cells[0].counts, (PairedCounts{0, 0, 4, 0}));
     EXPECT_EQ(found.limits.back().verdict(found.limits.back().overall), ChangeVerdict::more);
+}
+
+/// A search counts what is valid at all of its points, and says where nothing is.
+TEST(Pairing, OfASearchIsOverWhatIsValidEverywhere)
+{
+    for (const std::string& text : {surface, fragility}) {
+        Sides s(text);
+        const PairLayout layout = pair_layout(s.study, 0.95);
+        const SearchObjective objective({}, "study.toml", s.study, 0.95);
+        const std::uint64_t all = s.base.size();
+        for (std::uint64_t index = 0; index < all; ++index) {
+            s.base.add(row(index, index % 2 == 0 ? State::collapsed : State::invalid));
+            s.variant.add(row(index, index % 4 == 0   ? State::collapsed
+                                     : index % 4 == 2 ? State::stood
+                                                      : State::invalid));
+        }
+        const PairedNoise noise = objective.noise({&s.base, &s.variant}, 0, layout);
+        EXPECT_EQ(noise.share, (std::vector<double>{1, 0.5}));
+        StudySide none(s.study, s.header);
+        for (std::uint64_t index = 0; index < all; ++index)
+            none.add(row(index, index % 2 == 0 ? State::invalid : State::stood));
+        try {
+            objective.noise({&s.base, &none}, 0, layout);
+            ADD_FAILURE() << "nothing is valid in both";
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("no realization is valid at all of the points"),
+                      std::string::npos);
+        }
+    }
 }
 
 TEST(Pairing, DropsWhatIsInvalidInEither)
