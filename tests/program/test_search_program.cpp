@@ -73,6 +73,23 @@ TEST_F(SearchProgram, ThreeKeys)
     EXPECT_EQ(run(with(words, {"--threads", "1"})).out, ended.out);
 }
 
+/// Steps that are too long break realizations: the search says so, as `run` and `compare` do.
+TEST_F(SearchProgram, InvalidRealizationsAreReported)
+{
+    write_surface("normal_stiffness = { distribution = \"lognormal\", sigma_ln = 0.7 }\n"
+                  "[run]\nstep_s = 1.2e-3\nallow_step_above_bound = true\nmax_invalid_fraction = 0\n"
+                  "[optimise]\nbudget = 160\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n");
+    const Words words = {"compare", "col.toml", "--search", "--json"};
+    const Ended some = run(words);
+    EXPECT_EQ(some.status, 3) << testing::PrintToString(some);
+    EXPECT_TRUE(json_of(some).has("probability"));
+    EXPECT_NE(some.err.find("run.max_invalid_fraction = 0 allows"), std::string::npos) << some.err;
+    fs::remove(folder / "col.h5"); // of another step
+    const Ended none = run(with(words, {"--set", "run.step_s=1e-2"}));
+    EXPECT_EQ(none.status, 2) << testing::PrintToString(none);
+    EXPECT_NE(none.err.find("no realization is valid at all of the points"), std::string::npos) << none.err;
+}
+
 TEST_F(SearchProgram, APictureForAnyNumberOfKeys)
 {
     const std::string first = "[optimise]\nbudget = 260\n\"contact.friction\" = { from = 0.2, to = 0.9 }\n";

@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/plots/gnuplot.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
@@ -227,6 +228,14 @@ int search_study(const CommonOptions& options, const CompareOptions& wanted)
         fmt::print("{}\n", search_json(*result).member("complete", true).text());
     else if (!options.quiet)
         fmt::print("{}", search_text(*result));
+    const LoadedStudy study = LoadedStudy::from_file(files.study, files.settings);
+    for (const SearchedRun& searched : result->runs)
+        if (const std::string message =
+                too_many_invalid(study.study(), searched.invalid, searched.total, searched.results);
+            !message.empty()) {
+            say(fmt::format("stylobate: {}\n", message));
+            return exit_invalid;
+        }
     return exit_done;
 }
 

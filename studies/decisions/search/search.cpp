@@ -83,6 +83,11 @@ std::unique_ptr<StudySide> side_of(const WholeRun& run)
     return side;
 }
 
+SearchedRun validity_of(const WholeRun& run)
+{
+    return {run.results(), run.invalid(), run.done()};
+}
+
 std::size_t limit_number(const StudySide& side, const std::string& name, const std::string& study)
 {
     const auto found = std::ranges::find(side.limits(), name, &LimitDefinition::name);
@@ -203,8 +208,10 @@ private:
         else
             for (std::size_t k = 0; k < spec_.keys.size(); ++k)
                 result_.slices.push_back(slice(surface, answer, k));
+        result_.runs.push_back(validity_of(*base_));
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < points_.size(); ++i) {
+            result_.runs.push_back(validity_of(*points_[i].run));
             const PlaceComparison change = change_of(points_[i]);
             result_.points.push_back({points_[i].value,
                                       change.variant,

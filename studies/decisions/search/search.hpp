@@ -23,6 +23,12 @@ struct SearchedPoint {
     std::string results;       ///< its results file
 };
 
+/// How valid a run of a search is.
+struct SearchedRun {
+    std::string results;
+    std::uint64_t invalid = 0, total = 0; ///< realizations
+};
+
 /// The surface along one key, through the best place.
 struct SearchSlice {
     std::vector<double> x, value, lower, upper; ///< limits as of the answer, but for the choice of the place
@@ -40,6 +46,7 @@ struct SearchResult {
     double level = interval_level;
     std::uint64_t realizations = 0;         ///< of all points and the base together
     std::vector<SearchedPoint> points;      ///< in the order in which they were run
+    std::vector<SearchedRun> runs;          ///< the base, and the points
     std::vector<double> best;               ///< (keys) the lowest place of the response surface
     double value = 0, lower = 0, upper = 1; ///< probability there, or with a hazard the frequency [1/year]
     std::vector<double> flat_from, flat_to; ///< (keys) range of the places that are not shown to be worse
