@@ -57,6 +57,29 @@ Handle file_access()
     return access;
 }
 
+/// For what the library converts on its way, which all texts are. Its own buffers are 1 MB, taken and zeroed anew for
+/// each data set; most data sets here have some hundred bytes.
+Handle small_buffer()
+{
+    constexpr std::size_t bytes = 65536;
+    Handle transfer = handle("no transfer list", H5Pclose, [] { return H5Pcreate(H5P_DATASET_XFER); });
+    call("no transfer buffer", [&] { return H5Pset_buffer(transfer.id(), bytes, nullptr, nullptr); });
+    return transfer;
+}
+
+void write_values(hid_t dataset, const std::string& path, hid_t type, const void* values)
+{
+    const Handle transfer = small_buffer();
+    call("cannot write '" + path + "'",
+         [&] { return H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, transfer.id(), values); });
+}
+
+void read_values(hid_t dataset, const std::string& path, hid_t type, void* values)
+{
+    const Handle transfer = small_buffer();
+    call("cannot read '" + path + "'", [&] { return H5Dread(dataset, type, H5S_ALL, H5S_ALL, transfer.id(), values); });
+}
+
 Handle dataspace(const Dims& dims)
 {
     return handle("no data space", H5Sclose,
@@ -129,8 +152,7 @@ void write_new(hid_t parent, const std::string& path, hid_t stored, hid_t native
         throw std::invalid_argument(path + " does not have the number of values of its shape");
     const Handle dataset = create_dataset(parent, path, stored, dims);
     if (count > 0)
-        call("cannot write '" + path + "'",
-             [&] { return H5Dwrite(dataset.id(), native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+        write_values(dataset.id(), path, native, values.data());
     if (!unit.empty())
         write_text(dataset.id(), "unit", unit);
 }
@@ -155,8 +177,7 @@ std::vector<T> read_whole(hid_t parent, const std::string& path, hid_t stored, h
     const std::size_t count = count_in(dataset.id(), stored, dims, path);
     std::vector<T> values(count);
     if (count > 0)
-        call("cannot read '" + path + "'",
-             [&] { return H5Dread(dataset.id(), native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+        read_values(dataset.id(), path, native, values.data());
     return values;
 }
 
@@ -366,8 +387,7 @@ void write_texts(hid_t parent, const std::string& path, const std::vector<std::s
     for (const std::string& text : texts)
         values.push_back(text.c_str());
     if (!values.empty())
-        call("cannot write '" + path + "'",
-             [&] { return H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+        write_values(dataset.id(), path, type.id(), values.data());
 }
 
 std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims)
@@ -467,9 +487,7 @@ Numbers read_numbers(hid_t parent, const std::string& path)
     const std::size_t count = count_in(dataset.id(), stored.id(), numbers.dims, path);
     numbers.values.resize(count);
     if (count > 0)
-        call("cannot read '" + path + "'", [&] {
-            return H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.values.data());
-        });
+        read_values(dataset.id(), path, H5T_NATIVE_DOUBLE, numbers.values.data());
     return numbers;
 }
 

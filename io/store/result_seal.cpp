@@ -37,7 +37,8 @@ constexpr char damaged[] =
 std::uint32_t crc_outside(const FileHandle& file, std::uint64_t from, std::uint64_t end,
                           const std::vector<Extent>& extents)
 {
-    std::vector<std::byte> buffer(std::size_t{1} << 18);
+    constexpr std::uint64_t most = std::uint64_t{1} << 18;
+    std::vector<std::byte> buffer(std::min(most, end - std::min(from, end)));
     std::uint32_t crc = 0;
     const auto add = [&](std::uint64_t to) {
         while (from < to) {

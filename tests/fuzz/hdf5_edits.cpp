@@ -1,21 +1,14 @@
 #include "tests/fuzz/hdf5_edits.hpp"
 
 #include "io/files/hdf5.hpp"
-
-#include <limits>
-#include <vector>
+#include "tests/fuzz/any_value.hpp"
 
 namespace stylobate::fuzz {
 namespace {
 
 using hdf5::Handle;
 
-struct Object {
-    std::string path;
-    bool dataset = false;
-};
-
-void collect(hid_t group, const std::string& above, std::vector<Object>& all)
+void collect(hid_t group, const std::string& above, std::vector<Hdf5Object>& all)
 {
     for (const std::string& name : hdf5::names_in(group)) {
         const std::string path = above + name;
@@ -24,70 +17,6 @@ void collect(hid_t group, const std::string& above, std::vector<Object>& all)
         all.push_back({path, !is_group});
         if (is_group && all.size() < 500) // a link to a group above it would have no end
             collect(object.id(), path + "/", all);
-    }
-}
-
-double any_double(ByteSource& recipe)
-{
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    constexpr double values[] = {
-        0,   -0.0, 1,    -1,   0.5,   2,      3,      100, 1000, 1e6,
-        1e9, 1e19, 1e-9, 1e-3, 1e300, 5e-324, -1e300, inf, -inf, std::numeric_limits<double>::quiet_NaN(),
-        255, 256,  4e9,  9e15};
-    const std::uint8_t which = recipe.byte();
-    return which < std::size(values) ? values[which] : recipe.number<std::int16_t>() * (which % 2 == 0 ? 1.0 : 0.001);
-}
-
-std::uint64_t any_count(ByteSource& recipe)
-{
-    const std::uint8_t which = recipe.byte();
-    if (which < 64)
-        return std::uint64_t{1} << which;
-    if (which < 128)
-        return (std::uint64_t{1} << (which - 64)) - 1;
-    return which < 192 ? which - 128u : ~std::uint64_t{0} - (which - 192u);
-}
-
-std::string any_text(const std::string& before, ByteSource& recipe)
-{
-    static const char* const texts[] = {"",
-                                        " ",
-                                        "\n",
-                                        "a\nb",
-                                        "a\n\nb",
-                                        "stylobate",
-                                        "stylobate-measured",
-                                        "surface",
-                                        "replay",
-                                        "fragility",
-                                        "rare",
-                                        "friction[0] friction[0]",
-                                        "friction[999999]",
-                                        "a[",
-                                        "a[]",
-                                        "a[1]x",
-                                        "1/2",
-                                        "3/2",
-                                        "999999999999/1",
-                                        "mm",
-                                        "deg",
-                                        "kg",
-                                        "m/s2",
-                                        "command",
-                                        "table sensor",
-                                        "[study]\nseed = 1\n"};
-    std::string text = before;
-    switch (recipe.below(4)) {
-    case 0:
-        return texts[recipe.below(std::size(texts))];
-    case 1:
-        return recipe.text(12);
-    case 2:
-        text.resize(recipe.below(text.size() + 1));
-        return text;
-    default:
-        text.insert(recipe.below(text.size() + 1), recipe.text(4));
-        return text;
     }
 }
 
@@ -207,7 +136,7 @@ void replace_dataset(hid_t file, const std::string& path, ByteSource& recipe)
 }
 
 /// A name for another object: moved, linked twice, to nothing, or into another file.
-void change_name(hid_t file, const std::vector<Object>& all, const std::string& path, ByteSource& recipe)
+void change_name(hid_t file, const std::vector<Hdf5Object>& all, const std::string& path, ByteSource& recipe)
 {
     const std::string other = all[recipe.below(all.size())].path;
     const std::uint8_t how = recipe.byte();
@@ -227,40 +156,51 @@ void change_name(hid_t file, const std::vector<Object>& all, const std::string& 
         H5Lcreate_soft(how < 128 ? "/nothing" : ("/" + path).c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
 }
 
-} // namespace
-
-void edit_hdf5(hid_t file, ByteSource& recipe)
+/// One change: of a value, a type, a shape, an attribute or a name, of an object or an attribute taken away or added.
+/// What the library cannot do is left out.
+void edit_hdf5(hid_t file, std::vector<Hdf5Object>& all, ByteSource& recipe)
 {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     try {
         const std::uint8_t how = recipe.byte();
         if (how < 64) { // of the file itself
             change_attribute(file, recipe);
             return;
         }
-        std::vector<Object> all;
-        collect(file, "", all);
         if (all.empty())
             return;
-        const Object& object = all[recipe.below(all.size())];
-        if (how < 96)
+        const Hdf5Object object = all[recipe.below(all.size())];
+        if (how < 96) {
             change_attribute(hdf5::open_object(file, object.path).id(), recipe);
-        else if (how < 128)
+        } else if (how < 128) {
             change_name(file, all, object.path, recipe);
-        else if (object.dataset && how < 208)
+            all.clear();
+            collect(file, "", all);
+        } else if (object.dataset && how < 208) {
             change_element(Handle(H5Dopen2(file, object.path.c_str(), H5P_DEFAULT), H5Dclose).id(), recipe);
-        else if (object.dataset)
+        } else if (object.dataset) {
             replace_dataset(file, object.path, recipe);
+        }
     } catch (const hdf5::Error&) { // an edit before took away what this one is of
     }
 }
 
-bool edit_hdf5_file(const std::filesystem::path& path, ByteSource& recipe, std::size_t most)
+} // namespace
+
+std::vector<Hdf5Object> objects_in(const std::filesystem::path& path)
 {
+    std::vector<Hdf5Object> all;
+    collect(hdf5::open_file(path, false).id(), "", all);
+    return all;
+}
+
+bool edit_hdf5_file(const std::filesystem::path& path, std::vector<Hdf5Object> objects, ByteSource& recipe,
+                    std::size_t most)
+{
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     try {
         Handle file = hdf5::open_file(path, true);
         for (; most > 0 && !recipe.empty(); --most)
-            edit_hdf5(file.id(), recipe);
+            edit_hdf5(file.id(), objects, recipe);
         file.close();
         constexpr std::uintmax_t longest = 1 << 20; // room for what was only announced: reading it takes its time
         return std::filesystem::file_size(path) <= longest;

@@ -6,14 +6,24 @@
 
 #include <filesystem>
 #include <hdf5.h>
+#include <string>
+#include <vector>
 
 namespace stylobate::fuzz {
 
-/// One change: of a value, a type, a shape, an attribute or a name, of an object or an attribute taken away or added.
-/// What the library cannot do is left out.
-void edit_hdf5(hid_t file, ByteSource& recipe);
+/// What edits are of.
+struct Hdf5Object {
+    std::string path;
+    bool dataset = false; ///< else a group
+};
 
-/// Up to `most` changes of a file. @returns false where it could not be closed whole, or has become a large one
-bool edit_hdf5_file(const std::filesystem::path& path, ByteSource& recipe, std::size_t most);
+/// All of a file that is whole. Asking for them takes longer than an edit: once for each original.
+std::vector<Hdf5Object> objects_in(const std::filesystem::path& path);
+
+/// Up to `most` changes of a file: of a value, a type, a shape, an attribute or a name, of an object or an attribute
+/// taken away or added. What the library cannot do is left out.
+/// @returns false where the file could not be closed whole, or has become a large one
+bool edit_hdf5_file(const std::filesystem::path& path, std::vector<Hdf5Object> objects, ByteSource& recipe,
+                    std::size_t most);
 
 } // namespace stylobate::fuzz

@@ -75,18 +75,23 @@ void check_written_again(const Campaign& campaign)
     check_same(campaign, read_here(file));
 }
 
-const std::string& original()
+struct Original {
+    std::string bytes;
+    std::vector<Hdf5Object> objects;
+};
+
+const Original& original()
 {
-    static const std::string bytes = [] {
+    static const Original made = [] {
         Campaign campaign;
         campaign.specimen = sample_specimen(2);
         const SampleMotion motion = {.amplitude_m = 0.005, .frequency_hz = 2, .start_s = 0.1, .duration_s = 0.8};
         campaign.runs = {sample_run(campaign.specimen, "000", 1, motion, 50, 1)};
         const fs::path file = folder() / "campaign.h5";
         write_campaign(campaign, file);
-        return file_content(file);
+        return Original{file_content(file), objects_in(file)};
     }();
-    return bytes;
+    return made;
 }
 
 template <class Read>
@@ -106,8 +111,8 @@ Verdict judge_hdf5(std::string_view input)
 {
     ByteSource recipe(input);
     const fs::path file = folder() / "changed.h5";
-    write_file(file, original());
-    if (!edit_hdf5_file(file, recipe, 8))
+    write_file(file, original().bytes);
+    if (!edit_hdf5_file(file, original().objects, recipe, 8))
         return Verdict::refused;
     return judge_read([&] { return read_here(file); });
 }

@@ -1,6 +1,7 @@
 /// Comparisons and risk estimates, which lie behind a seal. An input is a recipe: which file, and what is changed in
-/// it. Changes by the HDF5 library are followed by a right seal, so that they are met by all that comes behind it.
-/// Other bytes are changed without one: then nothing may come out.
+/// it. Most change the tables that a file has, in memory, which reaches what reads them a thousand times as often.
+/// Changes of the file by the HDF5 library are followed by a right seal, so that they are met by all that comes behind
+/// it. Other bytes are changed without one: then nothing may come out.
 
 #include "io/files/file_handle.hpp"
 #include "io/store/result_seal.hpp"
@@ -11,6 +12,7 @@
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
+#include "tests/fuzz/table_edits.hpp"
 #include "tests/fuzz/text_mutation.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"
 
@@ -22,7 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Original {
+    std::vector<Table> tables;
     std::string bytes;
+    std::vector<Hdf5Object> objects;
     std::uint64_t block = 0; ///< of the seal
     bool risk = false;       ///< else a comparison
 };
@@ -34,13 +38,18 @@ const std::vector<Original>& originals()
         const fs::path file = folder() / "original.h5";
         for (const bool risk : {false, true})
             for (const bool other : {false, true}) {
-                if (risk)
+                Original& original = made.emplace_back();
+                original.risk = risk;
+                if (risk) {
+                    original.tables = tables_of(sample_risk(other));
                     write_risk(sample_risk(other), file);
-                else
+                } else {
+                    original.tables = tables_of(sample_comparison(other));
                     write_comparison(sample_comparison(other), file);
-                std::string bytes = file_content(file);
-                const std::size_t block = bytes.find("\x89HDF\r\n\x1a\n");
-                made.push_back({std::move(bytes), block, risk});
+                }
+                original.bytes = file_content(file);
+                original.objects = objects_in(file);
+                original.block = original.bytes.find("\x89HDF\r\n\x1a\n");
             }
         return made;
     }();
@@ -100,6 +109,31 @@ Verdict judge_file(const Original& original, const fs::path& file)
                          : judge_file(file, read_comparison, write_comparison);
 }
 
+/// As `judge_file`, without the file between.
+template <class Read>
+Verdict judge_tables(const std::vector<Table>& tables, const Read& read)
+{
+    const std::string file = "a file";
+    decltype(read(tables, file)) found;
+    const Verdict verdict = judged([&] { found = read(tables, file); });
+    if (verdict == Verdict::refused)
+        return verdict;
+    tell(found);
+    const std::vector<Table> once = tables_of(found);
+    try {
+        promise(same_tables(tables_of(read(once, file)), once), "what was read changes when it is written");
+    } catch (const InputError& error) {
+        throw Finding(std::string("what was read is refused when it is written: ") + error.what());
+    }
+    return verdict;
+}
+
+Verdict judge_tables(const Original& original, ByteSource& recipe)
+{
+    const std::vector<Table> tables = edited_tables(original.tables, recipe);
+    return original.risk ? judge_tables(tables, risk_from) : judge_tables(tables, comparison_from);
+}
+
 /// Bytes of the file as it was written: changed, cut, or more behind the end.
 Verdict damaged(const Original& original, const fs::path& file, ByteSource& recipe)
 {
@@ -110,16 +144,20 @@ Verdict damaged(const Original& original, const fs::path& file, ByteSource& reci
     return verdict;
 }
 
+constexpr std::uint8_t kinds_of_files = 16; ///< second byte of a recipe, from which on tables are changed in memory
+
 Verdict judge(std::string_view input)
 {
     ByteSource recipe(input);
     const fs::path file = folder() / "decision.h5";
     const Original& original = originals()[recipe.below(originals().size())];
     const std::uint8_t how = recipe.byte();
+    if (how >= kinds_of_files)
+        return judge_tables(original, recipe);
     if (how % 4 == 0)
         return damaged(original, file, recipe);
     write_file(file, original.bytes);
-    if (how % 4 != 1 && !edit_hdf5_file(file, recipe, how / 4 % 4 + 1))
+    if (how % 4 != 1 && !edit_hdf5_file(file, original.objects, recipe, how / 4 + 1))
         return Verdict::refused;
     {
         FileHandle handle = FileHandle::open(file, true);
@@ -128,8 +166,17 @@ Verdict judge(std::string_view input)
     return judge_file(original, file);
 }
 
+/// Of tables seven times of eight: files take a hundred times as long.
+std::string mutated(std::string_view input, Random& random)
+{
+    std::string recipe = mutated_bytes(input, random);
+    if (recipe.size() > 1 && random() % 8 != 0)
+        recipe[1] = static_cast<char>(recipe[1] | kinds_of_files);
+    return recipe;
+}
+
 } // namespace
 
-const Target decision_target = {"decision", judge, mutated_bytes, 256, 250};
+const Target decision_target = {"decision", judge, mutated, 256, 1000};
 
 } // namespace stylobate::fuzz

@@ -23,6 +23,7 @@ struct Record {
 struct Original {
     std::string bytes;
     std::string head; ///< without the journal
+    std::vector<Hdf5Object> objects;
     bool complete = false;
     std::uint64_t block = 0; ///< of the seal
     ResultLayout layout;     ///< without rows: empty
@@ -85,6 +86,7 @@ Original taken_apart(const std::filesystem::path& file)
 {
     Original original;
     original.bytes = original.head = file_content(file);
+    original.objects = objects_in(file);
     original.block = original.bytes.find("\x89HDF\r\n\x1a\n");
     const ResultFile opened = open_result(file, false);
     original.complete = opened.complete;
@@ -251,7 +253,7 @@ Verdict judge(std::string_view input)
     if (how % 4 == 0)
         return damaged(original, file, recipe);
     write_file(file, original.head);
-    if (how % 4 != 1 && !edit_hdf5_file(file, recipe, how / 4 % 4 + 1))
+    if (how % 4 != 1 && !edit_hdf5_file(file, original.objects, recipe, how / 4 % 4 + 1))
         return Verdict::refused;
     if (!original.complete && !original.rows.empty()) {
         append_journal(file, original, recipe);

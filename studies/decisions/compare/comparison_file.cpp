@@ -236,18 +236,17 @@ VariantComparison variant_of(const Table& table, std::size_t cells)
 
 } // namespace
 
-void write_comparison(const Comparison& comparison, const std::filesystem::path& file)
+std::vector<Table> tables_of(const Comparison& comparison)
 {
     std::vector<Table> tables = {general_table(comparison)};
     for (std::size_t i = 0; i < comparison.variants.size(); ++i)
         tables.push_back(table_of(comparison.variants[i], i, comparison.cells()));
-    write_table_file(file, format, comparison.code_version, tables);
+    return tables;
 }
 
-Comparison read_comparison(const std::filesystem::path& file)
+Comparison comparison_from(const std::vector<Table>& tables, const std::string& file)
 {
-    const std::vector<Table> tables = read_table_file(file, format);
-    const Table missing("comparison", file.string());
+    const Table missing("comparison", file);
     const auto named = [&](const std::string& name) -> const Table& {
         const auto found = std::ranges::find_if(tables, [&](const Table& table) { return table.name() == name; });
         if (found == tables.end())
@@ -284,6 +283,16 @@ Comparison read_comparison(const std::filesystem::path& file)
     for (std::size_t i = 0; i < general.texts("variants").size(); ++i)
         c.variants.push_back(variant_of(named(variant_table + std::to_string(i)), c.cells()));
     return c;
+}
+
+void write_comparison(const Comparison& comparison, const std::filesystem::path& file)
+{
+    write_table_file(file, format, comparison.code_version, tables_of(comparison));
+}
+
+Comparison read_comparison(const std::filesystem::path& file)
+{
+    return comparison_from(read_table_file(file, format), file.string());
 }
 
 } // namespace stylobate

@@ -331,7 +331,8 @@ SequenceRisk sequences_of(const Table& table)
     return s;
 }
 
-std::vector<Table> tables_of(const Risk& risk)
+/// All but what is general.
+std::vector<Table> number_tables(const Risk& risk)
 {
     std::vector<Table> tables{hazard_table(risk.hazard), states_table(risk), parts_table(risk),
                               fragility_points_table(risk)};
@@ -342,17 +343,16 @@ std::vector<Table> tables_of(const Risk& risk)
 
 } // namespace
 
-void write_risk(const Risk& risk, const std::filesystem::path& file)
+std::vector<Table> tables_of(const Risk& risk)
 {
-    std::vector<Table> tables = tables_of(risk);
+    std::vector<Table> tables = number_tables(risk);
     tables.push_back(general_table(risk));
-    write_table_file(file, format, risk.code_version, tables);
+    return tables;
 }
 
-Risk read_risk(const std::filesystem::path& file)
+Risk risk_from(const std::vector<Table>& tables, const std::string& file)
 {
-    const std::vector<Table> tables = read_table_file(file, format);
-    const Table missing("risk", file.string());
+    const Table missing("risk", file);
     const auto find = [&](const char* name) { return std::ranges::find(tables, name, &Table::name); };
     const auto named = [&](const char* name) -> const Table& {
         const auto found = find(name);
@@ -370,10 +370,20 @@ Risk read_risk(const std::filesystem::path& file)
     return risk;
 }
 
+void write_risk(const Risk& risk, const std::filesystem::path& file)
+{
+    write_table_file(file, format, risk.code_version, tables_of(risk));
+}
+
+Risk read_risk(const std::filesystem::path& file)
+{
+    return risk_from(read_table_file(file, format), file.string());
+}
+
 std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk)
 {
     std::vector<std::pair<std::string, std::string>> files;
-    for (const Table& table : tables_of(risk))
+    for (const Table& table : number_tables(risk))
         if (!table.columns().empty())
             files.emplace_back(table.name() + ".csv", csv_text(table));
     return files;
