@@ -135,8 +135,9 @@ struct Unfit {
 
 /// The first thing that must not reach the parser. toml++ 3.3 runs into undefined behaviour when it looks whether a
 /// character from U+00A1 to U+0499 is white space, which it does outside of comments and strings (where TOML allows
-/// none beyond ASCII) and in strings of many lines (which a study does not need), and it breaks an assertion without a
-/// line number where a section's name begins with another character than a key's.
+/// none beyond ASCII), in strings of many lines (which a study does not need), and in quotes right behind a number,
+/// which it takes for a part of that number. It breaks an assertion without a line number where a section's name begins
+/// with another character than a key's.
 Unfit find_unfit(std::string_view text)
 {
     if (text.substr(0, 3) == "\xef\xbb\xbf")
@@ -163,8 +164,11 @@ Unfit find_unfit(std::string_view text)
                 in = In::comment;
             if (text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''")
                 return {line, "a string in three quotes"};
-            if (c == '"' || c == '\'')
+            if (c == '"' || c == '\'') {
+                if (i > 0 && std::string_view(" \t\r\n=,.[{").find(text[i - 1]) == std::string_view::npos)
+                    return {line, "a quote in the middle of a value"};
                 in = c == '"' ? In::basic : In::literal;
+            }
             break;
         case In::comment:
             break;

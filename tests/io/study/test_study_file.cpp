@@ -402,6 +402,8 @@ TEST(StudyFile, RefusesWhatIsNotToml)
     expect_line_refused(9, "depth_m = \"0.0\xff\xfe\"", {"not valid TOML"});
     expect_line_refused(9, "d\xc3\xa9pth_m = 0.048", {"beyond ASCII"});
     expect_line_refused(9, "depth_m = \xc3\xa9", {"beyond ASCII"});
+    expect_line_refused(9, "depth_m = 1\"\xc3\xa9 \"", {"a quote in the middle of a value"});
+    expect_line_refused(5, "kind = \"column\"\"x\"", {"a quote in the middle of a value"});
     expect_line_refused(5, "kind = \"\"\"column\"\"\"\nblocks = 7", {"three quotes"});
     expect_line_refused(5, "kind = \"s\xc3\xa9isme # \\\" \xc3\xa9\" # \xc3\xa9\nblocks = 7",
                         {"\"s\xc3\xa9isme # ", "not allowed"});
