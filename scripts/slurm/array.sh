@@ -16,12 +16,14 @@ program=${STYLOBATE:-stylobate}
 name=$(basename "${STUDY%.toml}")
 parts=${SLURM_ARRAY_TASK_COUNT:?submit it as an array: sbatch --array=1-8}
 results=${RESULTS:-$name.h5}
-
-if [[ $SLURM_ARRAY_TASK_ID == "$SLURM_ARRAY_TASK_MIN" && ${SLURM_RESTART_COUNT:-0} == 0 ]]; then
+whole=()
+if ((parts == 1)); then
+    whole=(-o "$results") # one shard is the study
+elif [[ $SLURM_ARRAY_TASK_ID == "$SLURM_ARRAY_TASK_MIN" && ${SLURM_RESTART_COUNT:-0} == 0 ]]; then
     files=$(seq -f "${name}_%.0f_of_$parts.h5" 1 "$parts")
     sbatch --dependency="afterok:$SLURM_ARRAY_JOB_ID" --job-name=stylobate_merge --output=%x_%j.log \
         ${SLURM_JOB_ACCOUNT:+--account="$SLURM_JOB_ACCOUNT"} --partition="$SLURM_JOB_PARTITION" \
         --wrap="'$program' merge $(echo $files) -o '$results' --quiet"
 fi
 exec "$program" run "$STUDY" --shard "$((SLURM_ARRAY_TASK_ID - SLURM_ARRAY_TASK_MIN + 1))/$parts" \
-    --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet
+    --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet "${whole[@]}"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The scripts of scripts/slurm on a cluster of one machine: eight shards as an array job, one of which is requeued while
-# it runs, or three processes as an MPI job that is requeued. The results have the bytes of one run.
+# it runs, and an array of one task, or three processes as an MPI job that is requeued. The results have the bytes of
+# one run.
 #
 #   tests/cluster/check_job.sh array|mpi PROGRAM SOURCE
 set -euo pipefail
@@ -61,6 +62,10 @@ squeue --states=all --format="%.12i %.16j %.10T %.8M %r"
 [[ $(scontrol show job "$requeued" | grep -o 'Restarts=[0-9]*') == Restarts=1 ]] ||
     { echo "$requeued was not started twice"; exit 1; }
 cmp whole.h5 study.h5
+[[ $KIND == mpi ]] || { # one task is the whole study
+    RESULTS=one.h5 sbatch --wait --array=1-1 "$SOURCE/scripts/slurm/array.sh"
+    cmp whole.h5 one.h5
+}
 INSIDE
 
 sed 's/^realizations = .*/realizations = 400/' "$source/studies/inputs/small_scale_column.toml" |
