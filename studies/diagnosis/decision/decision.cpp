@@ -60,7 +60,8 @@ void take_size_of_forces(const BalanceEvidence& balance, JudgedCause& j)
 {
     for (const CauseFit& fit : balance.causes)
         if (fit.cause.mechanism == j.fit.cause.mechanism && fit.cause.place == j.fit.cause.place &&
-            fit.cause.parameter == j.fit.cause.parameter && fit.gain >= sized_by_forces) {
+            fit.cause.parameter == j.fit.cause.parameter && fit.cause.persists == j.fit.cause.persists &&
+            fit.gain >= sized_by_forces) {
             const double gain = j.fit.gain;
             j.fit = fit;
             j.fit.gain = gain; // that of the statistics: the other is no likelihood of the same data

@@ -81,6 +81,7 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
 {
     const double speed = scales.time_s * specimen.gravity_m_s2; // sqrt(g H)
     const std::vector<double> weight = rest_weights(specimen);
+    const double going_on = std::sqrt(static_cast<double>(std::max<std::size_t>(paths.before.size(), 1)));
     std::vector<CandidateCause> all;
     Cause stribeck{"stribeck", "all", "dynamic_ratio", "", 1};
     stribeck.fixed = stribeck_speed * speed;
@@ -95,15 +96,24 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
         // less friction makes a joint slide, more friction does not make it stand stiller: each has a shift of its own
         for (const double at_one : {less_friction_at_one, more_friction_at_one})
             all.push_back({at_joint("joint_friction", j, "ratio", "", 1), at_one, true, 0, 1.25});
-        all.push_back({at_joint("friction_wear", j, "wear_per_m", "1/m"),
-                       worn_at_one / std::max(paths.slip_m[k], least_slip * width), false, 0, most_wear});
+        // wear of one run, and wear that goes on: over the path of several runs
+        for (const bool persists : {false, true}) {
+            const double longer = persists ? going_on : 1;
+            CandidateCause wear{at_joint("friction_wear", j, "wear_per_m", "1/m"),
+                                worn_at_one / (longer * std::max(paths.mean.slip_m[k], least_slip * width)), false, 0,
+                                most_wear};
+            CandidateCause corners{at_joint("corner_wear", j, "wear_m_rad", "m/rad"),
+                                   chip_at_one * width /
+                                       (longer * std::max(paths.mean.rotation_rad[k], least_rotation))};
+            wear.cause.persists = corners.cause.persists = persists;
+            all.push_back(wear);
+            all.push_back(corners);
+        }
         for (const char* side : {"left", "right"}) {
             CandidateCause chip{at_joint("corner_loss", j, "loss_m", "m"), chip_at_one * width};
             chip.cause.side = side;
             all.push_back(chip);
         }
-        all.push_back({at_joint("corner_wear", j, "wear_m_rad", "m/rad"),
-                       chip_at_one * width / std::max(paths.rotation_rad[k], least_rotation)});
         CandidateCause dowel{at_joint("dowel", j, "yield_n", "N"), held};
         dowel.cause.fixed = dowel_slip * width;
         all.push_back(dowel);

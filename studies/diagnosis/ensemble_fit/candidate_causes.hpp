@@ -3,23 +3,13 @@
 /// of the same order for every specimen.
 
 #include "ensemble/model/campaign.hpp"
+#include "studies/diagnosis/ensemble_fit/joint_paths.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <vector>
 
 namespace stylobate {
-
-/// What joints and blocks go through in a run of a campaign: wear, drag and ties are in proportion to it.
-struct JointPaths {
-    std::vector<double> slip_m;       ///< (joints)
-    std::vector<double> rotation_rad; ///< (joints)
-    double speed_m_s = 0;             ///< sideways, of the blocks: 99 % quantile; drag goes with its square
-    // of each block against the base, 99 % quantiles
-    std::vector<double> reach_m;       ///< (blocks) sideways from its place
-    std::vector<double> leaving_m_s;   ///< (blocks) sideways speed
-    std::vector<double> turning_rad_s; ///< (blocks) rate of rotation
-};
 
 /// A mechanism at a place. Its size is counted by z: 0 is neutral, 1 is strong.
 struct CandidateCause {

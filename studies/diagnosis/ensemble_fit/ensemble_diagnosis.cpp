@@ -199,7 +199,8 @@ void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& o
         out.carrying =
             carrying_number(out, evidence.labelled, evidence.statistics(column), evidence.nulls.statistics.col(column),
                             evidence.labelled.table.statistics.col(column), [&](const Cause& c) {
-                                return c.mechanism == best.mechanism && c.place == best.place && c.side == best.side;
+                                return c.mechanism == best.mechanism && c.place == best.place && c.side == best.side &&
+                                       c.persists == best.persists;
                             });
         const StatisticLabel& label = out.evidence[static_cast<std::size_t>(column)];
         out.carrying.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
@@ -246,61 +247,6 @@ std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) co
         ++i;
     }
     return all > 0 ? std::optional(right / all) : std::nullopt;
-}
-
-JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
-                       const std::vector<std::vector<double>>& base_m)
-{
-    const std::size_t joints = campaign.specimen.joints.size();
-    JointPaths paths;
-    paths.slip_m.assign(joints, 0);
-    paths.rotation_rad.assign(joints, 0);
-    const auto blocks = static_cast<std::size_t>(campaign.specimen.blocks());
-    std::vector<double> speeds;
-    std::vector<std::vector<double>> reach(blocks), leaving(blocks), turning(blocks);
-    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
-        const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
-        for (std::size_t i = 0; i < track.samples(); ++i)
-            for (int b = 0; b < campaign.specimen.blocks() && track.usable(i, 1); ++b)
-                speeds.push_back(std::fabs(track.now(1, in_x, b, i)));
-        for (std::size_t i = 0; i < track.samples(); ++i)
-            for (std::size_t b = 0; b < blocks && track.usable(i, 1); ++b) {
-                const int block = static_cast<int>(b);
-                reach[b].push_back(
-                    std::fabs(track.now(0, in_x, block, i) - campaign.specimen.rest_x_m[b] - track.base(0, i)));
-                leaving[b].push_back(std::fabs(track.now(1, in_x, block, i) - track.base(1, i)));
-                turning[b].push_back(std::fabs(track.now(1, in_theta, block, i)));
-            }
-        for (std::size_t j = 0; j < joints; ++j) {
-            const int lower = campaign.specimen.joints[j].first, upper = campaign.specimen.joints[j].second;
-            double slip = 0, turn = 0;
-            for (std::size_t i = 1; i < track.samples(); ++i) {
-                if (!track.usable(i, 1))
-                    continue;
-                const auto relative = [&](Component c) {
-                    const double below = lower >= 0 ? track.now(1, c, lower, i) : c == in_x ? track.base(1, i) : 0;
-                    return track.now(1, c, upper, i) - below;
-                };
-                const double dt = track.time_s(i) - track.time_s(i - 1);
-                if (std::fabs(relative(in_x)) > scales.slip_m_s)
-                    slip += std::fabs(relative(in_x)) * dt;
-                turn += std::fabs(relative(in_theta)) * dt;
-            }
-            paths.slip_m[j] += slip / static_cast<double>(campaign.runs.size());
-            paths.rotation_rad[j] += turn / static_cast<double>(campaign.runs.size());
-        }
-    }
-    const auto largest = [](std::vector<double>& values) {
-        std::sort(values.begin(), values.end());
-        return values.empty() ? 0.0 : sorted_quantile(values, 0.99, QuantileDefinition::linear);
-    };
-    paths.speed_m_s = largest(speeds);
-    for (std::size_t b = 0; b < blocks; ++b) {
-        paths.reach_m.push_back(largest(reach[b]));
-        paths.leaving_m_s.push_back(largest(leaving[b]));
-        paths.turning_rad_s.push_back(largest(turning[b]));
-    }
-    return paths;
 }
 
 EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const TrackScales& scales,

@@ -62,8 +62,4 @@ EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study,
                                    const std::vector<std::vector<double>>& base_m);
 void judge(const EnsemblePlan& plan, EnsembleDiagnosis& diagnosis);
 
-/// Paths of the joints, mean over the runs, and speed of the blocks, from the smoothed motion.
-JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
-                       const std::vector<std::vector<double>>& base_m);
-
 } // namespace stylobate

@@ -6,6 +6,7 @@
 #include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/store/result_seal.hpp"
+#include "studies/diagnosis/ensemble_fit/joint_paths.hpp"
 #include "studies/version.hpp"
 #include "studies/windows/window_comparison.hpp"
 
@@ -243,6 +244,7 @@ VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
             seen->push_back(t - run.time_s.front());
         times_s[i] = seen;
     });
+    before = joint_paths(measured, track_scales(measured), base_m).before;
 }
 
 VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const Study& study, std::uint64_t seed,
@@ -281,6 +283,8 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
                     block.x_m += measured.specimen.placement_tolerance_m * put.normal();
             if (!laboratory.base[i])
                 continue;
+            for (const SizedCause& cause : acting)
+                carry_wear(cause, built, laboratory.before[i], job.realization);
             job.realization.motion = laboratory.base[i];
             job.watched_s = laboratory.times_s[i];
             jobs.push_back(std::move(job));

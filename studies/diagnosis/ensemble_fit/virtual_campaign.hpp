@@ -63,6 +63,8 @@ struct VirtualLaboratory {
     std::vector<std::shared_ptr<const Motion>> base;
     std::vector<std::shared_ptr<const std::vector<double>>> times_s; ///< the cameras', from the first one
     std::vector<std::vector<double>> base_m;                         ///< as `VirtualCampaigns::base_m`
+    std::vector<JointPath> before; ///< paths of the joints in the runs before each, as measured: wear that goes on
+                                   ///< from run to run is taken to have gone so far in a simulated one, too
 };
 
 /// @param study contacts about which is drawn; its structure is the specimen's

@@ -33,7 +33,10 @@ struct Cause {
                            ///< path after which friction wears no more (0: never)
     std::string side = {}; ///< of a corner: "left" or "right"
     bool persists = false; ///< of wear: it goes on from run to run
-    std::string label() const { return mechanism + " at " + place + (side.empty() ? "" : " " + side); }
+    std::string label() const
+    {
+        return mechanism + " at " + place + (side.empty() ? "" : " " + side) + (persists ? " from run to run" : "");
+    }
 };
 
 /// Whether a cause is no mechanism of the list but stands for forces of no known kind on a block (a tie to the base).

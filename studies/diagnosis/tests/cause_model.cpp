@@ -114,6 +114,23 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
     r.extended = true;
 }
 
+void carry_wear(const SizedCause& sized, const SpecimenStructure& built, const JointPath& before, Realization& r)
+{
+    if (!sized.cause.persists || sized.cause.joint < 0)
+        return;
+    const auto j = static_cast<std::size_t>(sized.cause.joint);
+    Joint& joint = r.joints[static_cast<std::size_t>(built.bed[j])];
+    JointExtension& e = joint.extension;
+    if (sized.cause.mechanism == "friction_wear") { // mu (1 - k (S0 + S)) = mu (1 - k S0) (1 - k S / (1 - k S0))
+        const double left = std::max(1 - sized.size * before.slip_m[j], 0.0);
+        joint.friction *= left;
+        e.wear_per_m = left > 0 ? sized.size / left : 0;
+    } else if (sized.cause.mechanism == "corner_wear") {
+        e.chip_left_m += sized.size * before.rotation_rad[j];
+        e.chip_right_m += sized.size * before.rotation_rad[j];
+    }
+}
+
 void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Study& study)
 {
     const Cause& cause = sized.cause;

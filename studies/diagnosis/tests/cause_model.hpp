@@ -21,6 +21,18 @@ struct SizedCause {
 /// change its motion before it comes here), but for the pitch.
 void apply_cause(const SizedCause& cause, const SpecimenStructure& built, Realization& realization);
 
+/// What each joint has gone through.
+struct JointPath {
+    std::vector<double> slip_m;       ///< (joints)
+    std::vector<double> rotation_rad; ///< (joints)
+};
+
+/// Wear that goes on from run to run begins where earlier runs have left it; other causes are left alone.
+/// @param before paths of the joints in the runs before this one
+/// @pre `apply_cause` has put the cause into the realization
+void carry_wear(const SizedCause& cause, const SpecimenStructure& built, const JointPath& before,
+                Realization& realization);
+
 /// Adds a cause to a study's [mechanisms], as `apply_cause` and the correction of the base do to a realization.
 /// @pre the cause has one size: no harmonic distortion, and no vertical motion that does not follow the horizontal one
 void add_mechanism(const SizedCause& cause, const SpecimenStructure& built, Study& study);

@@ -26,14 +26,26 @@ const Campaign& campaign()
     return measured;
 }
 
-const JointPaths paths_of_two{{0.01, 0.01}, {0.5, 0.5}, 0.4, {0.02, 0.02}, {0.3, 0.3}, {4, 4}};
+/// Of two runs, or of as many as are named before.
+JointPaths paths(const JointPath& mean, std::size_t runs = 2)
+{
+    JointPaths of;
+    of.mean = mean;
+    of.before.resize(runs, mean);
+    of.speed_m_s = 0.4;
+    of.reach_m = {0.02, mean.slip_m[1] > 0 ? 0.02 : 0};
+    of.leaving_m_s = {0.3, 0.3};
+    of.turning_rad_s = {4, 4};
+    return of;
+}
+const JointPaths paths_of_two = paths({{0.01, 0.01}, {0.5, 0.5}});
 
 TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
 {
     const Specimen& s = campaign().specimen;
     const TrackScales scales = track_scales(campaign());
     const std::vector<CandidateCause> causes =
-        candidate_causes(s, scales, {{0.01, 0.0}, {0.5, 0.0}, 0.4, {0.02, 0.0}, {0.3, 0.0}, {4, 0.0}}, 0.6, 1e8);
+        candidate_causes(s, scales, paths({{0.01, 0.0}, {0.5, 0.0}}, 4), 0.6, 1e8);
     std::map<std::string, const CandidateCause*> by_label;
     for (const CandidateCause& cause : causes) {
         // less friction, and more
@@ -52,6 +64,9 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
     EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 0")->size_of(1), 0.6 / 0.01) << "all of a run's path";
     EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 1")->size_of(1), 0.6 / (0.02 * 0.048))
         << "a joint that does not slide does not wear to nothing";
+    EXPECT_DOUBLE_EQ(by_label.at("friction_wear at joint 0 from run to run")->size_of(1), 0.6 / (2 * 0.01))
+        << "over the path of the root of four runs";
+    EXPECT_TRUE(by_label.at("corner_wear at joint 1 from run to run")->cause.persists);
     // what the friction of the joint holds at rest: joint 0 carries both drums
     EXPECT_NEAR(by_label.at("dowel at joint 0")->size_of(1), 0.6 * 2 * 0.1355 * 9.81, 1e-9);
     EXPECT_NEAR(by_label.at("drag at all")->size_of(1) * 0.4 * 0.4, 0.3 * 0.1355 * 9.81, 1e-9)
@@ -69,6 +84,82 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
         << "a block that stays in its place";
     // 10 at the impact velocity 0.1 sqrt(g H), of two drums of 29 mm
     EXPECT_NEAR(by_label.at("rate_damping at joint 0")->size_of(1) * 0.1 * std::sqrt(9.81 * 0.058), 10, 1e-6);
+}
+
+TEST(CandidateCauses, WearGoesOnWhereEarlierRunsHaveLeftIt)
+{
+    const SpecimenStructure built = build_specimen(campaign().specimen);
+    const Realization healthy = nominal_realization(default_study(campaign()), built.structure);
+    const auto joint = [&](const Realization& r, std::size_t j) {
+        return r.joints[static_cast<std::size_t>(built.bed[j])];
+    };
+    const auto worn = [&](Cause cause, double size, const JointPath& before) {
+        cause.joint = 1;
+        Realization r = healthy;
+        apply_cause({cause, size}, built, r);
+        carry_wear({cause, size}, built, before, r);
+        return r;
+    };
+    Cause wear{"friction_wear", "joint 1", "wear_per_m", "1/m"},
+        corners{"corner_wear", "joint 1", "wear_m_rad", "m/rad"};
+    const JointPath before{{0.5, 0.02}, {9, 0.4}};
+    const double friction = joint(healthy, 1).friction;
+    EXPECT_EQ(joint(worn(wear, 20, before), 1).friction, friction) << "of each run by itself";
+    EXPECT_EQ(joint(worn(corners, 1e-3, before), 1).extension.chip_left_m, 0);
+
+    wear.persists = corners.persists = true;
+    const Joint late = joint(worn(wear, 20, before), 1);
+    for (const double slip : {0.0, 0.01, 0.025}) // the law itself, over the whole path
+        EXPECT_NEAR(late.friction * (1 - late.extension.wear_per_m * slip), friction * (1 - 20 * (0.02 + slip)), 1e-12);
+    EXPECT_EQ(joint(worn(wear, 20, before), 0).friction, joint(healthy, 0).friction);
+    const Joint worn_out = joint(worn(wear, 60, before), 1);
+    EXPECT_EQ(worn_out.friction, 0);
+    EXPECT_EQ(worn_out.extension.wear_per_m, 0);
+    const Joint round = joint(worn(corners, 1e-3, before), 1);
+    EXPECT_DOUBLE_EQ(round.extension.chip_left_m, 0.4e-3);
+    EXPECT_DOUBLE_EQ(round.extension.chip_right_m, 0.4e-3);
+    EXPECT_DOUBLE_EQ(round.extension.corner_wear_m_rad, 1e-3);
+}
+
+/// The same motion again and again: each run adds its path, and wear that goes on makes a joint slide farther.
+TEST(JointPaths, AddUpFromRunToRunAndWearGoesOnWithThem)
+{
+    Campaign shaken = measure({.runs = 1, .drums = 2, .friction = 0.3, .pga_m_s2 = 6, .strong_s = 1});
+    shaken.specimen.friction_nominal = 0.3;
+    shaken.runs.resize(3, shaken.runs.front());
+    const TrackScales scales = track_scales(shaken);
+    const VirtualLaboratory laboratory(shaken);
+    const JointPaths found = joint_paths(shaken, scales, laboratory.base_m);
+    ASSERT_EQ(found.before.size(), 3U);
+    ASSERT_GT(found.before[1].slip_m[0], 0.002);
+    for (std::size_t j = 0; j < 2; ++j) {
+        EXPECT_EQ(found.before[0].slip_m[j], 0);
+        EXPECT_DOUBLE_EQ(found.before[2].slip_m[j], 2 * found.before[1].slip_m[j]);
+        EXPECT_DOUBLE_EQ(found.mean.slip_m[j], found.before[1].slip_m[j]);
+        EXPECT_DOUBLE_EQ(found.before[2].rotation_rad[j], 2 * found.mean.rotation_rad[j]);
+        EXPECT_EQ(laboratory.before[2].slip_m[j], found.before[2].slip_m[j]);
+    }
+    Cause wear{"friction_wear", "joint 0", "wear_per_m", "1/m"};
+    wear.joint = 0;
+    wear.persists = true;
+    HealthyScatter scatter;
+    scatter.laws.resize(16);
+    Observer observer;
+    // of the second run over the first one, on the mean of specimens that were put down a little differently
+    const auto longer = [&](const std::vector<SizedCause>& acting) {
+        const VirtualCampaigns made = virtual_campaigns(laboratory, default_study(shaken), 3, 0, 16, scatter, {acting},
+                                                        {best_isa(), 2}, observer);
+        double first = 0, second = 0;
+        for (const Campaign& campaign : made.campaigns) {
+            const std::vector<JointPath> before = joint_paths(campaign, scales, made.base_m).before;
+            first += before[1].slip_m[0];
+            second += before[2].slip_m[0] - before[1].slip_m[0];
+        }
+        return second / first;
+    };
+    const double healthy = longer({}), worn = longer({{wear, 0.5 / found.before[1].slip_m[0]}});
+    EXPECT_NEAR(healthy, 1, 0.2);
+    EXPECT_GT(worn, 1.2 * healthy) << "the second run begins with half of the friction";
 }
 
 TEST(CandidateCauses, DampingOfOneJointStaysThereBesideAnyLaw)
