@@ -26,19 +26,24 @@ const Campaign& campaign()
     return measured;
 }
 
-/// Of two runs, or of as many as are named before.
+/// Of so many joints and blocks that all do the same, or of the joints whose paths these are.
 JointPaths paths(const JointPath& mean, std::size_t runs = 2)
 {
     JointPaths of;
     of.mean = mean;
     of.before.resize(runs, mean);
     of.speed_m_s = 0.4;
-    of.reach_m = {0.02, mean.slip_m[1] > 0 ? 0.02 : 0};
-    of.leaving_m_s = {0.3, 0.3};
-    of.turning_rad_s = {4, 4};
+    for (const double slip : mean.slip_m)
+        of.reach_m.push_back(slip > 0 ? 0.02 : 0);
+    of.leaving_m_s.assign(mean.slip_m.size(), 0.3);
+    of.turning_rad_s.assign(mean.slip_m.size(), 4);
     return of;
 }
-const JointPaths paths_of_two = paths({{0.01, 0.01}, {0.5, 0.5}});
+JointPaths paths(std::size_t joints)
+{
+    return paths({std::vector<double>(joints, 0.01), std::vector<double>(joints, 0.5)});
+}
+const JointPaths paths_of_two = paths(2);
 
 TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
 {
@@ -364,7 +369,7 @@ std::pair<double, double> distances_from_law(const HealthyLaw& truth, const Ense
     const VirtualCampaigns made =
         virtual_campaigns(VirtualLaboratory(lively()), study, 77, 1, 1, scatter, {}, {best_isa(), 2}, observer);
     const CampaignStatistics shown = statistics_of(made.campaigns.front(), scales, made.base_m);
-    std::vector<CandidateCause> causes = candidate_causes(lively().specimen, scales, paths_of_two, 0.6, 1e8);
+    std::vector<CandidateCause> causes = candidate_causes(lively().specimen, scales, paths(3), 0.6, 1e8);
     causes.resize(1);
     const CampaignEnsemble ensemble = simulate_ensemble(
         made.campaigns.front(), study, causes, {}, plan, shown, {}, {best_isa(), 2},
