@@ -56,21 +56,24 @@ all) presets=(asan tsan) ;;
 esac
 shift
 [[ ${1:-} != -- ]] || shift
+[[ -z $keep || $# -eq 0 ]] || { echo "sanitizers.sh: --keep is for whole passes, without CTEST ARGUMENTS" >&2; exit 2; }
 
 scripts/install_packages.sh --tests
 commit=$(git describe --always --dirty --exclude '*')
 processor=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1)
 status=0
 for preset in "${presets[@]}"; do
-    log=build/$preset/pass.log
+    log=build/$preset/pass.log xml=build/$preset/pass.xml
+    rm -f "$xml" # of an earlier pass
     begin=$SECONDS
     cmake --preset "$preset" >/dev/null
     cmake --build "build/$preset" --parallel "$(nproc)"
     built=$SECONDS
     scripts/test.sh "--$preset" -- --output-junit pass.xml "$@" 2>&1 | tee "$log" || status=1
     ended=$SECONDS
+    [[ -f $xml ]] || { echo "sanitizers.sh: the tests did not run to their end, see $log" >&2; exit 1; }
     [[ -z $keep ]] ||
-        echo "$(date -u +%F),$commit,${processor//,/ },$(nproc),$preset,$(((built - begin + 59) / 60)),$(((ended - built + 59) / 60)),$(counts "build/$preset/pass.xml")" >>"$passes"
+        echo "$(date -u +%F),$commit,${processor//,/ },$(nproc),$preset,$(((built - begin + 59) / 60)),$(((ended - built + 59) / 60)),$(counts "$xml")" >>"$passes"
 done
 [[ -z $keep ]] || page
 exit $status
