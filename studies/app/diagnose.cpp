@@ -94,8 +94,10 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     } observer(console);
     std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
     if (!diagnosis) {
-        tell("Interrupted. The same command continues: the simulated campaigns are kept in " + how.cache.string() +
-             ".");
+        tell(std::filesystem::exists(how.cache)
+                 ? "Interrupted. The same command continues: the simulated campaigns are kept in " +
+                       how.cache.string() + "."
+                 : "Interrupted before a simulated campaign was kept. The same command begins anew.");
         return exit_interrupted;
     }
     diagnosis->measured_fingerprint = fingerprint(measured);
