@@ -85,18 +85,6 @@ struct Question {
     Change scanned; ///< the study in which the strength is looked for
 };
 
-/// What a user does to a study file: no stiffness, no dashpot, an accuracy.
-void make_rigid(Study& s, double accuracy)
-{
-    s.contact.form = ContactForm::rigid;
-    s.contact.normal_stiffness_n_m2 = s.contact.tangential_stiffness_n_m = 0;
-    s.contact.normal_damping_ratio = s.contact.tangential_damping_ratio = 0;
-    std::erase_if(s.perturbations, [](const Perturbation& p) {
-        return p.quantity == Quantity::normal_stiffness || p.quantity == Quantity::damping_ratio;
-    });
-    s.run.accuracy = accuracy;
-}
-
 Question question(const std::string& name, double accuracy)
 {
     if (name == "rigid")

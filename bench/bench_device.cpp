@@ -5,8 +5,11 @@
 #include "bench/scenes.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/engine/slot_tasks.hpp"
+#include "ensemble/engine/slots.hpp"
+#include "ensemble/statics/rigid_step.hpp"
 
 #include <benchmark/benchmark.h>
+#include <tbb/parallel_for.h>
 
 #include <chrono>
 #include <string>
@@ -17,10 +20,26 @@ using namespace stylobate;
 
 namespace {
 
-/// A surface on all devices, many realizations for each slot. slots = 0: as many as the device likes.
-void on_devices(benchmark::State& state, int slots)
+/// Realizations of a cell: many for each slot.
+constexpr int realizations = 20'000;
+
+Study single_surface()
 {
-    const Study study = small_surface(20'000);
+    Study study = small_surface(realizations);
+    study.run.precision = Precision::single;
+    return study;
+}
+
+Study rigid_surface()
+{
+    Study study = small_surface(realizations);
+    make_rigid(study, usual_accuracy);
+    return study;
+}
+
+/// A surface on all devices. slots = 0: as many as the device likes.
+void on_devices(benchmark::State& state, const Study& study, int slots)
+{
     const Experiment experiment(study);
     RunOptions options{best_isa(), static_cast<int>(std::thread::hardware_concurrency())};
     options.devices = open_cuda_devices();
@@ -30,18 +49,45 @@ void on_devices(benchmark::State& state, int slots)
     plan.sink = [](const Realization&, const Outcome&) {};
     Observer observer;
     Progress progress;
-    double seconds = 0, realizations = 0, block_steps = 0;
+    double seconds = 0, done = 0, block_steps = 0;
     for (auto _ : state) {
         progress = run_ensemble(experiment, options, plan, observer);
         seconds += progress.seconds;
-        realizations += static_cast<double>(progress.done);
+        done += static_cast<double>(progress.done);
         block_steps += static_cast<double>(progress.block_steps);
     }
-    state.counters["realizations_per_second"] = realizations / seconds;
+    state.counters["realizations_per_second"] = done / seconds;
+    state.counters["block_steps_per_second"] = block_steps / seconds;
+    if (study.contact.form == ContactForm::area && study.run.precision == Precision::double_)
+        state.counters["flops_per_second"] =
+            block_steps / seconds * static_cast<double>(operations_per_block_step(7).flops());
+    state.counters["occupancy"] = progress.occupancy;
+}
+
+/// The step alone: columns that rock without an end, in one queue of the first device.
+void steps(benchmark::State& state, const Study& study, int slots)
+{
+    constexpr int launches = 20;
+    const Sampler sampler(study, nullptr);
+    const std::vector<std::shared_ptr<Device>> devices = open_cuda_devices();
+    SlotSet set(study, nullptr, sampler.realization(0), *devices.front(), slots, slots);
+    tbb::parallel_for(0, slots,
+                      [&](int slot) { set.load(slot, sampler.realization(static_cast<std::uint64_t>(slot))); });
+    set.advance();
+    double seconds = 0, launched = 0;
+    for (auto _ : state) {
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; i < launches; ++i)
+            set.advance();
+        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        launched += launches;
+    }
+    const double block_steps = launched * SlotSet::chunks_per_launch * chunk_steps * set.active() *
+                               static_cast<double>(sampler.realization(0).free_blocks());
     state.counters["block_steps_per_second"] = block_steps / seconds;
     state.counters["flops_per_second"] =
         block_steps / seconds * static_cast<double>(operations_per_block_step(7).flops());
-    state.counters["occupancy"] = progress.occupancy;
+    state.counters["launch_ms"] = 1000 * seconds / launched;
 }
 
 /// Rate of multiply-adds in registers on the first device, two operations each.
@@ -79,9 +125,16 @@ const bool registered = [] {
         return true;
     }
     benchmark::RegisterBenchmark("BM_CudaPeakFma", peak_fma)->Unit(benchmark::kMillisecond);
-    for (const int slots : {0, 4096, 8192, 16384, 32768, 65536})
-        benchmark::RegisterBenchmark(("BM_Cuda/" + std::to_string(slots)).c_str(), on_devices, slots)
+    for (const int slots : {1024, 4096, 16384, 33792, 50688, 67584, 135168})
+        benchmark::RegisterBenchmark(("BM_CudaStep/" + std::to_string(slots)).c_str(), steps, rocking_column(7), slots)
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(1);
+    for (const int slots : {0, 16384, 50688})
+        benchmark::RegisterBenchmark(("BM_Cuda/" + std::to_string(slots)).c_str(), on_devices,
+                                     small_surface(realizations), slots)
             ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("BM_Cuda/single", on_devices, single_surface(), 0)->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("BM_Cuda/rigid", on_devices, rigid_surface(), 0)->Unit(benchmark::kMillisecond);
     return true;
 }();
 

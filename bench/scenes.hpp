@@ -6,6 +6,8 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
+#include <vector>
+
 namespace stylobate {
 
 /// Drums of the specimen under a harmonic that makes them rock without an end; the lowest of `blocks` is fixed.
@@ -82,6 +84,18 @@ inline Study small_surface(int realizations)
     study.surface = SurfaceSpec{{.from = 1, .to = 10, .count = 4, .spacing = Spacing::log},
                                 {.from = 1, .to = 12, .count = 4, .spacing = Spacing::linear}};
     return study;
+}
+
+/// What a user does to a study file: no stiffness, no dashpot, an accuracy.
+inline void make_rigid(Study& s, double accuracy)
+{
+    s.contact.form = ContactForm::rigid;
+    s.contact.normal_stiffness_n_m2 = s.contact.tangential_stiffness_n_m = 0;
+    s.contact.normal_damping_ratio = s.contact.tangential_damping_ratio = 0;
+    std::erase_if(s.perturbations, [](const Perturbation& p) {
+        return p.quantity == Quantity::normal_stiffness || p.quantity == Quantity::damping_ratio;
+    });
+    s.run.accuracy = accuracy;
 }
 
 } // namespace stylobate

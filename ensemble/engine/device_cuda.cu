@@ -19,8 +19,10 @@ namespace {
 
 // Threads of a block: one warp for each of a multiprocessor's four schedulers.
 constexpr int block_threads = 128;
-// Threads of a multiprocessor at the most: their states are to stay in its first-level cache (`docs/gpu.md`).
+// Registers are to suffice for so many threads of a multiprocessor.
 constexpr int resident_threads = 256;
+// Slots for each multiprocessor, of both queues together: their states stay in its first-level cache (`docs/gpu.md`).
+constexpr int cached_slots = 128;
 
 void check(cudaError_t status, const char* what)
 {
@@ -77,7 +79,7 @@ public:
             check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_task<Task>, block_threads, 0),
                   "the kernel does not fit");
         });
-        const int threads = std::min(resident_threads, blocks * block_threads);
+        const int threads = std::min(cached_slots, blocks * block_threads) / 2; // the other queue computes meanwhile
         std::size_t free = 0, total = 0;
         check(cudaMemGetInfo(&free, &total), "its memory cannot be read");
         const std::size_t fit = free / 4 / std::max<std::size_t>(bytes, 1); // of two queues, half of the memory

@@ -25,14 +25,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t most_slots = 1 << 24;
+/// What a device leaves to the processor is stepped there one by one, not in registers: by so much slower, about.
+constexpr int slower_alone = 4;
 
 /// What the workers share.
 class Run {
 public:
     Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
-          kernels_(kernels(options.isa)), threads_(options.threads), plan_(plan), observer_(observer),
-          order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
+          kernels_(kernels(options.isa)), threads_(options.threads), few_(options.few * options.threads), plan_(plan),
+          observer_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
           places_(order_.places(plan.shard)), next_(places_.begin), pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
@@ -73,19 +75,28 @@ public:
                 static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
             SlotSet set(study_, record_, pattern_, device, slots, most);
             std::optional<CompliantSet> compliant = compliant_set();
-            tbb::parallel_for(0, set.slots(), [&](int slot) { refill(set, slot); });
+            std::atomic<bool> more = true;
+            const auto fill = [&](int slot) {
+                if (!refill(set, slot))
+                    more = false;
+            };
+            tbb::parallel_for(0, set.slots(), fill);
             for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
+                if (!more && active <= few_ / slower_alone / share)
+                    set.leave_device();
                 set.advance();
                 count_chunks(set.used(), active);
                 for (const int slot : set.ended())
                     finish(set, slot, compliant);
-                tbb::parallel_for(std::size_t{0}, set.ended().size(),
-                                  [&](std::size_t i) { refill(set, set.ended()[i]); });
+                tbb::parallel_for(std::size_t{0}, set.ended().size(), [&](std::size_t i) { fill(set.ended()[i]); });
                 step(compliant, set.active() == 0);
                 report(false);
             }
         });
     }
+
+    /// Whether the processor ends this sooner than devices would.
+    bool few() const { return left() <= static_cast<std::uint64_t>(few_); }
 
     Progress finish()
     {
@@ -148,13 +159,16 @@ private:
         }
     }
 
+    /// @return whether there was something left
     template <class Lanes>
-    void refill(Lanes& lanes, int lane)
+    bool refill(Lanes& lanes, int lane)
     {
-        if (const std::optional<std::uint64_t> index = next())
+        const std::optional<std::uint64_t> index = next();
+        if (index)
             lanes.load(lane, realize(*index));
         else
             lanes.clear(lane);
+        return index.has_value();
     }
 
     void count_chunks(int lanes, int active)
@@ -227,6 +241,7 @@ private:
     const Motion* record_;
     const KernelTable& kernels_;
     const int threads_;
+    const int few_; ///< realizations that the processor ends sooner than a device
     const RunPlan& plan_;
     /// The plan's, or the places that are to be done, in their order.
     const std::function<std::optional<std::uint64_t>()> next_place_ = plan_.next_place ? plan_.next_place : [this] {
@@ -271,7 +286,7 @@ Progress run_ensemble(const Experiment& experiment, const RunOptions& options, c
     // TBB would otherwise not start more threads than there are cores
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(options.threads));
-    if (!options.devices.empty()) {
+    if (!options.devices.empty() && !run.few()) {
         std::vector<std::thread> workers;
         for (const std::shared_ptr<Device>& device : options.devices)
             workers.emplace_back([&run, &options, &device] {

@@ -27,6 +27,9 @@ struct RunOptions {
     /// `threads` threads where realizations begin and end.
     std::vector<std::shared_ptr<Device>> devices{};
     int slots = 0; ///< of each of them; 0: as many as it likes
+    /// So many realizations for each thread are ended sooner by these than by a device, one of whose threads takes many
+    /// times longer for a realization than one of the processor's (`docs/gpu.md`).
+    int few = 64;
     /// The processes that run the same together; null: this one is alone. `run_ensemble` knows nothing of them: who
     /// calls it shares out what is to be run.
     Ranks* ranks = nullptr;

@@ -52,7 +52,9 @@ void LaneSet::read_column(int lane, const double* column)
     for (std::size_t i = 0; i < state; ++i)
         memory_[i * lanes_ + static_cast<std::size_t>(lane)] = *column++;
     column += formula_rows + sampled_rows;
-    places_[static_cast<std::size_t>(lane)].watch = detail::load_rows<Watch>(column, 1, 0);
+    Watch& watch = places_[static_cast<std::size_t>(lane)].watch;
+    watch = detail::load_rows<Watch>(column, 1, 0);
+    first_step_[lane] = static_cast<double>(watch.steps);
 }
 
 bool LaneSet::tables_given(int lane) const

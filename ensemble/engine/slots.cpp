@@ -148,6 +148,8 @@ void SlotSet::clear(int slot)
 void SlotSet::advance()
 {
     ended_.clear();
+    if (on_host_)
+        return advance_on_host();
     close_gaps();
     upload_columns();
     if (tables_given_)
@@ -305,9 +307,50 @@ void SlotSet::upload_tables()
     device_.run(task, task.count());
 }
 
+/// Into the host's lanes; the slots are then empty.
+void SlotSet::take_columns(const std::vector<int>& which)
+{
+    const auto rows = static_cast<std::size_t>(rows_);
+    upload_list(which);
+    move(which.size(), false);
+    mark(which, SlotState::empty);
+    device_.download(own_->host_packed.data(), own_->packed.data(), which.size() * rows * sizeof(double));
+    each(which.size(), [&](std::size_t i) { lane(which[i]).read_column(0, own_->host_packed.data() + i * rows); });
+}
+
+void SlotSet::leave_device()
+{
+    if (on_host_ || memory_.in_single)
+        return;
+    on_host_ = true;
+    std::vector<int> there;
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+        if (slots_[i].busy && !slots_[i].changed)
+            there.push_back(static_cast<int>(i));
+    if (!there.empty())
+        take_columns(there);
+}
+
+void SlotSet::advance_on_host()
+{
+    std::vector<int> busy;
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+        if (slots_[i].busy)
+            busy.push_back(static_cast<int>(i));
+    used_ = static_cast<int>(busy.size());
+    each(busy.size(), [&](std::size_t i) {
+        LaneSet& one = lane(busy[i]);
+        for (int chunk = 0; chunk < chunks_on_host && !one.done(0); ++chunk)
+            one.advance();
+    });
+    for (const int slot : busy)
+        if (lane(slot).done(0))
+            ended_.push_back(slot);
+}
+
 void SlotSet::take_those_that_ask()
 {
-    const auto used = static_cast<std::size_t>(used_), rows = static_cast<std::size_t>(rows_);
+    const auto used = static_cast<std::size_t>(used_);
     device_.download(own_->host_state.data(), own_->state.data(), used * sizeof(SlotState));
     std::vector<int> asking;
     for (std::size_t i = 0; i < used; ++i) {
@@ -317,13 +360,9 @@ void SlotSet::take_those_that_ask()
     }
     if (asking.empty())
         return;
-    upload_list(asking);
-    move(asking.size(), false);
-    mark(asking, SlotState::empty);
-    device_.download(own_->host_packed.data(), own_->packed.data(), asking.size() * rows * sizeof(double));
+    take_columns(asking);
     each(asking.size(), [&](std::size_t i) {
         Slot& s = slots_[static_cast<std::size_t>(asking[i])];
-        s.lane->read_column(0, own_->host_packed.data() + i * rows);
         s.lane->check(0, check_steps(memory_.topology));
         s.steps = s.lane->steps(0);
         s.changed = !s.lane->done(0); // goes on, and the device is to hear of what the check found

@@ -66,6 +66,9 @@ public:
 
     /// Steps all busy slots by `chunks_per_launch` chunks, those that end in between by less.
     void advance();
+    /// From now on the host's lanes step what is busy, `chunks_on_host` chunks in a call of `advance`. What is stepped
+    /// in single precision stays on the device.
+    void leave_device();
     /// Slots whose realizations have ended or were handed over in the last `advance`, in order.
     const std::vector<int>& ended() const { return ended_; }
     const std::optional<Outcome>& outcome(int slot) const { return lane(slot).outcome(0); }
@@ -73,6 +76,7 @@ public:
 
     /// A slot that has ended waits for the end of the launch: at the most 7 of the hundreds of chunks of a realization.
     static constexpr int chunks_per_launch = 8;
+    static constexpr int chunks_on_host = 64;
 
 private:
     struct Slot {
@@ -92,6 +96,8 @@ private:
     void upload_columns();
     void upload_tables();
     void take_those_that_ask();
+    void advance_on_host();
+    void take_columns(const std::vector<int>& which);
     void move(std::size_t count, bool into_slots);
     void move_singles(std::size_t count, bool into_slots);
     void mark(const std::vector<int>& which, SlotState state);
@@ -107,6 +113,7 @@ private:
     int single_rows_ = 0; ///< of one in single precision; 0: there is none
     int tables_ = 0;      ///< numbers of the tables of one chunk
     bool tables_given_ = false;
+    bool on_host_ = false;
     std::vector<int> ended_;
     SlotMemory memory_;
 

@@ -1,5 +1,6 @@
-/// The slots of a device, on the device that is the processor: outcomes have the bits of the processor's own lanes,
-/// with any number of slots, however they are refilled, and whatever the realizations are.
+/// The slots of a device, on the device that is the processor and on the devices of CUDA, where there are any: outcomes
+/// have the bits of the processor's own lanes, with any number of slots, however they are refilled, and whatever the
+/// realizations are.
 
 #include "ensemble/engine/host_device.hpp"
 #include "ensemble/engine/slots.hpp"
@@ -33,6 +34,7 @@ RunOptions on_devices(int devices, int slots)
     for (int i = 0; i < devices; ++i)
         options.devices.push_back(host_device());
     options.slots = slots;
+    options.few = 0; // nothing is left to the processor
     return options;
 }
 
@@ -41,9 +43,16 @@ EnsembleRun same_in_slots(const Study& study, const Motions& motions = {})
 {
     const EnsembleRun want = run_all(study, {best_isa(), 2}, motions);
     EXPECT_EQ(want.outcomes.size(), study.total());
-    for (const auto& [devices, slots] : {std::pair{1, 5}, std::pair{2, 0}}) {
-        const EnsembleRun got = run_all(study, on_devices(devices, slots), motions);
-        EXPECT_EQ(got.outcomes, want.outcomes) << devices << " devices, " << slots << " slots";
+    std::vector<RunOptions> all{on_devices(1, 5), on_devices(2, 0)};
+    if (!cuda_devices().names.empty())
+        for (const int slots : {5, 0}) {
+            all.push_back(on_devices(0, slots));
+            all.back().devices = open_cuda_devices();
+        }
+    for (const RunOptions& options : all) {
+        const EnsembleRun got = run_all(study, options, motions);
+        EXPECT_EQ(got.outcomes, want.outcomes) << options.devices.size() << " queues, the first of "
+                                               << options.devices.front()->name() << ", " << options.slots << " slots";
         EXPECT_EQ(got.progress.done, study.total());
         EXPECT_EQ(got.progress.collapsed, want.progress.collapsed);
         EXPECT_EQ(got.progress.block_steps, want.progress.block_steps);
@@ -200,7 +209,7 @@ TEST(Slots, SamplesStayOnTheDevice)
 {
     const auto uploaded = [](const Study& study, const Motions& motions) {
         const auto device = std::make_shared<Forwarding>();
-        RunOptions options{Isa::scalar, 1};
+        RunOptions options = on_devices(0, 0);
         options.devices.push_back(device);
         run_all(study, options, motions);
         return std::pair{device->uploaded(), device->launches()};
@@ -358,6 +367,33 @@ TEST(Slots, GapsAreClosed)
     EXPECT_EQ(got, want.outcomes);
 }
 
+/// A device does little, the processor ends what it has begun.
+TEST(Slots, TheProcessorEndsTheLastOnes)
+{
+    const auto launches = [](const Study& study, int few, const Motions& motions) {
+        const auto device = std::make_shared<Forwarding>();
+        RunOptions options = on_devices(0, 5);
+        options.devices.push_back(device);
+        options.few = few;
+        const EnsembleRun want = run_all(study, {best_isa(), 2}, motions);
+        EXPECT_EQ(run_all(study, options, motions).outcomes, want.outcomes) << few << " for each thread";
+        return device->launches();
+    };
+    const auto same = [&](const Study& study, const Motions& motions = {}) {
+        EXPECT_GT(launches(study, 5, motions), 10); // the last two of ten
+    };
+    same(column({}));
+    same(colonnade({}));
+    same(rigid_of(column({})));
+    same(rigid_of(colonnade({})));
+    same(along_chirp({}), {.record = chirp()});
+    same(along_chirp({"mechanisms.vertical_motion={ ratio = 0.3 }"}), {.record = chirp()});
+
+    const int all = launches(column({}), 0, {}), some = launches(column({}), 10, {});
+    EXPECT_LT(some, all) << "nothing was left to the processor";
+    EXPECT_EQ(launches(column({}), 1000, {}), 0) << "so few are not for a device";
+}
+
 /// What goes up comes back, bit by bit, and another lane goes on with it.
 TEST(Slots, AColumnHoldsALane)
 {
@@ -400,7 +436,8 @@ TEST(Slots, AFailureOfADeviceEndsTheRun)
     }
 }
 
-/// On the devices of CUDA, where there are any: the same bits again.
+/// As many realizations as fill a device's blocks of threads, some of which end, move together and go on; all tests
+/// above compare the same devices with few.
 TEST(Cuda, OutcomesHaveTheBitsOfTheProcessor)
 {
     const CudaDevices found = cuda_devices();
@@ -408,13 +445,10 @@ TEST(Cuda, OutcomesHaveTheBitsOfTheProcessor)
         GTEST_SKIP() << "not run: " << found.reason;
     RunOptions options{best_isa(), 2};
     options.devices = open_cuda_devices();
-    for (const Study& study :
-         {column({}), colonnade({}), column({"contact.form=\"points\""}), column({"contact.form=\"two_corner\""}),
-          column({"mechanisms.stribeck={ dynamic_friction = 0.5, velocity_m_s = 0.05 }"}), rigid_of(column({})),
-          rigid_of(colonnade({}))}) {
-        const EnsembleRun want = run_all(study, {best_isa(), 2});
-        EXPECT_EQ(run_all(study, options).outcomes, want.outcomes);
-    }
+    options.few = 20;
+    const std::string many = "study.realizations=100";
+    for (const Study& study : {column({many}), rigid_of(column({many})), rigid_of(colonnade({many}))})
+        EXPECT_EQ(run_all(study, options).outcomes, run_all(study, {best_isa(), 2}).outcomes);
 }
 
 TEST(Cuda, WhereThereIsNoDeviceItIsSaid)
