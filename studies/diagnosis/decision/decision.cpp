@@ -287,6 +287,13 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
                                     ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
                                     statistics.p_value, statistics.probability, statistics.left_p_value,
                                     ensemble.law_p_value, statistics.contrasts ? ", contrasts alone" : ""));
+    const NearestCause& nearest = ensemble.by_nearness;
+    if (nearest.best >= 0)
+        lines.push_back(
+            fmt::format("nearest campaigns: {} at {:.2f}, healthy ones at {:.2f} (p = {:.2g}), {:.1f} nats apart",
+                        ensemble.causes[static_cast<std::size_t>(nearest.best)].cause.label(),
+                        ensemble.ensemble.nearness.distance[static_cast<std::size_t>(nearest.best)],
+                        ensemble.ensemble.nearness.healthy, nearest.healthy_p, nearest.gain));
     return lines;
 }
 

@@ -2,6 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/diagnosis/ensemble_fit/evidence_rows.hpp"
+#include "studies/diagnosis/ensemble_fit/proposals.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 
 #include <fmt/format.h>
@@ -22,10 +24,6 @@ namespace {
 
 /// Campaigns that are simulated together: many bundles with full lanes, and often enough a word on progress.
 constexpr std::uint64_t together = 72;
-// Of the laws near the likest ones (`draw_near`), and by how much less in each further round.
-constexpr double first_spread = 1.0 / 3, narrower = 0.5;
-// Of the numbers of joints by which laws are found that are like the measured one.
-constexpr double numbers_kept = 0.9;
 
 std::string line_of(const SimulatedCampaign& campaign)
 {
@@ -69,20 +67,26 @@ constexpr std::string_view head = "# stylobate simulated campaigns ";
 
 /// What a file of rows is of: another campaign, plan or version has another key.
 std::string key_of(const Campaign& measured, const Study& study, const std::vector<CandidateCause>& causes,
-                   const std::vector<SizedCause>& known, const EnsemblePlan& plan, const CampaignStatistics& shown)
+                   const std::vector<SizedCause>& known, const EnsemblePlan& plan, const SimulatedCampaign& shown)
 {
     std::string key = std::string(head) + campaign_key(measured, study, plan.seed) +
                       fmt::format(" {} {} {} {} {} {} {}", plan.wide, plan.pairs, plan.rounds, plan.of_each_round,
                                   plan.parents, plan.nulls, plan.of_each_cause);
+    key += fmt::format(" far {:g}", plan.far);
+    for (const OwnRound& round : plan.own)
+        key += fmt::format(" own {} {} {} {:g} {:g}", round.causes, round.of_each, round.parents, round.spread,
+                           round.size_spread);
     for (const ContactForm form : plan.family.forms)
         key += fmt::format(" form {}", static_cast<int>(form));
     for (const DampingKind kind : plan.family.kinds)
         key += fmt::format(" damping {}", to_string(kind));
     for (const CandidateCause& cause : causes)
-        key += fmt::format(" {} {:.17g} {:g} {:g}", cause.cause.label(), cause.at_one, cause.least, cause.most);
+        key += fmt::format(" {} {:.17g} {:.17g} {:g} {:g}", cause.cause.label(), cause.cause.fixed, cause.at_one,
+                           cause.least, cause.most);
     for (const SizedCause& cause : known)
         key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.size);
-    for (const auto* values : {&shown.descriptors, &shown.values}) // the parents' laws depend on them
+    for (const auto* values :
+         {&shown.numbers.descriptors, &shown.numbers.values, &shown.scores}) // proposals depend on them
         for (const double value : *values)
             key += fmt::format(" {:.17g}", value);
     return key;
@@ -134,58 +138,6 @@ void add_costs(Ranks& ranks, CampaignEnsemble& out)
     }
 }
 
-/// The healthy laws of an ensemble, round by round nearer to the measured one.
-class LikeLaws {
-public:
-    LikeLaws(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels, const CampaignStatistics& shown)
-        : plan_(plan), labels_(labels), shown_(joint_numbers(labels, shown))
-    {
-    }
-
-    /// @param rows all campaigns of the rounds before
-    HealthyLaw of(std::uint64_t number, const std::vector<SimulatedCampaign>& rows)
-    {
-        if (number < plan_.wide)
-            return draw_law(plan_.family, plan_.seed, number);
-        if (number < plan_.scouts())
-            return draw_law(plan_.family, plan_.seed, number - plan_.wide);
-        const std::uint64_t round = plan_.round(number);
-        while (parents_.size() < round)
-            parents_.push_back(likest(parents_.size() + 1, rows));
-        const double spread = first_spread * std::pow(narrower, static_cast<double>(round - 1));
-        return draw_near(plan_.family, parents_[round - 1][plan_.parent(number)], spread, plan_.seed, number);
-    }
-
-    std::vector<double> distances(const std::vector<SimulatedCampaign>& rows) const
-    {
-        const LawLikeness likeness = likeness_of(plan_, labels_, rows, joint_numbers, numbers_kept);
-        std::vector<double> out;
-        for (const SimulatedCampaign& row : rows)
-            out.push_back(likeness.distance(shown_, joint_numbers(labels_, row.numbers)));
-        return out;
-    }
-
-private:
-    /// The laws of those campaigns before a round that are nearest.
-    std::vector<HealthyLaw> likest(std::uint64_t round, const std::vector<SimulatedCampaign>& rows)
-    {
-        const std::vector<double> distance = distances(rows);
-        std::vector<std::pair<double, std::uint64_t>> order;
-        for (std::uint64_t i = 0; i < plan_.begin_of(round); ++i)
-            order.emplace_back(distance[i], i);
-        std::sort(order.begin(), order.end());
-        std::vector<HealthyLaw> laws;
-        for (std::uint64_t i = 0; i < plan_.parents; ++i)
-            laws.push_back(of(order[i % order.size()].second, rows));
-        return laws;
-    }
-
-    const EnsemblePlan& plan_;
-    const std::vector<StatisticLabel>& labels_;
-    std::vector<double> shown_;
-    std::vector<std::vector<HealthyLaw>> parents_; ///< [round - 1]
-};
-
 } // namespace
 
 EnsemblePlan EnsemblePlan::with(std::uint64_t nulls)
@@ -198,6 +150,8 @@ EnsemblePlan EnsemblePlan::with(std::uint64_t nulls)
     plan.of_each_round = part(all.of_each_round, 12);
     plan.of_each_cause = part(all.of_each_cause, 3);
     plan.nulls = nulls;
+    for (OwnRound& round : plan.own)
+        round.of_each = part(round.of_each, 2);
     return plan;
 }
 
@@ -240,18 +194,18 @@ void refuse_foreign_cache(const std::filesystem::path& cache)
                          "another output.");
 }
 
-LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<StatisticLabel>& labels,
-                        const std::vector<SimulatedCampaign>& rows, NumbersOf numbers, double kept)
+LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
+                        double kept, const std::vector<double>& least)
 {
     std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
     for (std::uint64_t i = 0; i < plan.pairs; ++i)
-        pairs.emplace_back(numbers(labels, rows[i].numbers), numbers(labels, rows[plan.wide + i].numbers));
-    return {pairs, kept};
+        pairs.emplace_back(numbers(rows[i]), numbers(rows[plan.wide + i]));
+    return {pairs, kept, least};
 }
 
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
-                                   const EnsemblePlan& plan, const CampaignStatistics& shown,
+                                   const EnsemblePlan& plan, const SimulatedCampaign& shown,
                                    const std::filesystem::path& cache, const RunOptions& options,
                                    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                    Observer& observer)
@@ -260,9 +214,8 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     const TrackScales scales = track_scales(measured);
     const std::vector<StatisticLabel> labels = statistic_labels(measured);
     const ScorePlan scored = score_plan(measured.specimen, scales);
-    const std::uint64_t total = plan.total(causes.size());
     const std::string key = key_of(measured, study, causes, known, plan, shown);
-    const RowShape shape{shown.descriptors.size(), labels.size(), scored.size()};
+    const RowShape shape{shown.numbers.descriptors.size(), labels.size(), scored.size()};
     std::string kept;
     if (options.leads() && !cache.empty()) {
         std::ifstream in(cache, std::ios::binary);
@@ -271,26 +224,35 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     std::istringstream in(options.ranks ? options.ranks->of_first(kept) : std::move(kept));
     std::string text = key + "\n", line;
     if (std::getline(in, line) && line == key)
-        for (SimulatedCampaign campaign;
-             out.campaigns.size() < total && std::getline(in, line) && !in.eof() && // one without its end is cut
-             read_line(line, shape, campaign) && campaign.number == out.campaigns.size();
+        for (SimulatedCampaign campaign; std::getline(in, line) && !in.eof() && // one without its end is cut
+                                         read_line(line, shape, campaign) && campaign.number == out.campaigns.size();
              text += line + "\n")
             out.campaigns.push_back(campaign);
     out.cached = out.campaigns.size();
-    LikeLaws laws(plan, labels, shown);
+    const EvidenceRows evidence(labels, scored);
+    Proposals proposals(plan, causes, labels, evidence, shown);
     const VirtualLaboratory laboratory(measured);
-    progress(out.campaigns.size(), total);
-    while (out.campaigns.size() < total) {
-        const std::uint64_t first = out.campaigns.size(), round = plan.round(first);
-        const std::uint64_t end = round > plan.rounds ? total : plan.begin_of(round + 1);
+    const auto tell = [&](std::uint64_t end) {
+        progress(out.campaigns.size(), std::max(end, plan.total(causes.size())));
+    };
+    for (;;) {
+        const std::uint64_t first = out.campaigns.size(), end = proposals.end_of_round(first, out.campaigns);
+        tell(end);
+        if (first >= end)
+            break;
         const Portion portion(options.ranks, first, end);
         HealthyScatter scatter;
         std::vector<std::vector<SizedCause>> acting(portion.count, known);
+        std::vector<SimulatedCampaign> rows(portion.count);
         for (std::uint64_t i = 0; i < portion.count; ++i) {
-            scatter.laws.push_back(laws.of(portion.first + i, out.campaigns));
-            if (const auto [cause, z] = plan.label(causes, portion.first + i); cause >= 0) {
-                const CandidateCause& candidate = causes[static_cast<std::size_t>(cause)];
-                acting[i].push_back({candidate.cause, candidate.size_of(z)});
+            const Proposal proposal = proposals.of(portion.first + i, out.campaigns);
+            scatter.laws.push_back(proposal.law);
+            rows[i].number = portion.first + i;
+            rows[i].cause = proposal.cause;
+            rows[i].z = proposal.z;
+            if (proposal.cause >= 0) {
+                const CandidateCause& candidate = causes[static_cast<std::size_t>(proposal.cause)];
+                acting[i].push_back({candidate.cause, candidate.size_of(proposal.z)});
             }
         }
         const VirtualCampaigns made = virtual_campaigns(laboratory, study, plan.seed, portion.first, portion.count,
@@ -299,14 +261,10 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
         out.block_steps += made.block_steps;
         if (!all_agree(options.ranks, made.complete))
             return out;
-        std::vector<SimulatedCampaign> rows(portion.count);
         tbb::task_arena(options.threads).execute([&] {
             tbb::parallel_for(std::uint64_t{0}, portion.count, [&](std::uint64_t i) {
-                SimulatedCampaign& row = rows[i];
-                row.number = portion.first + i;
-                std::tie(row.cause, row.z) = plan.label(causes, portion.first + i);
-                row.numbers = statistics_of(made.campaigns[i], scales, made.base_m);
-                row.scores = balance_scores(fit_balance(made.campaigns[i], scales, made.base_m), scored);
+                rows[i].numbers = statistics_of(made.campaigns[i], scales, made.base_m);
+                rows[i].scores = balance_scores(fit_balance(made.campaigns[i], scales, made.base_m), scored);
             });
         });
         std::string lines;
@@ -319,11 +277,11 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
         text += lines;
         if (options.leads() && !cache.empty())
             write_whole(cache, text);
-        progress(out.campaigns.size(), total);
     }
     if (options.ranks)
         add_costs(*options.ranks, out);
-    out.distance = laws.distances(out.campaigns);
+    out.distance = proposals.law_distances(out.campaigns);
+    proposals.find_nearness(out);
     out.complete = true;
     return out;
 }

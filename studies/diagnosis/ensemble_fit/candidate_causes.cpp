@@ -14,7 +14,8 @@ namespace {
 // What is strong: z = 1.
 constexpr double less_friction_at_one = 0.5, more_friction_at_one = 1.5; // of a joint, over that of the others
 constexpr double dynamic_at_one = 0.5;                                   // dynamic over static friction
-constexpr double stribeck_speed = 0.02;                                  // over sqrt(g H): slow slip is of this order
+// Over sqrt(g H): slow slip is of the middle one's order; a joint that slides fast shows another one.
+constexpr double stribeck_speeds[] = {0.005, 0.02, 0.08};
 constexpr double worn_at_one = 0.6;    // of the friction, after the path of a whole run
 constexpr double most_wear = 3;        // z: nothing is left of the friction after half of a run's path
 constexpr double chip_at_one = 0.15;   // over the width of the face
@@ -83,9 +84,11 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
     const std::vector<double> weight = rest_weights(specimen);
     const double going_on = std::sqrt(static_cast<double>(std::max<std::size_t>(paths.before.size(), 1)));
     std::vector<CandidateCause> all;
-    Cause stribeck{"stribeck", "all", "dynamic_ratio", "", 1};
-    stribeck.fixed = stribeck_speed * speed;
-    all.push_back({stribeck, dynamic_at_one, true, 0, 1.25});
+    for (const double part : stribeck_speeds) {
+        CandidateCause stribeck{{"stribeck", "all", "dynamic_ratio", "", 1}, dynamic_at_one, true, 0, 1.25};
+        stribeck.cause.fixed = part * speed;
+        all.push_back(stribeck);
+    }
     for (int j = 0; j < static_cast<int>(specimen.joints.size()); ++j) {
         const auto k = static_cast<std::size_t>(j);
         const auto [lower, upper] = specimen.joints[k];

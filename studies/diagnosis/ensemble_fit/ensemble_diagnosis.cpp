@@ -1,7 +1,7 @@
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "studies/diagnosis/statistics/summaries.hpp"
+#include "studies/diagnosis/ensemble_fit/evidence_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -14,100 +14,6 @@
 namespace stylobate {
 
 namespace {
-
-Eigen::VectorXd vector_of(const std::vector<double>& values)
-{
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-/// A score as a statistic: forces that no law has make heavy tails. A campaign that does not show the cause has 0: that
-/// a joint slides where it would not says something, too.
-double tamed(double score)
-{
-    return std::isfinite(score) ? std::asinh(score) : 0;
-}
-// Of noise alone a score scatters by 1; where healthy campaigns hardly show it, that of a tamed one is taken as this.
-constexpr double tamed_scatter = 0.5;
-
-/// Causes whose scores are statistics beside those of whole runs: one of each mechanism, place and side. Their second
-/// parameters and wear that goes on are left to the test of the scores.
-std::vector<std::size_t> scores_among_statistics(const std::vector<Cause>& causes)
-{
-    std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::size_t>> of;
-    for (std::size_t c = 0; c < causes.size(); ++c)
-        if (!causes[c].persists && !(causes[c].mechanism == "corner_loss" && causes[c].side.empty()))
-            of[{causes[c].mechanism, causes[c].place, causes[c].side}].push_back(c);
-    std::vector<std::size_t> chosen;
-    for (const auto& [key, variants] : of)
-        chosen.push_back(variants[std::get<0>(key) == "stribeck" ? variants.size() / 2 : 0]);
-    std::sort(chosen.begin(), chosen.end());
-    return chosen;
-}
-
-/// Forces of no known kind whose scores are statistics: those that labelled campaigns are simulated with
-/// (`candidate_causes`), so that they are told from causes by what the balance of forces says.
-bool among_statistics(const Structure& s)
-{
-    if (s.friction || s.block < 0)
-        return false;
-    return s.coordinate == "x" ? s.depends_on == "velocity" || s.depends_on == "position"
-                               : s.coordinate == "theta" && s.depends_on == "angular velocity";
-}
-
-/// Campaigns as the verdict by statistics sees them.
-class EvidenceRows {
-public:
-    EvidenceRows(const std::vector<StatisticLabel>& statistics, const ScorePlan& scored)
-        : joints_(over_motions(statistics)), law_(over_joints(statistics)),
-          scores_(scores_among_statistics(scored.causes))
-    {
-        labels = joints_.labels;
-        least_scatter.assign(labels.size(), 0);
-        for (const std::size_t c : scores_) {
-            const Cause& cause = scored.causes[c];
-            labels.push_back({"score of " + cause.mechanism + (cause.side.empty() ? "" : ", " + cause.side),
-                              cause.joint, cause.block, -1, 0});
-        }
-        for (std::size_t s = 0; s < scored.structures.size(); ++s) {
-            const Structure& structure = scored.structures[s];
-            if (!among_statistics(structure))
-                continue;
-            scores_.push_back(scored.causes.size() + s);
-            labels.push_back({fmt::format("score of a force {} by {}", structure.coordinate, structure.depends_on), -1,
-                              structure.block, -1, 0});
-        }
-        least_scatter.resize(labels.size(), tamed_scatter);
-    }
-
-    std::vector<double> statistics(const CampaignStatistics& campaign, const std::vector<double>& scores) const
-    {
-        std::vector<double> row = means(joints_, campaign.values);
-        for (const std::size_t c : scores_)
-            row.push_back(tamed(scores[c]));
-        return row;
-    }
-    std::vector<double> descriptors(const CampaignStatistics& campaign) const { return medians(law_, campaign.values); }
-
-    CampaignTable table(const std::vector<const SimulatedCampaign*>& rows) const
-    {
-        CampaignTable out;
-        out.descriptors.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(law_.labels.size()));
-        out.statistics.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(labels.size()));
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto row = static_cast<Eigen::Index>(i);
-            out.descriptors.row(row) = vector_of(descriptors(rows[i]->numbers)).transpose();
-            out.statistics.row(row) = vector_of(statistics(rows[i]->numbers, rows[i]->scores)).transpose();
-        }
-        return out;
-    }
-
-    std::vector<StatisticLabel> labels;
-    std::vector<double> least_scatter; ///< (labels)
-
-private:
-    Summary joints_, law_;
-    std::vector<std::size_t> scores_;
-};
 
 /// Statistics of one kind, of all joints or blocks: what a common law shifts alike.
 std::vector<int> common_groups(const std::vector<StatisticLabel>& labels)
@@ -209,6 +115,55 @@ void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& o
     }
 }
 
+/// Size of a cause, by those of its campaigns that are nearest to the measured one.
+CauseLikelihood size_by_nearest(const EnsembleDiagnosis& diagnosis, int cause)
+{
+    constexpr std::size_t counted = 8;
+    constexpr double least_sd = 0.03, half_width90 = 1.6449; // of z; of a normal interval of 90 %
+    std::vector<std::pair<double, double>> near;             // distance, z
+    for (std::size_t i = 0; i < diagnosis.ensemble.campaigns.size(); ++i)
+        if (const SimulatedCampaign& row = diagnosis.ensemble.campaigns[i]; row.cause == cause)
+            near.emplace_back(diagnosis.ensemble.apart[i], row.z);
+    std::sort(near.begin(), near.end());
+    near.resize(std::min(near.size(), counted));
+    double weight = 0, mean = 0, square = 0;
+    for (const auto& [distance, z] : near) {
+        const double w = std::pow(near.front().first / distance, 4); // the nearest half counts most
+        weight += w;
+        mean += w * z;
+        square += w * z * z;
+    }
+    CauseLikelihood out;
+    out.size = mean / weight;
+    const double sd = std::max(std::sqrt(std::max(square / weight - out.size * out.size, 0.0)), least_sd);
+    out.low = out.size - half_width90 * sd;
+    out.high = out.size + half_width90 * sd;
+    out.gain = diagnosis.by_nearness.gain;
+    return out;
+}
+
+/// Where no healthy law gives the measured campaign, and a cause does, the likelihood is that of shifts beside laws
+/// that the cause has bent: the nearest cause takes its place.
+void judge_by_nearness(EnsembleDiagnosis& out, const std::vector<int>& mechanism)
+{
+    NearnessEvidence evidence = out.ensemble.nearness;
+    evidence.mechanism = mechanism;
+    out.by_nearness = nearest_cause(evidence);
+    const NearestCause& nearest = out.by_nearness;
+    if (!nearest.named)
+        return;
+    EnsembleVerdict& verdict = out.by_statistics;
+    verdict.best = nearest.best;
+    verdict.p_value = nearest.healthy_p;
+    verdict.named = true;
+    verdict.probability = nearest.probability;
+    verdict.set = nearest.set;
+    verdict.set_probability = std::max(nearest.probability, nearest.set.empty() ? 0.0 : 0.9);
+    verdict.second = -1;
+    verdict.contrasts = verdict.unexplained = false;
+    verdict.causes[static_cast<std::size_t>(nearest.best)] = size_by_nearest(out, nearest.best);
+}
+
 // Of the numbers of a law: a cause moves some of them.
 constexpr double law_kept = 0.75;
 
@@ -220,8 +175,8 @@ double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
     std::vector<std::vector<double>> nulls;
     for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
         nulls.push_back(law_numbers(labels, rows[i].numbers));
-    return isolation_p_value(likeness_of(plan, labels, rows, law_numbers, law_kept), nulls,
-                             law_numbers(labels, diagnosis.measured));
+    const NumbersOf of_law = [&](const SimulatedCampaign& row) { return law_numbers(labels, row.numbers); };
+    return isolation_p_value(likeness_of(plan, rows, of_law, law_kept), nulls, law_numbers(labels, diagnosis.measured));
 }
 
 } // namespace
@@ -239,6 +194,8 @@ std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) co
     for (const SimulatedCampaign& row : ensemble.campaigns) {
         if (row.cause < 0)
             continue;
+        if (i == by_statistics.labelled_right.size())
+            break; // what follows are the rounds of the causes' own
         if (mechanism_of(causes[static_cast<std::size_t>(row.cause)].cause) == mechanism &&
             std::fabs(row.z) >= least_z) {
             all += 1;
@@ -273,7 +230,7 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     EnsembleEvidence evidence;
     for (std::size_t i = 0; i < out.ensemble.campaigns.size(); ++i) {
         const SimulatedCampaign& row = out.ensemble.campaigns[i];
-        if (row.number < plan.scouts())
+        if (row.number < plan.scouts() || row.number >= plan.total(out.causes.size()))
             continue;
         // a part is the neighbourhood of one law: what is left out is a law that the fit has not seen
         const auto fold = static_cast<int>(plan.parent(row.number));
@@ -302,6 +259,7 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.law_p_value = evidence.law_p_value = law_p_value(out, plan);
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
+    judge_by_nearness(out, evidence.mechanism);
 
     ForceEvidence forces;
     forces.nulls = force_scores(nulls, out.scored.structures.size());
@@ -320,7 +278,8 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
 {
     EnsembleDiagnosis out = what_is_measured(campaign, study, scales, base_m);
     out.ensemble =
-        simulate_ensemble(campaign, study, out.causes, known, plan, out.measured, cache, options, progress, observer);
+        simulate_ensemble(campaign, study, out.causes, known, plan, {.numbers = out.measured, .scores = out.scores},
+                          cache, options, progress, observer);
     if (out.ensemble.complete)
         judge(plan, out);
     return out;

@@ -34,7 +34,8 @@ struct EnsembleDiagnosis {
     CampaignEnsemble ensemble;
     double law_p_value = 1; ///< of the measured law in the family
     // default where the observer stopped it
-    EnsembleVerdict by_statistics;
+    EnsembleVerdict by_statistics; ///< with the cause that is named by nearness, where one is
+    NearestCause by_nearness;
     ForceTest forces;
 
     /// Share of labelled campaigns of a mechanism, with z of at least this, that are named rightly: what these data can

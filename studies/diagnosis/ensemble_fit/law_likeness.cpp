@@ -6,19 +6,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace stylobate {
 
 namespace {
 
-constexpr double far = 10;       // beyond it one number tells no more
-constexpr std::size_t least = 6; // pairs that have a number
+constexpr double far = 10;             // beyond it one number tells no more
+constexpr std::size_t least_pairs = 6; // that have a number
 
 std::vector<double> with_descriptors(const CampaignStatistics& campaign, const std::vector<double>& others)
 {
     std::vector<double> numbers = campaign.descriptors;
     numbers.insert(numbers.end(), others.begin(), others.end());
     return numbers;
+}
+
+double nearest_mean(std::vector<double> distances, std::size_t count)
+{
+    std::sort(distances.begin(), distances.end());
+    distances.resize(std::min(distances.size(), count));
+    return std::accumulate(distances.begin(), distances.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(distances.size(), 1));
 }
 
 } // namespace
@@ -33,7 +42,8 @@ std::vector<double> joint_numbers(const std::vector<StatisticLabel>& labels, con
     return with_descriptors(campaign, means(over_motions(labels), campaign.values));
 }
 
-LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept)
+LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept,
+                         const std::vector<double>& least)
     : kept_(kept)
 {
     const std::size_t count = pairs.empty() ? 0 : pairs.front().first.size();
@@ -43,7 +53,9 @@ LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::v
             if (const double d = std::fabs(one[k] - other[k]); std::isfinite(d))
                 apart.push_back(d);
         // of a difference of two
-        scatter_.push_back(apart.size() < least ? 0 : 1.4826 * upper_median(std::move(apart)) / std::sqrt(2.0));
+        scatter_.push_back(apart.size() < least_pairs ? 0 : 1.4826 * upper_median(std::move(apart)) / std::sqrt(2.0));
+        if (!least.empty())
+            scatter_.back() = std::max(scatter_.back(), least[k]);
     }
 }
 
@@ -66,26 +78,34 @@ double LawLikeness::distance(const std::vector<double>& of, const std::vector<do
     return std::sqrt(sum / static_cast<double>(squares.size()));
 }
 
+double isolation(const LawLikeness& likeness, const std::vector<double>& of,
+                 const std::vector<std::vector<double>>& others, std::size_t neighbours)
+{
+    std::vector<double> distance;
+    for (const std::vector<double>& other : others)
+        distance.push_back(likeness.distance(of, other));
+    return nearest_mean(std::move(distance), neighbours);
+}
+
+std::vector<double> isolations(const LawLikeness& likeness, const std::vector<std::vector<double>>& campaigns,
+                               std::size_t neighbours)
+{
+    std::vector<double> out;
+    for (std::size_t own = 0; own < campaigns.size(); ++own) {
+        std::vector<double> distance;
+        for (std::size_t i = 0; i < campaigns.size(); ++i)
+            if (i != own)
+                distance.push_back(likeness.distance(campaigns[own], campaigns[i]));
+        out.push_back(nearest_mean(std::move(distance), neighbours));
+    }
+    return out;
+}
+
 double isolation_p_value(const LawLikeness& likeness, const std::vector<std::vector<double>>& nulls,
                          const std::vector<double>& law)
 {
     constexpr std::size_t neighbours = 12;
-    const auto isolation = [&](const std::vector<double>& of, std::size_t own) {
-        std::vector<double> distance;
-        for (std::size_t i = 0; i < nulls.size(); ++i)
-            if (i != own)
-                distance.push_back(likeness.distance(of, nulls[i]));
-        std::sort(distance.begin(), distance.end());
-        distance.resize(std::min(distance.size(), neighbours));
-        double sum = 0;
-        for (const double d : distance)
-            sum += d;
-        return sum;
-    };
-    std::vector<double> of_nulls;
-    for (std::size_t i = 0; i < nulls.size(); ++i)
-        of_nulls.push_back(isolation(nulls[i], i));
-    return conformal_p_value(of_nulls, isolation(law, nulls.size()));
+    return conformal_p_value(isolations(likeness, nulls, neighbours), isolation(likeness, law, nulls, neighbours));
 }
 
 } // namespace stylobate

@@ -21,7 +21,9 @@ class LawLikeness {
 public:
     /// @param pairs numbers of campaigns of one law each, whose specimens differ
     /// @param kept  part of the numbers that count, the nearest ones
-    LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept);
+    /// @param least (numbers) scatter that each has at least; empty: 0
+    LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept,
+                const std::vector<double>& least = {});
 
     /// Root mean square over the numbers that `of` has, the largest ones left out: a cause moves some of them. What the
     /// other one does not have counts as far.
@@ -31,6 +33,13 @@ private:
     double kept_;
     std::vector<double> scatter_; ///< 0: not known, or none
 };
+
+/// Mean distance of a campaign from its nearest neighbours among others.
+double isolation(const LawLikeness& likeness, const std::vector<double>& of,
+                 const std::vector<std::vector<double>>& others, std::size_t neighbours);
+/// (campaigns) of each among all others.
+std::vector<double> isolations(const LawLikeness& likeness, const std::vector<std::vector<double>>& campaigns,
+                               std::size_t neighbours);
 
 /// Rank of a law among healthy ones by how far it is from its nearest neighbours: a law that the family does not have
 /// is by itself. Conformal: uniform, or larger, where it is one of them.

@@ -1,0 +1,58 @@
+#include "studies/diagnosis/likelihood/nearest_cause.hpp"
+
+#include "studies/diagnosis/likelihood/conformal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace stylobate {
+
+NearestCause nearest_cause(const NearnessEvidence& evidence, const NearnessRule& rule)
+{
+    NearestCause out;
+    std::map<int, double> nearest; // of each mechanism
+    for (std::size_t c = 0; c < evidence.distance.size(); ++c) {
+        const double d = evidence.distance[c];
+        if (!std::isfinite(d))
+            continue;
+        if (out.best < 0 || d < evidence.distance[static_cast<std::size_t>(out.best)])
+            out.best = static_cast<int>(c);
+        const auto [at, fresh] = nearest.try_emplace(evidence.mechanism[c], d);
+        at->second = std::min(at->second, d);
+    }
+    out.healthy_p = conformal_p_value(evidence.nulls, evidence.healthy);
+    if (out.best < 0)
+        return out;
+    const auto best = static_cast<std::size_t>(out.best);
+    const double least = evidence.distance[best];
+    const auto apart = [&](double distance) { return evidence.numbers * std::log(distance / least); };
+    out.gain = apart(evidence.healthy);
+    out.named = out.healthy_p <= rule.far && least <= rule.nearer * evidence.healthy;
+
+    double sum = std::exp(-out.gain);
+    std::vector<std::pair<double, int>> others;
+    for (const auto& [mechanism, distance] : nearest) {
+        sum += std::exp(-apart(distance));
+        if (mechanism != evidence.mechanism[best] && distance <= rule.rivals * least)
+            others.emplace_back(distance, mechanism);
+    }
+    out.probability = 1 / sum;
+    std::sort(others.begin(), others.end());
+    for (const auto& [distance, mechanism] : others)
+        out.set.push_back(mechanism);
+    return out;
+}
+
+double independent_numbers(const std::vector<double>& squares)
+{
+    const auto n = static_cast<double>(squares.size());
+    double mean = 0, variance = 0;
+    for (const double s : squares)
+        mean += s / n;
+    for (const double s : squares)
+        variance += std::pow(s - mean, 2) / (n - 1);
+    return variance > 0 ? 2 * mean * mean / variance : 1;
+}
+
+} // namespace stylobate

@@ -1,0 +1,42 @@
+#pragma once
+/// Which cause gives campaigns like the measured one where no healthy law does.
+///
+/// Distances are root mean squares of numbers in units of their scatter (`LawLikeness`). With n numbers that are
+/// independent and an unknown common scale of what a model lacks, the log likelihood of a hypothesis whose nearest
+/// campaigns are at a distance d is -n ln d: so two hypotheses are n ln(d1 / d2) apart.
+
+#include <vector>
+
+namespace stylobate {
+
+/// The fixed numbers of the rule.
+struct NearnessRule {
+    double far = 0.02;    ///< p-value of the distance of healthy campaigns below which none of them is like it
+    double nearer = 0.8;  ///< the cause's distance over that of healthy campaigns, at the most
+    double rivals = 1.15; ///< distance of a rival over that of the cause, at the most
+};
+
+struct NearnessEvidence {
+    std::vector<double> distance; ///< (candidates) of the nearest campaigns of each; infinite where there are none
+    double healthy = 0;           ///< the same of healthy campaigns
+    std::vector<double> nulls;    ///< the same of healthy campaigns that are like the measured one, from the others
+    double numbers = 0;           ///< that are independent
+    std::vector<int> mechanism;   ///< (candidates)
+};
+
+struct NearestCause {
+    int best = -1;          ///< the candidate; -1: there is none
+    double healthy_p = 1;   ///< of the distance of healthy campaigns among those of nulls
+    double gain = 0;        ///< of the best candidate over healthy campaigns [nats]
+    bool named = false;     ///< no healthy law gives the measured campaign, and the candidate is much nearer
+    double probability = 0; ///< of its mechanism among those of all candidates, each as likely before
+    std::vector<int> set;   ///< other mechanisms about as near, the nearest first
+};
+
+NearestCause nearest_cause(const NearnessEvidence& evidence, const NearnessRule& rule = {});
+
+/// How many numbers are independent, from the squared distances of pairs of campaigns that differ by chance alone: as
+/// many as squares of normal numbers whose mean scatters as these do.
+double independent_numbers(const std::vector<double>& squares);
+
+} // namespace stylobate

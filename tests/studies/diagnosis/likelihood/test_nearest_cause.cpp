@@ -1,0 +1,83 @@
+/// The nearest cause: by hand, and how many numbers are independent, from draws.
+
+#include "studies/diagnosis/likelihood/nearest_cause.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+/// 199 nulls at distances from 0.5 to 1.5.
+NearnessEvidence evidence(double healthy, const std::vector<double>& distance, const std::vector<int>& mechanism)
+{
+    NearnessEvidence e;
+    e.healthy = healthy;
+    e.distance = distance;
+    e.mechanism = mechanism;
+    e.numbers = 10;
+    for (int i = 0; i < 199; ++i)
+        e.nulls.push_back(0.5 + i / 198.0);
+    return e;
+}
+
+TEST(NearestCause, IsNamedWhereNoHealthyLawIsLikeTheMeasuredOne)
+{
+    const NearestCause found = nearest_cause(evidence(3, {2, 1.2, 1.3, 2.5}, {0, 1, 1, 2}));
+    EXPECT_EQ(found.best, 1);
+    EXPECT_TRUE(found.named);
+    EXPECT_DOUBLE_EQ(found.healthy_p, 1 / 200.0);
+    EXPECT_NEAR(found.gain, 10 * std::log(3 / 1.2), 1e-12);
+    EXPECT_TRUE(found.set.empty()) << "another candidate of its mechanism is no rival";
+    // of healthy campaigns and of the two other mechanisms
+    EXPECT_NEAR(found.probability, 1 / (1 + std::pow(1.2 / 3, 10) + std::pow(1.2 / 2, 10) + std::pow(1.2 / 2.5, 10)),
+                1e-12);
+}
+
+TEST(NearestCause, IsNotNamedWhereAHealthyLawIs)
+{
+    EXPECT_FALSE(nearest_cause(evidence(1.4, {0.5}, {0})).named) << "as far as healthy campaigns are from each other";
+    EXPECT_FALSE(nearest_cause(evidence(3, {2.9, 2.5}, {0, 1})).named) << "hardly nearer than healthy ones";
+    EXPECT_TRUE(nearest_cause(evidence(3, {2.9, 2.3}, {0, 1})).named);
+}
+
+TEST(NearestCause, RivalsAreInTheSet)
+{
+    const NearestCause found = nearest_cause(evidence(3, {1.1, 1.0, 1.14, 1.2}, {7, 8, 5, 6}));
+    EXPECT_EQ(found.best, 1);
+    EXPECT_EQ(found.set, (std::vector<int>{7, 5}));
+    EXPECT_LT(found.probability, 0.7);
+}
+
+TEST(NearestCause, WithoutCampaignsThereIsNone)
+{
+    const double none = std::numeric_limits<double>::infinity();
+    const NearestCause found = nearest_cause(evidence(3, {none, none}, {0, 1}));
+    EXPECT_EQ(found.best, -1);
+    EXPECT_FALSE(found.named);
+    EXPECT_EQ(nearest_cause(evidence(3, {none, 1}, {0, 1})).best, 1);
+}
+
+/// Squares of 12 normal numbers each, by a generator of the standard library.
+TEST(IndependentNumbers, AreThoseOfWhichTheSquaresAreMade)
+{
+    std::mt19937_64 generator(5);
+    std::normal_distribution<double> normal(0, 1.7);
+    std::vector<double> squares;
+    for (int i = 0; i < 4000; ++i) {
+        double mean = 0;
+        for (int k = 0; k < 12; ++k)
+            mean += std::pow(normal(generator), 2) / 12;
+        squares.push_back(mean);
+    }
+    EXPECT_NEAR(independent_numbers(squares), 12,
+                1); // 5 standard errors: 12 sqrt((2 + 15 / 12) / 4000) = 0.3, twice that
+    EXPECT_EQ(independent_numbers({2, 2, 2}), 1) << "no scatter says nothing";
+}
+
+} // namespace
+} // namespace stylobate
