@@ -2,6 +2,7 @@
 
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/diagnosis/ensemble_fit/evidence_rows.hpp"
+#include "studies/diagnosis/ensemble_fit/proposals.hpp"
 
 #include <fmt/format.h>
 
@@ -95,24 +96,62 @@ CarryingNumber carrying_number(const EnsembleDiagnosis& diagnosis, const Labelle
     return out;
 }
 
-void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& out)
+/// By the likelihood: where the shift of the best cause and what is measured agree most.
+Eigen::Index carrying_column(const EnsembleVerdict& verdict)
 {
-    if (const EnsembleVerdict& verdict = out.by_statistics; verdict.best >= 0) {
-        Eigen::Index most = 0;
-        verdict.shift.cwiseProduct(verdict.residual).maxCoeff(&most);
-        const Eigen::Index column = verdict.used[static_cast<std::size_t>(most)];
-        const Cause& best = out.causes[static_cast<std::size_t>(verdict.best)].cause;
-        out.carrying =
-            carrying_number(out, evidence.labelled, evidence.statistics(column), evidence.nulls.statistics.col(column),
-                            evidence.labelled.table.statistics.col(column), [&](const Cause& c) {
-                                return c.mechanism == best.mechanism && c.place == best.place && c.side == best.side &&
-                                       c.persists == best.persists;
-                            });
-        const StatisticLabel& label = out.evidence[static_cast<std::size_t>(column)];
-        out.carrying.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
-                                          : label.joint >= 0 ? fmt::format(" of joint {}", label.joint)
-                                                             : "");
+    Eigen::Index most = 0;
+    verdict.shift.cwiseProduct(verdict.residual).maxCoeff(&most);
+    return verdict.used[static_cast<std::size_t>(most)];
+}
+
+/// By nearness: of which the nearest campaigns with the cause are nearer to the measured one than the nearest healthy
+/// ones, in units of the scatter of these.
+Eigen::Index carrying_column(const EnsembleDiagnosis& diagnosis, const EvidenceRows& rows,
+                             const EnsembleEvidence& evidence)
+{
+    constexpr std::size_t counted = 12;
+    const std::vector<SimulatedCampaign>& campaigns = diagnosis.ensemble.campaigns;
+    const auto near = nearness(campaigns, diagnosis.ensemble.apart, diagnosis.causes.size(), counted);
+    const auto table_of = [&](int cause) {
+        const auto at = std::find_if(near.begin(), near.end(), [&](const Nearness& n) { return n.cause == cause; });
+        std::vector<const SimulatedCampaign*> chosen;
+        for (const std::size_t i : at->rows)
+            chosen.push_back(&campaigns[i]);
+        return rows.table(chosen).statistics;
+    };
+    const Eigen::MatrixXd healthy = table_of(-1), with_cause = table_of(diagnosis.by_nearness.best);
+    Eigen::Index best = 0;
+    double most = -HUGE_VAL;
+    for (Eigen::Index k = 0; k < healthy.cols(); ++k) {
+        const double scatter = std::sqrt((healthy.col(k).array() - healthy.col(k).mean()).square().mean()) +
+                               rows.least_scatter[static_cast<std::size_t>(k)];
+        const double before = (healthy.col(k).mean() - evidence.statistics(k)) / scatter,
+                     after = (with_cause.col(k).mean() - evidence.statistics(k)) / scatter;
+        if (const double nearer = before * before - after * after; nearer > most) { // false of what is missing
+            most = nearer;
+            best = k;
+        }
     }
+    return best;
+}
+
+void find_carrying_number(const EvidenceRows& rows, const EnsembleEvidence& evidence, EnsembleDiagnosis& out)
+{
+    const EnsembleVerdict& verdict = out.by_statistics;
+    if (verdict.best < 0)
+        return;
+    const Eigen::Index column = out.by_nearness.named ? carrying_column(out, rows, evidence) : carrying_column(verdict);
+    const Cause& best = out.causes[static_cast<std::size_t>(verdict.best)].cause;
+    out.carrying =
+        carrying_number(out, evidence.labelled, evidence.statistics(column), evidence.nulls.statistics.col(column),
+                        evidence.labelled.table.statistics.col(column), [&](const Cause& c) {
+                            return c.mechanism == best.mechanism && c.place == best.place && c.side == best.side &&
+                                   c.persists == best.persists;
+                        });
+    const StatisticLabel& label = out.evidence[static_cast<std::size_t>(column)];
+    out.carrying.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
+                                      : label.joint >= 0 ? fmt::format(" of joint {}", label.joint)
+                                                         : "");
 }
 
 /// Size of a cause, by those of its campaigns that are nearest to the measured one.
@@ -148,7 +187,7 @@ void judge_by_nearness(EnsembleDiagnosis& out, const std::vector<int>& mechanism
 {
     NearnessEvidence evidence = out.ensemble.nearness;
     evidence.mechanism = mechanism;
-    out.by_nearness = nearest_cause(evidence);
+    out.by_nearness = nearest_cause(evidence, static_cast<std::size_t>(EnsembleRule{}.rivals));
     const NearestCause& nearest = out.by_nearness;
     if (!nearest.named)
         return;
@@ -158,7 +197,7 @@ void judge_by_nearness(EnsembleDiagnosis& out, const std::vector<int>& mechanism
     verdict.named = true;
     verdict.probability = nearest.probability;
     verdict.set = nearest.set;
-    verdict.set_probability = std::max(nearest.probability, nearest.set.empty() ? 0.0 : 0.9);
+    verdict.set_probability = nearest.set_probability;
     verdict.second = -1;
     verdict.contrasts = verdict.unexplained = false;
     verdict.causes[static_cast<std::size_t>(nearest.best)] = size_by_nearest(out, nearest.best);
@@ -266,7 +305,7 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     forces.likeness = evidence.likeness;
     forces.campaign = vector_of(out.scores).tail(forces.nulls.cols());
     out.forces = force_test(forces);
-    find_carrying_number(evidence, out);
+    find_carrying_number(rows, evidence, out);
 }
 
 EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,

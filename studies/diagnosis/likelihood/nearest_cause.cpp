@@ -1,5 +1,6 @@
 #include "studies/diagnosis/likelihood/nearest_cause.hpp"
 
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/diagnosis/likelihood/conformal.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 namespace stylobate {
 
-NearestCause nearest_cause(const NearnessEvidence& evidence, const NearnessRule& rule)
+NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals, const NearnessRule& rule)
 {
     NearestCause out;
     std::map<int, double> nearest; // of each mechanism
@@ -37,22 +38,27 @@ NearestCause nearest_cause(const NearnessEvidence& evidence, const NearnessRule&
         if (mechanism != evidence.mechanism[best] && distance <= rule.rivals * least)
             others.emplace_back(distance, mechanism);
     }
-    out.probability = 1 / sum;
+    out.probability = out.set_probability = 1 / sum;
     std::sort(others.begin(), others.end());
-    for (const auto& [distance, mechanism] : others)
+    for (const auto& [distance, mechanism] : others) {
+        if (out.set.size() < rivals)
+            out.set_probability += std::exp(-apart(distance)) / sum;
         out.set.push_back(mechanism);
+    }
     return out;
 }
 
 double independent_numbers(const std::vector<double>& squares)
 {
-    const auto n = static_cast<double>(squares.size());
-    double mean = 0, variance = 0;
+    constexpr double least = 4, most = 40; // a few pairs show it badly
+    std::vector<double> logarithms;
     for (const double s : squares)
-        mean += s / n;
-    for (const double s : squares)
-        variance += std::pow(s - mean, 2) / (n - 1);
-    return variance > 0 ? 2 * mean * mean / variance : 1;
+        logarithms.push_back(std::log(s));
+    const double middle = upper_median(logarithms);
+    for (double& l : logarithms)
+        l = std::fabs(l - middle);
+    const double sd = 1.4826 * upper_median(std::move(logarithms));
+    return std::clamp(2 / (sd * sd), least, most);
 }
 
 } // namespace stylobate

@@ -5,6 +5,7 @@
 /// independent and an unknown common scale of what a model lacks, the log likelihood of a hypothesis whose nearest
 /// campaigns are at a distance d is -n ln d: so two hypotheses are n ln(d1 / d2) apart.
 
+#include <cstddef>
 #include <vector>
 
 namespace stylobate {
@@ -25,18 +26,20 @@ struct NearnessEvidence {
 };
 
 struct NearestCause {
-    int best = -1;          ///< the candidate; -1: there is none
-    double healthy_p = 1;   ///< of the distance of healthy campaigns among those of nulls
-    double gain = 0;        ///< of the best candidate over healthy campaigns [nats]
-    bool named = false;     ///< no healthy law gives the measured campaign, and the candidate is much nearer
-    double probability = 0; ///< of its mechanism among those of all candidates, each as likely before
-    std::vector<int> set;   ///< other mechanisms about as near, the nearest first
+    int best = -1;              ///< the candidate; -1: there is none
+    double healthy_p = 1;       ///< of the distance of healthy campaigns among those of nulls
+    double gain = 0;            ///< of the best candidate over healthy campaigns [nats]
+    bool named = false;         ///< no healthy law gives the measured campaign, and the candidate is much nearer
+    double probability = 0;     ///< of its mechanism among those of all candidates, each as likely before
+    std::vector<int> set;       ///< other mechanisms about as near, the nearest first
+    double set_probability = 0; ///< that it is the best candidate's mechanism or one of the first `rivals` of the set
 };
 
-NearestCause nearest_cause(const NearnessEvidence& evidence, const NearnessRule& rule = {});
+/// @param rivals as `EnsembleRule::rivals`
+NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals, const NearnessRule& rule = {});
 
-/// How many numbers are independent, from the squared distances of pairs of campaigns that differ by chance alone: as
-/// many as squares of normal numbers whose mean scatters as these do.
+/// How many numbers are independent, from the squared distances of pairs of campaigns that differ by chance alone: the
+/// logarithm of a mean of n squares of normal numbers has the variance 2 / n, about. From 4 to 40.
 double independent_numbers(const std::vector<double>& squares);
 
 } // namespace stylobate
