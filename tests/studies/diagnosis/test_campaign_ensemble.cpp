@@ -7,6 +7,7 @@
 #include "io/files/temporary_folder.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
+#include "studies/diagnosis/ensemble_fit/proposals.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <fmt/format.h>
@@ -274,6 +275,25 @@ TEST(HealthyLawNearAnother, StaysInTheFamilyAndNearby)
     }
     ASSERT_GT(n, 30);
     EXPECT_NEAR(std::sqrt(square / n), 1.0 / 3, 5 * (1.0 / 3) / std::sqrt(2.0 * n));
+}
+
+TEST(Nearness, TheNearestCampaignsOfEachAreCounted)
+{
+    std::vector<SimulatedCampaign> rows(7);
+    for (const auto& [row, cause] : {std::pair{1, 0}, {3, 0}, {5, 0}, {6, 0}, {4, 2}})
+        rows[static_cast<std::size_t>(row)].cause = cause;
+    const std::vector<double> distance = {5, 1, 7, 4, 2, 2, 9};
+    const std::vector<Nearness> near = nearness(rows, distance, 3, 2);
+    ASSERT_EQ(near.size(), 4U) << "healthy ones and three causes";
+    EXPECT_EQ(near[0].cause, 0);
+    EXPECT_DOUBLE_EQ(near[0].distance, 1.5);
+    EXPECT_EQ(near[0].rows, (std::vector<std::size_t>{1, 5}));
+    EXPECT_EQ(near[1].cause, 2);
+    EXPECT_DOUBLE_EQ(near[1].distance, 2) << "of one campaign";
+    EXPECT_EQ(near[2].cause, -1);
+    EXPECT_DOUBLE_EQ(near[2].distance, 6);
+    EXPECT_EQ(near[3].cause, 1);
+    EXPECT_TRUE(std::isinf(near[3].distance)) << "no campaign has it";
 }
 
 SimulatedCampaign as_shown(const Campaign& measured, const std::vector<std::vector<double>>& base_m)
