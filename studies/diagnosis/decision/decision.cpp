@@ -162,7 +162,9 @@ bool may_be_named(const EnsembleVerdict& verdict, JudgedCause& best)
 {
     const bool probable = verdict.named && verdict.set_probability >= least_probability;
     best.probability = verdict.named ? verdict.probability : 0;
-    if (!verdict.named)
+    if (verdict.no_nearer)
+        best.why_not = "campaigns with it are no nearer to the measured one than healthy ones";
+    else if (!verdict.named)
         best.why_not = fmt::format("the p-value of the gain is {:.2g}", verdict.p_value);
     else if (!probable)
         best.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);

@@ -182,16 +182,22 @@ CauseLikelihood size_by_nearest(const EnsembleDiagnosis& diagnosis, int cause)
 }
 
 /// Where no healthy law gives the measured campaign, and a cause does, the likelihood is that of shifts beside laws
-/// that the cause has bent: the nearest cause takes its place.
-void judge_by_nearness(EnsembleDiagnosis& out, const std::vector<int>& mechanism)
+/// that the cause has bent: the nearest cause takes its place. And what has had rounds of its own, but comes no nearer
+/// than healthy campaigns, is not named.
+void judge_by_nearness(const EnsemblePlan& plan, EnsembleDiagnosis& out, const std::vector<int>& mechanism)
 {
     NearnessEvidence evidence = out.ensemble.nearness;
     evidence.mechanism = mechanism;
     out.by_nearness = nearest_cause(evidence, static_cast<std::size_t>(EnsembleRule{}.rivals));
     const NearestCause& nearest = out.by_nearness;
-    if (!nearest.named)
-        return;
     EnsembleVerdict& verdict = out.by_statistics;
+    if (!nearest.named) {
+        const bool rounds = out.ensemble.campaigns.size() > plan.total(out.causes.size());
+        verdict.no_nearer = verdict.named && rounds &&
+                            !nearer_than_healthy(evidence, mechanism[static_cast<std::size_t>(verdict.best)]);
+        verdict.named = verdict.named && !verdict.no_nearer;
+        return;
+    }
     verdict.best = nearest.best;
     verdict.p_value = nearest.healthy_p;
     verdict.named = true;
@@ -298,7 +304,7 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.law_p_value = evidence.law_p_value = law_p_value(out, plan);
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
-    judge_by_nearness(out, evidence.mechanism);
+    judge_by_nearness(plan, out, evidence.mechanism);
 
     ForceEvidence forces;
     forces.nulls = force_scores(nulls, out.scored.structures.size());

@@ -48,6 +48,14 @@ NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals,
     return out;
 }
 
+bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism)
+{
+    for (std::size_t c = 0; c < evidence.distance.size(); ++c)
+        if (evidence.mechanism[c] == mechanism && evidence.distance[c] < evidence.healthy)
+            return true;
+    return false;
+}
+
 double independent_numbers(const std::vector<double>& squares)
 {
     constexpr double least = 4, most = 40; // a few pairs show it badly

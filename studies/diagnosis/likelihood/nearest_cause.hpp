@@ -38,6 +38,9 @@ struct NearestCause {
 /// @param rivals as `EnsembleRule::rivals`
 NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals, const NearnessRule& rule = {});
 
+/// Whether campaigns of a mechanism have come nearer to the measured one than healthy ones.
+bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism);
+
 /// How many numbers are independent, from the squared distances of pairs of campaigns that differ by chance alone: the
 /// logarithm of a mean of n squares of normal numbers has the variance 2 / n, about. From 4 to 40.
 double independent_numbers(const std::vector<double>& squares);

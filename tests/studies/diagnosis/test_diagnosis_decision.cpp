@@ -87,6 +87,17 @@ TEST(Decision, NothingBeyondHealthyCampaignsIsNone)
     EXPECT_EQ(decided.judged.front().probability, 0);
 }
 
+TEST(Decision, WhatComesNoNearerThanHealthyCampaignsIsNotNamed)
+{
+    EnsembleDiagnosis e = ensemble_of(20, 1, 1);
+    ASSERT_EQ(decide({}, {}, &e, {}).verdict, Verdict::named);
+    e.by_statistics.named = false;
+    e.by_statistics.no_nearer = true;
+    const Decided decided = decide({}, {}, &e, {});
+    EXPECT_EQ(decided.verdict, Verdict::none);
+    EXPECT_EQ(decided.judged.front().why_not, "campaigns with it are no nearer to the measured one than healthy ones");
+}
+
 TEST(Decision, AClearCauseIsNamedWithItsSize)
 {
     const EnsembleDiagnosis e = ensemble_of(30, 1, 1);

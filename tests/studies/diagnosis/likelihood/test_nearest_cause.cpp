@@ -65,6 +65,14 @@ TEST(NearestCause, WithoutCampaignsThereIsNone)
     EXPECT_EQ(nearest_cause(evidence(3, {none, 1}, {0, 1}), 2).best, 1);
 }
 
+TEST(NearestCause, IsNearerThanHealthyCampaignsByOneOfItsCandidates)
+{
+    const NearnessEvidence e = evidence(2, {2.5, 1.9, 2, 3}, {0, 0, 1, 2});
+    EXPECT_TRUE(nearer_than_healthy(e, 0));
+    EXPECT_FALSE(nearer_than_healthy(e, 1));
+    EXPECT_FALSE(nearer_than_healthy(e, 2));
+}
+
 /// Squares of 12 normal numbers each, by a generator of the standard library.
 TEST(IndependentNumbers, AreThoseOfWhichTheSquaresAreMade)
 {
