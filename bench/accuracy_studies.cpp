@@ -13,6 +13,7 @@
 
 #include "bench/mean.hpp"
 #include "bench/processor.hpp"
+#include "bench/scenes.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"

@@ -181,6 +181,10 @@ CauseLikelihood size_by_nearest(const EnsembleDiagnosis& diagnosis, int cause)
     return out;
 }
 
+// A likelihood that needs no campaigns nearby [nats]: where no law of the family is like the measured one, those of the
+// right cause are hardly nearer.
+constexpr double beyond_doubt = 30;
+
 /// Where no healthy law gives the measured campaign, and a cause does, the likelihood is that of shifts beside laws
 /// that the cause has bent: the nearest cause takes its place. And what has had rounds of its own, but comes no nearer
 /// than healthy campaigns, is not named.
@@ -193,8 +197,9 @@ void judge_by_nearness(const EnsemblePlan& plan, EnsembleDiagnosis& out, const s
     EnsembleVerdict& verdict = out.by_statistics;
     if (!nearest.named) {
         const bool rounds = out.ensemble.campaigns.size() > plan.total(out.causes.size());
-        verdict.no_nearer = verdict.named && rounds &&
-                            !nearer_than_healthy(evidence, mechanism[static_cast<std::size_t>(verdict.best)]);
+        const auto best = static_cast<std::size_t>(std::max(verdict.best, 0));
+        verdict.no_nearer = verdict.named && rounds && verdict.causes[best].gain < beyond_doubt &&
+                            !nearer_than_healthy(evidence, mechanism[best]);
         verdict.named = verdict.named && !verdict.no_nearer;
         return;
     }
