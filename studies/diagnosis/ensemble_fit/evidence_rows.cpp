@@ -48,8 +48,7 @@ bool among_statistics(const Structure& s)
 } // namespace
 
 EvidenceRows::EvidenceRows(const std::vector<StatisticLabel>& statistics, const ScorePlan& scored)
-    : statistics_(statistics), joints_(over_motions(statistics)), law_(over_joints(statistics)),
-      scores_(scores_among_statistics(scored.causes))
+    : joints_(over_motions(statistics)), law_(over_joints(statistics)), scores_(scores_among_statistics(scored.causes))
 {
     labels = joints_.labels;
     least_scatter.assign(labels.size(), 0);

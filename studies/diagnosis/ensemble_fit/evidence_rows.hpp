@@ -19,7 +19,6 @@ inline Eigen::VectorXd vector_of(const std::vector<double>& values)
 
 class EvidenceRows {
 public:
-    /// @param statistics is to stay as long as this
     EvidenceRows(const std::vector<StatisticLabel>& statistics, const ScorePlan& scored);
 
     /// (labels) of the joints, over the motions, and scores
@@ -36,7 +35,6 @@ public:
     std::vector<double> least_scatter; ///< (labels)
 
 private:
-    const std::vector<StatisticLabel>& statistics_;
     Summary joints_, law_;
     std::vector<std::size_t> scores_;
 };
