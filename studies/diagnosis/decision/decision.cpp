@@ -184,6 +184,11 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     JudgedCause best = judged(ensemble, static_cast<std::size_t>(verdict.best),
                               verdict.causes[static_cast<std::size_t>(verdict.best)]);
     const bool named = may_be_named(verdict, best);
+    if (const NearestCause& nearest = ensemble.by_nearness; nearest.named && nearest.best == verdict.best) {
+        const NearnessEvidence& near = ensemble.ensemble.nearness;
+        best.nearer = near.distance[static_cast<std::size_t>(nearest.best)] / near.healthy;
+        best.chance = nearest.healthy_p;
+    }
     std::vector<std::size_t> order(ensemble.causes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

@@ -45,6 +45,9 @@ struct JudgedCause {
     double chance = 1; ///< probability of such a gain where nothing is hidden
     double probability = 0;
     bool considered = false; ///< named, or in a set with what is named
+    /// Named by nearness: how far its campaigns are from the measured one, over healthy ones; `chance` is then that of
+    /// these being so far. 0: not by it.
+    double nearer = 0;
     std::string why_not;
 };
 

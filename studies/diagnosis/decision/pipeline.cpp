@@ -445,7 +445,8 @@ void Pipeline::tell_method_and_cost()
             "of speed, friction of each joint, scores of the balance of forces) have a likelihood under each cause. "
             "The largest gain over all causes is compared with the same of the healthy campaigns. A cause is named if "
             "its p-value is at most 0.015, and if such names are right in more than half of the campaigns with a known "
-            "cause.");
+            "cause. Where no healthy campaign is like the measured one, each cause is simulated beside laws of its "
+            "own; the cause is named then whose campaigns come much nearer to the measured one than healthy ones.");
     d_.cost.simulations = count_.simulations;
     d_.cost.window_simulations = count_.window_simulations;
     d_.cost.block_steps = count_.block_steps;

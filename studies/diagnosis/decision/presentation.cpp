@@ -82,6 +82,10 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
     c.decision = decision;
     const std::string found = j.channel == Channel::direct ? "found by a direct test"
+                              : j.nearer > 0
+                                  ? fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one "
+                                                "as healthy ones, none of which is like it (p = {:.2g})",
+                                                j.nearer, j.chance)
                               : decision != Decision::rejected
                                   ? fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
                                                 "{:.1f} (95 %)",

@@ -177,7 +177,8 @@ CauseLikelihood size_by_nearest(const EnsembleDiagnosis& diagnosis, int cause)
     const double sd = std::max(std::sqrt(std::max(square / weight - out.size * out.size, 0.0)), least_sd);
     out.low = out.size - half_width90 * sd;
     out.high = out.size + half_width90 * sd;
-    out.gain = diagnosis.by_nearness.gain;
+    out.gain = std::max(diagnosis.by_statistics.causes[static_cast<std::size_t>(cause)].gain,
+                        diagnosis.by_nearness.gain); // in a list with the gains of others by the likelihood
     return out;
 }
 
