@@ -40,6 +40,7 @@ struct OfBlock {
         inside,          ///< last step of the chunk after which it was within both; -1: none. step
         count
     };
+    static constexpr int traced = force_x; ///< so many fields, the first ones, are kept by `BundleOf::trace`
 };
 
 /// Fields of a joint.
@@ -357,6 +358,9 @@ struct BundleOf {
     Number* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
     Number* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
     Number* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
+    /// (steps x blocks x OfBlock::traced x lanes) where the step leaves the blocks' motion after each step of a run, so
+    /// that lanes can be read at steps of their own without ending it; null: nowhere
+    Number* trace = nullptr;
     // with a reinforced model:
     Number* block_reinforcements = nullptr; ///< (blocks x OfBlockReinforcement::count x lanes)
     Number* joint_reinforcements = nullptr; ///< (joints x OfJointReinforcement::count x lanes)
@@ -512,6 +516,7 @@ constexpr BundleOf<Number> lane_of(BundleOf<Number> b, int lane)
     move(b.realization_extensions);
     move(b.vertical_table);
     move(b.pitch_table);
+    move(b.trace);
     move(b.block_reinforcements);
     move(b.joint_reinforcements);
     move(b.rigid_blocks);

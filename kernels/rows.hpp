@@ -126,6 +126,15 @@ public:
         L::store(&b_.remainders[row(i, OfRemainder::count, f)], v);
     }
 
+    /// Leaves the motion of the blocks from `first` on in the trace, as that after the run's step `step`.
+    STYLOBATE_INLINE void trace(int step, int first, int blocks) const
+    {
+        for (int i = first; i < blocks; ++i)
+            for (int f = 0; f < OfBlock::traced; ++f)
+                L::store(&b_.trace[row(step * blocks + i, OfBlock::traced, f)],
+                         L::load(&b_.blocks[row(i, OfBlock::count, f)]));
+    }
+
     /// sum + term. In single precision the remainder of the sum so far goes in, and the new one is kept (Kahan).
     STYLOBATE_INLINE Real add(OfRemainder::Field remainder, int i, Real sum, Real term) const
     {

@@ -74,6 +74,9 @@ public:
                     others |= pairs(*this, close, scratch, audit);
             }
             update(step, audit, others, path);
+            if constexpr (Mechanism::extended)
+                if (b_.trace != nullptr)
+                    this->trace(step - first, topology_.fixed, topology_.blocks);
         }
     }
 

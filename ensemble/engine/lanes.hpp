@@ -91,7 +91,7 @@ public:
     void step_followed(int first, int last);
     /// Displacement of a block's geometric centre (of the realization's numbering) from the reference stack, along the
     /// axes of the laboratory even where the base turns.
-    /// @param phase  steps of the chunk that have been done
+    /// @param phase  when so many steps of the chunk had been done: any of the last `step_followed`'s
     /// @param behind so many steps ago: 0 to 1, on the straight line between the last two
     BlockMotion moved(int lane, int block, int phase, double behind = 0) const;
     /// What the last step added to it.
@@ -168,6 +168,8 @@ private:
     static Turn turn_of(const Realization& r, double reach, double before, double now, double after);
     /// When so many steps of the chunk have been done.
     Turn turn(int lane, int phase) const;
+    /// Field `OfBlock::x` of a (kernel's) block in a lane, then; the other traced fields follow, `lanes()` apart.
+    const double* traced(int k, int lane, int phase) const;
     /// Makes the tables of the base's motion of the next chunk.
     void fill_tables();
     /// Tables of the vertical motion and of the base's rotation for the next chunk.
@@ -194,6 +196,8 @@ private:
     Topology topology_;
     AlignedArray<double> memory_;
     Bundle bundle_;
+    AlignedArray<double> trace_; ///< of the last `step_followed`, which did the steps between these two of the chunk
+    int trace_first_ = 0, trace_last_ = 0;
     std::optional<SingleBundle> single_; ///< that is stepped for `bundle_`, in single precision
     AlignedArray<double> parameters_memory_;
     FormulaParameters parameters_{};

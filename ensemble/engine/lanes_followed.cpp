@@ -56,7 +56,15 @@ void LaneSet::begin_followed(int lane, int phase, std::uint64_t step)
 
 void LaneSet::step_followed(int first, int last)
 {
+    assert(topology_.model.mechanisms && "the extended step leaves a trace");
+    if (!trace_)
+        trace_ =
+            aligned_array<double>(static_cast<std::size_t>(chunk_steps * topology_.blocks * OfBlock::traced) * lanes_);
+    bundle_.trace = trace_.get();
     run(first, last);
+    bundle_.trace = nullptr;
+    trace_first_ = first;
+    trace_last_ = last;
     if (last == chunk_steps)
         for (int lane = 0; lane < lanes(); ++lane)
             if (!free(lane))
@@ -75,17 +83,28 @@ LaneSet::Turn LaneSet::turn(int lane, int phase) const
                    base_chunk(lane, first + reach).front());
 }
 
+const double* LaneSet::traced(int k, int lane, int phase) const
+{
+    if (phase <= trace_first_ || phase >= trace_last_) // now, also of what has been loaded since
+        return &bundle_.at(OfBlock::x, k, lane);
+    const int row = (phase - trace_first_ - 1) * topology_.blocks + k;
+    return &trace_[static_cast<std::size_t>(row * OfBlock::traced) * lanes_ + static_cast<std::size_t>(lane)];
+}
+
 BlockMotion LaneSet::moved(int lane, int block, int phase, double behind) const
 {
     const int k = place_of_[static_cast<std::size_t>(block)];
     if (k < topology_.fixed)
         return {};
-    BlockMotion m = centre(k, lane);
+    const double* at = traced(k, lane, phase);
+    const Planar<double> centre =
+        centre_of(topology_, bundle_, k, lane, {at[0], at[OfBlock::y * lanes_], at[OfBlock::theta * lanes_]});
+    BlockMotion m = {centre.x, centre.y, centre.theta};
     if (realization(lane).base.pitch_rad_s2_m != 0) {
         const double phi = turn(lane, phase).angle_rad;
-        const Block& at = realization(lane).blocks[static_cast<std::size_t>(block)];
-        const double x = at.x_m + m.x_m, y = at.y_m + m.y_m, s = std::sin(phi), c = std::cos(phi);
-        m = {x * c - y * s - at.x_m, x * s + y * c - at.y_m, m.theta_rad + phi};
+        const Block& rest = realization(lane).blocks[static_cast<std::size_t>(block)];
+        const double x = rest.x_m + m.x_m, y = rest.y_m + m.y_m, sine = std::sin(phi), cosine = std::cos(phi);
+        m = {x * cosine - y * sine - rest.x_m, x * sine + y * cosine - rest.y_m, m.theta_rad + phi};
     }
     const BlockMotion last = behind > 0 ? increment(lane, block, phase) : BlockMotion{};
     return {m.x_m - behind * last.x_m, m.y_m - behind * last.y_m, m.theta_rad - behind * last.theta_rad};
@@ -96,18 +115,18 @@ BlockMotion LaneSet::increment(int lane, int block, int phase) const
     const int k = place_of_[static_cast<std::size_t>(block)];
     if (k < topology_.fixed)
         return {};
-    BlockMotion d = {bundle_.at(OfBlock::dx, k, lane), bundle_.at(OfBlock::dy, k, lane),
-                     bundle_.at(OfBlock::dtheta, k, lane)};
+    const double* at = traced(k, lane, phase);
+    BlockMotion d = {at[OfBlock::dx * lanes_], at[OfBlock::dy * lanes_], at[OfBlock::dtheta * lanes_]};
     if (topology_.model.extended()) { // the centre of mass goes round the geometric one
         const double e = bundle_.at(OfBlockExtension::eccentricity, k, lane);
-        const double theta = bundle_.at(OfBlock::theta, k, lane);
+        const double theta = at[OfBlock::theta * lanes_];
         d.x_m += e * std::sin(theta) * d.theta_rad;
         d.y_m -= e * std::cos(theta) * d.theta_rad;
     }
     if (realization(lane).base.pitch_rad_s2_m != 0) {
         const double w = turn(lane, phase).increment_rad;
-        const Block& at = realization(lane).blocks[static_cast<std::size_t>(block)];
-        d = {d.x_m - w * at.y_m, d.y_m + w * at.x_m, d.theta_rad + w};
+        const Block& rest = realization(lane).blocks[static_cast<std::size_t>(block)];
+        d = {d.x_m - w * rest.y_m, d.y_m + w * rest.x_m, d.theta_rad + w};
     }
     return d;
 }

@@ -49,17 +49,23 @@ struct Watch {
 };
 
 /// Displacement of a block's geometric centre.
-STYLOBATE_INLINE Planar<double> centre_of(const Topology& topology, const Bundle& b, int block, int lane)
+/// @param moved of what the kernel moves: of the centre of mass, in an extended model
+STYLOBATE_INLINE Planar<double> centre_of(const Topology& topology, const Bundle& b, int block, int lane,
+                                          Planar<double> moved)
 {
-    const double theta = b.at(OfBlock::theta, block, lane);
-    Planar<double> moved{b.at(OfBlock::x, block, lane), b.at(OfBlock::y, block, lane), theta};
     if (topology.model.extended()) {
-        const Angle<double> a = angle(theta);
+        const Angle<double> a = angle(moved.theta);
         const double e = b.at(OfBlockExtension::eccentricity, block, lane);
         moved.x += e * a.versine;
         moved.y -= e * a.sine;
     }
     return moved;
+}
+
+STYLOBATE_INLINE Planar<double> centre_of(const Topology& topology, const Bundle& b, int block, int lane)
+{
+    return centre_of(topology, b, block, lane,
+                     {b.at(OfBlock::x, block, lane), b.at(OfBlock::y, block, lane), b.at(OfBlock::theta, block, lane)});
 }
 
 /// Whether all that the next steps depend on is a number: what is not spreads to the energy or to a position at once.

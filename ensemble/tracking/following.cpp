@@ -27,6 +27,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double damping = 1.4;      // 2 x 0.7: the nudging settles without ringing
 constexpr double largest_turn = 0.1; // w x the time between two settings of the nudging
 constexpr std::uint64_t never = ~std::uint64_t{0};
+// Steps that are done at a time where no lane asks for fewer: the trace of them is to stay in the first-level cache.
+constexpr int most_at_once = 16;
 // States that wait for a lane, at the most: windows then go before further observers.
 constexpr std::size_t most_waiting = 20000;
 
@@ -40,8 +42,8 @@ struct Leg {
 
 /// A time at which blocks are read: the first step not before it, and how far before that step it lies.
 struct Reading {
-    std::uint64_t step;
-    double behind;
+    std::uint64_t step = never;
+    double behind = 0;
 };
 
 Reading reading_at(double time_s, double step_s)
@@ -72,7 +74,9 @@ struct Work {
     const std::vector<double>* times = nullptr; ///< to be read
     Readings* readings = nullptr;
     std::size_t next_time = 0;
+    Reading next_reading;        ///< at that time
     std::size_t next_window = 0; ///< of an observer
+    std::uint64_t needed = 0;    ///< steps up to what was last read or left; the neighbours decide how many are done
     int nudge_steps = 0;         ///< 0: no nudging
 };
 
@@ -199,11 +203,11 @@ public:
                 if (lanes_.active() == 0)
                     return;
             }
-            // up to the next event of any lane; where that is makes no difference to the others
-            std::uint64_t until = static_cast<std::uint64_t>(follow_beat - phase_ % follow_beat);
+            // up to the next time at which any lane is changed; where that is makes no difference to the others
+            std::uint64_t until = static_cast<std::uint64_t>(most_at_once - phase_ % most_at_once);
             for (std::size_t lane = 0; lane < work_.size(); ++lane)
                 if (work_[lane].busy)
-                    until = std::min(until, steps_to_event(lane));
+                    until = std::min(until, steps_to_change(lane));
             const int last = phase_ + static_cast<int>(until);
             lanes_.step_followed(phase_, last);
             lane_steps_ += until * work_.size();
@@ -238,7 +242,7 @@ private:
         work = Work{};
         work.busy = true;
         work.leg = std::move(leg);
-        steps_[lane] = work.leg.step;
+        steps_[lane] = work.needed = work.leg.step;
         const FollowJob& j = job(work);
         FollowResult& result = course_.result(work.leg.job);
         if (work.leg.window < 0) {
@@ -252,14 +256,16 @@ private:
             work.times = &(*j.windows)[static_cast<std::size_t>(work.leg.window)].times_s;
             work.readings = &result.windows[static_cast<std::size_t>(work.leg.window)];
         }
+        await(work);
         events(lane);
     }
 
-    std::uint64_t next_reading(const Work& work) const
+    /// Sets when the lane is read next.
+    void await(Work& work) const
     {
-        return work.times && work.next_time < work.times->size()
-                   ? reading_at((*work.times)[work.next_time], job(work).realization.step_s).step
-                   : never;
+        work.next_reading = work.times && work.next_time < work.times->size()
+                                ? reading_at((*work.times)[work.next_time], job(work).realization.step_s)
+                                : Reading();
     }
     std::uint64_t next_leaving(const Work& work) const
     {
@@ -269,11 +275,12 @@ private:
                    : never;
     }
 
-    std::uint64_t steps_to_event(std::size_t lane) const
+    /// Until the lane's state is taken or nudged. (It is read from the trace.)
+    std::uint64_t steps_to_change(std::size_t lane) const
     {
         const Work& work = work_[lane];
         const std::uint64_t now = steps_[lane];
-        std::uint64_t next = std::min(next_reading(work), next_leaving(work));
+        std::uint64_t next = next_leaving(work);
         if (work.nudge_steps > 0) {
             const auto every = static_cast<std::uint64_t>(work.nudge_steps);
             next = std::min(next, now - now % every + every);
@@ -281,20 +288,22 @@ private:
         return next - now;
     }
 
-    /// Reads, windows that leave, the nudging, and the end: what falls on the step that the lane has reached.
+    /// Reads, windows that leave, the nudging, and the end: what falls on the steps up to that which the lane has
+    /// reached.
     void events(std::size_t lane)
     {
         Work& work = work_[lane];
         bool finite = true;
-        while (next_reading(work) <= steps_[lane] && finite)
+        while (work.next_reading.step <= steps_[lane] && finite)
             finite = read(lane);
         while (next_leaving(work) <= steps_[lane] && finite) {
             finite = is_finite(lane);
+            work.needed = steps_[lane];
             if (finite)
                 course_.add({work.leg.job, static_cast<int>(work.next_window++), lanes_.state(static_cast<int>(lane)),
                              steps_[lane]});
         }
-        if (!finite || (next_reading(work) == never && next_leaving(work) == never))
+        if (!finite || (work.next_reading.step == never && next_leaving(work) == never))
             return end(lane);
         if (work.nudge_steps > 0 && steps_[lane] % static_cast<std::uint64_t>(work.nudge_steps) == 0)
             nudge(lane);
@@ -311,22 +320,30 @@ private:
         return std::isfinite(sum);
     }
 
-    /// @return false, and nothing kept, if the model is no longer finite
+    /// @return false, and NaN kept, if the model is no longer finite
     bool read(std::size_t lane)
     {
         Work& work = work_[lane];
-        if (!is_finite(lane))
+        work.needed = work.next_reading.step;
+        const int phase = phase_ - static_cast<int>(steps_[lane] - work.needed);
+        const std::size_t blocks = job(work).realization.blocks.size(), first = work.next_time * blocks;
+        double sum = 0;
+        for (std::size_t i = 0; i < blocks; ++i) {
+            const BlockMotion m =
+                lanes_.moved(static_cast<int>(lane), static_cast<int>(i), phase, work.next_reading.behind);
+            work.readings->x_m[first + i] = m.x_m;
+            work.readings->y_m[first + i] = m.y_m;
+            work.readings->theta_rad[first + i] = m.theta_rad;
+            sum += m.x_m + m.y_m + m.theta_rad;
+        }
+        if (!std::isfinite(sum)) {
+            for (std::vector<double>* values : {&work.readings->x_m, &work.readings->y_m, &work.readings->theta_rad})
+                std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(first), blocks,
+                            std::numeric_limits<double>::quiet_NaN());
             return false;
-        const Realization& r = job(work).realization;
-        const double behind = reading_at((*work.times)[work.next_time], r.step_s).behind;
-        for (std::size_t i = 0; i < r.blocks.size(); ++i) {
-            const BlockMotion m = lanes_.moved(static_cast<int>(lane), static_cast<int>(i), phase_, behind);
-            const std::size_t k = work.next_time * r.blocks.size() + i;
-            work.readings->x_m[k] = m.x_m;
-            work.readings->y_m[k] = m.y_m;
-            work.readings->theta_rad[k] = m.theta_rad;
         }
         ++work.next_time;
+        await(work);
         return true;
     }
 
@@ -368,7 +385,7 @@ private:
         const FollowJob& j = job(work);
         const std::size_t lost =
             work.leg.window < 0 && j.windows ? j.windows->size() - work.next_window : 0; // it ended before them
-        course_.end(work.leg, j.realization.free_blocks() * (steps_[lane] - work.leg.step), lost);
+        course_.end(work.leg, j.realization.free_blocks() * (work.needed - work.leg.step), lost);
         work.busy = false;
         lanes_.clear(static_cast<int>(lane));
     }

@@ -7,8 +7,9 @@
 #include <cmath>
 
 // The instruction set is chosen where the program runs. The bits are the same: no sum changes its order, and products
-// are not fused with sums.
-#if defined(__x86_64__) && defined(__ELF__)
+// are not fused with sums. (Under ThreadSanitizer the function that chooses is instrumented, too, and runs before the
+// sanitizer does: the program would end before `main`.)
+#if defined(__x86_64__) && defined(__ELF__) && !defined(__SANITIZE_THREAD__)
 #define STYLOBATE_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define STYLOBATE_CLONES
