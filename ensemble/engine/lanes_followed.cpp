@@ -117,8 +117,8 @@ BlockMotion LaneSet::increment(int lane, int block, int phase) const
         return {};
     const double* at = traced(k, lane, phase);
     BlockMotion d = {at[OfBlock::dx * lanes_], at[OfBlock::dy * lanes_], at[OfBlock::dtheta * lanes_]};
-    if (topology_.model.extended()) { // the centre of mass goes round the geometric one
-        const double e = bundle_.at(OfBlockExtension::eccentricity, k, lane);
+    const double e = topology_.model.extended() ? bundle_.at(OfBlockExtension::eccentricity, k, lane) : 0;
+    if (e != 0) { // the centre of mass goes round the geometric one
         const double theta = at[OfBlock::theta * lanes_];
         d.x_m += e * std::sin(theta) * d.theta_rad;
         d.y_m -= e * std::cos(theta) * d.theta_rad;

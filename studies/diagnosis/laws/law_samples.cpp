@@ -61,7 +61,10 @@ public:
         std::vector<std::vector<char>> covered(s_.joints.size() * 2, std::vector<char>(n, 0));
         for (int w = static_cast<int>(scales_.widths.size()) - 1; w >= 0; --w) {
             const auto half = static_cast<std::size_t>(scales_.widths[static_cast<std::size_t>(w)].half_width());
+            const std::vector<char> some = long_enough(half);
             for (std::size_t i = half; i + half < n; ++i) {
+                if (!some[i])
+                    continue;
                 const std::vector<LawTerm> laws = laws_of(i, half, covered);
                 if (laws.empty())
                     continue;
@@ -191,12 +194,34 @@ private:
         std::vector<std::size_t> begin, end;
     };
 
+    /// Samples to either side of the middle of a window in which a law must hold: velocities are known to the width of
+    /// their own smoothing.
+    std::size_t margin_of(Law law, std::size_t half) const
+    {
+        return half + static_cast<std::size_t>(scales_.rates.half_width()) / (law == Law::rocking ? 2 : 1);
+    }
+
+    /// (samples) 1 where some joint does the same thing for long enough: only there `laws_of` can find anything.
+    std::vector<char> long_enough(std::size_t half) const
+    {
+        const std::size_t n = motion_.size();
+        std::vector<char> some(n, 0);
+        for (std::size_t j = 0; j < s_.joints.size(); ++j)
+            for (const Law law : {Law::sliding, Law::rocking}) {
+                const std::vector<std::size_t>& end = same_[slot(static_cast<int>(j), law)].end;
+                const std::size_t margin = margin_of(law, half);
+                for (std::size_t i = 0; i < n; i = end[i])
+                    if (state(j, law, i) != 0 && end[i] > i + 2 * margin)
+                        std::fill(some.begin() + static_cast<std::ptrdiff_t>(i + margin),
+                                  some.begin() + static_cast<std::ptrdiff_t>(end[i] - margin), 1);
+            }
+        return some;
+    }
+
     /// Whether a joint does the same thing all through a window.
     bool steady(std::size_t joint, Law law, std::size_t i, std::size_t half) const
     {
-        // velocities are known to the width of their own smoothing
-        const std::size_t margin =
-            half + static_cast<std::size_t>(scales_.rates.half_width()) / (law == Law::rocking ? 2 : 1);
+        const std::size_t margin = margin_of(law, half);
         if (!track_.usable(i, static_cast<int>(margin)))
             return false;
         if (state(joint, law, i) == 0)
