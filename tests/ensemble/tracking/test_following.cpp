@@ -198,6 +198,37 @@ TEST(Following, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
     }
 }
 
+/// What is read of the steps of one run of the kernel is what one run for each of them shows.
+TEST(Following, EveryStepOfARunCanBeReadAfterwards)
+{
+    const Study study = noise_study();
+    Realization r = Sampler(study, nullptr).realization(1);
+    r.extended = true;
+    r.base.pitch_rad_s2_m = 1e-3;
+    r.blocks[2].extension.eccentricity_m = 2e-3;
+    LaneSet together(study, nullptr, kernels(best_isa()), r), one_by_one(study, nullptr, kernels(best_isa()), r);
+    for (LaneSet* lanes : {&together, &one_by_one})
+        lanes->load_followed(1, r, 0);
+    const auto bits = [&](const LaneSet& lanes, int phase) {
+        Bits out;
+        for (int block = 0; block < static_cast<int>(r.blocks.size()); ++block)
+            for (const BlockMotion& m :
+                 {lanes.moved(1, block, phase), lanes.moved(1, block, phase, 0.3), lanes.increment(1, block, phase)})
+                for (const double value : {m.x_m, m.y_m, m.theta_rad})
+                    out.push_back(std::bit_cast<std::uint64_t>(value));
+        return out;
+    };
+    for (int chunk = 0; chunk < 40; ++chunk) // until the drums rock
+        for (const auto& [first, last] : {std::pair{0, 16}, {16, 17}, {17, 60}, {60, chunk_steps}}) {
+            together.step_followed(first, last);
+            for (int step = first; step < last; ++step) {
+                one_by_one.step_followed(step, step + 1);
+                ASSERT_EQ(bits(together, step + 1), bits(one_by_one, step + 1)) << chunk << ", " << step;
+            }
+        }
+    EXPECT_GT(std::fabs(one_by_one.moved(1, 3, chunk_steps).theta_rad), 1e-3) << "nothing rocks: the test says nothing";
+}
+
 /// Each job by itself or among the others, in any lane: the same bits.
 void expect_same_everywhere(const std::vector<FollowJob>& jobs)
 {
