@@ -7,7 +7,8 @@
 #   --keep     adds the pass to tests/sanitizer_passes.csv and writes docs/reliability.md from it
 #   --page     writes the page only
 #
-# An hour or two of two cores each. Exit status 1 where a test fails. The log is build/asan/pass.log.
+# An hour or two of two cores each. Exit status 1 where a test fails. The tests run in portions, which are kept in
+# build/asan/pass: the same command for the same commit goes on where it was interrupted. The log is pass.log there.
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
@@ -31,17 +32,28 @@ page() {
     }' "$passes" | scripts/into_page.sh sanitizers.sh docs/reliability.md
 }
 
-# What a JUnit file says: the numbers of tests, of failed and of skipped ones, and the names of the last.
+# What JUnit files say together: the numbers of tests, of failed and of skipped ones, and the names of the last. A test
+# that others need runs with each portion of them.
 counts() {
-    /usr/bin/python3 - "$1" <<'PY'
+    /usr/bin/python3 - "$@" <<'PY'
 import sys
 import xml.etree.ElementTree as xml
 
-cases = list(xml.parse(sys.argv[1]).getroot().iter("testcase"))
-skipped = [case.get("name") for case in cases if case.get("status") == "notrun" or case.find("skipped") is not None]
-failed = [case for case in cases if case.get("status") == "fail"]
-print(f"{len(cases)},{len(failed)},{len(skipped)},{';'.join(sorted(skipped))}")
+names, failed, skipped = set(), set(), set()
+for path in sys.argv[1:]:
+    for case in xml.parse(path).getroot().iter("testcase"):
+        names.add(case.get("name"))
+        if case.get("status") == "fail":
+            failed.add(case.get("name"))
+        if case.get("status") == "notrun" or case.find("skipped") is not None:
+            skipped.add(case.get("name"))
+print(f"{len(names)},{len(failed)},{len(skipped)},{';'.join(sorted(skipped))}")
 PY
+}
+
+# The numbers of all tests, a line for each portion of them.
+portions() {
+    ctest --preset "$1" -N --label-exclude long "${@:2}" | sed -n 's/^ *Test *#\([0-9]*\):.*/\1/p' | xargs -n 100
 }
 
 keep=
@@ -52,7 +64,7 @@ esac
 case ${1:-} in
 asan | tsan) presets=("$1") ;;
 all) presets=(asan tsan) ;;
-*) sed -n '2,11s/^# \?//p' "$0" >&2; exit 2 ;;
+*) sed -n '2,12s/^# \?//p' "$0" >&2; exit 2 ;;
 esac
 shift
 [[ ${1:-} != -- ]] || shift
@@ -63,17 +75,36 @@ commit=$(git describe --always --dirty --exclude '*')
 processor=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1)
 status=0
 for preset in "${presets[@]}"; do
-    log=build/$preset/pass.log xml=build/$preset/pass.xml
-    rm -f "$xml" # of an earlier pass
+    pass=build/$preset/pass/$commit
+    if [[ $# -gt 0 || $commit == *-dirty ]]; then # a part, or what no commit names
+        pass=build/$preset/pass/part
+        rm -rf "$pass"
+    fi
+    mkdir -p "$pass"
+    log=$pass/pass.log
     begin=$SECONDS
     cmake --preset "$preset" >/dev/null
     cmake --build "build/$preset" --parallel "$(nproc)"
-    built=$SECONDS
-    scripts/test.sh "--$preset" -- --output-junit pass.xml "$@" 2>&1 | tee "$log" || status=1
-    ended=$SECONDS
-    [[ -f $xml ]] || { echo "sanitizers.sh: the tests did not run to their end, see $log" >&2; exit 1; }
+    [[ -e $pass/built ]] || echo $((SECONDS - begin)) >"$pass/built"
+    portions "$preset" "$@" >"$pass/portions"
+    number=0
+    while read -r -a tests; do
+        number=$((number + 1))
+        xml=$pass/$number.xml
+        [[ ! -f $xml ]] || continue # it ran before an interruption
+        begin=$SECONDS
+        scripts/test.sh "--$preset" -- -I "0,0,0,$(IFS=,; echo "${tests[*]}")" --output-junit "$PWD/$xml.part" \
+            </dev/null 2>&1 | tee -a "$log" || true
+        [[ -f $xml.part ]] || { echo "sanitizers.sh: the tests did not run to their end, see $log" >&2; exit 1; }
+        echo $((SECONDS - begin)) >"$pass/$number.seconds"
+        mv "$xml.part" "$xml"
+    done <"$pass/portions"
+    found=$(counts "$pass"/*.xml)
+    echo "sanitizers.sh: $preset, $commit: tests, failed, skipped: $found"
+    [[ $(cut -d, -f2 <<<"$found") -eq 0 ]] || status=1
+    seconds=$(cat "$pass"/*.seconds | awk '{ s += $1 } END { print s }')
     [[ -z $keep ]] ||
-        echo "$(date -u +%F),$commit,${processor//,/ },$(nproc),$preset,$(((built - begin + 59) / 60)),$(((ended - built + 59) / 60)),$(counts "$xml")" >>"$passes"
+        echo "$(date -u +%F),$commit,${processor//,/ },$(nproc),$preset,$((($(<"$pass/built") + 59) / 60)),$(((seconds + 59) / 60)),$found" >>"$passes"
 done
 [[ -z $keep ]] || page
 exit $status
